@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// An engine replaces TAUT_ASSERT, TAUT_FAIL or both: define TAUT_USER_CONFIG as the name of a header
+// that defines them, for the whole build (one definition rule), never in a single source file.
+#ifdef TAUT_USER_CONFIG
+#include TAUT_USER_CONFIG
+#endif
+
+/// Checks an invariant of Taut itself, in debug builds. Never used on a user's input.
+#ifndef TAUT_ASSERT
+#include <cassert>
+#define TAUT_ASSERT(condition, sentence) assert((condition) && (sentence))
+#endif
+
+/// Receives a complete message about wrong input (const char*). Must not return.
+/// Default: throws std::invalid_argument; with exceptions off, writes to stderr and aborts.
+#ifndef TAUT_FAIL
+#if defined(__cpp_exceptions) || defined(__EXCEPTIONS) || defined(_CPPUNWIND)
+#include <stdexcept>
+#define TAUT_FAIL(message) throw std::invalid_argument(message)
+#else
+#include <cstdio>
+#include <cstdlib>
+#define TAUT_FAIL(message) (std::fputs(message, stderr), std::fputc('\n', stderr), std::abort())
+#endif
+#endif

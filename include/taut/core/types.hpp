@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+namespace taut {
+
+using Eigen::Index;
+
+/// One column a particle: Dim × n, interleaved in memory as engines keep it (x y z x y z).
+template <class Scalar, int Dim>
+using Points = Eigen::Matrix<Scalar, Dim, Eigen::Dynamic>;
+
+template <class Scalar>
+using VectorX = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+
+/// Compressed columns with 32-bit indices: what Eigen's and SuiteSparse's factorisations read.
+template <class Scalar>
+using SparseMatrix = Eigen::SparseMatrix<Scalar>;
+
+}  // namespace taut

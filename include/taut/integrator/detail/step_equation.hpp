@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "../../model/spring_system.hpp"
+
+namespace taut::detail {
+
+/// The linear system of one implicit step for Δv = v⁺ − v [T6], [T27]:
+///     (M + hD + h²K) Δv = h (f(x, v) − hK v),  K⁺ for K where springs are behind it.
+/// This one is for matrices: constant, so the step matrix changes with h alone.
+template <class System>
+class StepEquation {
+public:
+    using Scalar = typename System::Scalar;
+    using State = typename System::State;
+
+    /// @returns whether the sparsity pattern is new
+    bool update_pattern(const System& system) {
+        if (A_.rows() == system.size()) return false;
+        // A sum with unit factors, so that no entry of the pattern can be missing.
+        A_ = system.damping() + system.stiffness();
+        SparseMatrix<Scalar> mass(system.size(), system.size());
+        mass.setIdentity();
+        A_ += mass;
+        A_.makeCompressed();
+        return true;
+    }
+    /// @returns whether the values are new
+    bool update_values(const System& system, const State&, Scalar h) {
+        if (h == h_) return false;
+        SparseMatrix<Scalar> mass(system.size(), system.size());
+        mass.setIdentity();
+        mass.diagonal() = system.mass();
+        A_ = h * system.damping() + (h * h) * system.stiffness();
+        A_ += mass;
+        A_.makeCompressed();
+        h_ = h;
+        return true;
+    }
+    const SparseMatrix<Scalar>& matrix() const { return A_; }
+
+    void load(const System& system, const State& state, Scalar h, VectorX<Scalar>& b) {
+        system.force(state, f_);
+        b = h * f_.transpose();
+        b.noalias() -= (h * h) * (system.stiffness() * state.v.transpose());
+    }
+    void add_to_velocity(const VectorX<Scalar>& dv, State& state) const {
+        state.v += dv.transpose();
+    }
+    /// The particle of a degree of freedom.
+    Index particle(Index dof) const { return dof; }
+
+private:
+    Scalar h_ = 0;            // of the values in A_, s
+    SparseMatrix<Scalar> A_;  // M + hD + h²K
+    Points<Scalar, 1> f_;     // 1 × N, N
+};
+
+/// For springs: assembled in place at every pose; the pattern changes with the topology alone.
+template <class Scalar, int Dim, class... Laws>
+class StepEquation<SpringSystem<Scalar, Dim, Laws...>> {
+public:
+    using System = SpringSystem<Scalar, Dim, Laws...>;
+    using State = typename System::State;
+
+    bool update_pattern(const System& system) {
+        if (pattern_ && topology_ == system.topology_revision()) return false;
+        pattern_.emplace(system);
+        A_ = pattern_->zero();
+        topology_ = system.topology_revision();
+        return true;
+    }
+    bool update_values(const System& system, const State& state, Scalar h) {
+        const double step = static_cast<double>(h);
+        pattern_->assemble(system, state.x, {1, step * step, step}, A_);
+        return true;
+    }
+    const SparseMatrix<Scalar>& matrix() const { return A_; }
+
+    void load(const System& system, const State& state, Scalar h, VectorX<Scalar>& b) {
+        system.force(state, f_);
+        system.for_each_tangent(state.x, [&](const SpringTangent<Scalar, Dim>& raw) {
+            const auto t = raw.projected();
+            const Eigen::Matrix<Scalar, Dim, 1> dv = state.v.col(t.b) - state.v.col(t.a);
+            const Eigen::Matrix<Scalar, Dim, 1> pull =
+                h * (t.transverse * dv + (t.axial - t.transverse) * t.d.dot(dv) * t.d);
+            f_.col(t.a) += pull;
+            f_.col(t.b) -= pull;
+        });
+        const auto& free = pattern_->free();
+        b.resize(pattern_->size());
+        for (std::size_t j = 0; j < free.size(); ++j) {
+            b.template segment<Dim>(Dim * static_cast<Index>(j)) = h * f_.col(free[j]);
+        }
+    }
+    void add_to_velocity(const VectorX<Scalar>& dv, State& state) const {
+        const auto& free = pattern_->free();
+        for (std::size_t j = 0; j < free.size(); ++j) {
+            state.v.col(free[j]) += dv.template segment<Dim>(Dim * static_cast<Index>(j));
+        }
+    }
+    Index particle(Index dof) const { return pattern_->free()[dof / Dim]; }
+
+private:
+    std::optional<TangentMatrix<Scalar, Dim>> pattern_;
+    std::uint64_t topology_ = 0;
+    SparseMatrix<Scalar> A_;  // M + hD + h²K⁺
+    Points<Scalar, Dim> f_;   // Dim × n, N
+};
+
+}  // namespace taut::detail

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "../core/method.hpp"
+#include "detail/step_loop.hpp"
+
+namespace taut {
+
+/// Explicit Euler [T4]:  v⁺ = v + h M⁻¹ f(x, v),  x⁺ = x + h v  (the old v).
+///
+/// Never stable without damping [T9]; Stability says up to which h, and inside which window of
+/// Rayleigh damping, it is.
+template <class System>
+class ExplicitEuler {
+    static_assert((require_system<System>(), true));
+
+public:
+    using Scalar = typename System::Scalar;
+    using State = typename System::State;
+    static constexpr Method method = Method::explicit_euler;
+    static constexpr int order = 1;
+
+    /// Keeps a reference: the system must outlive the stepper.
+    explicit ExplicitEuler(const System& system) : system_(&system) {}
+    explicit ExplicitEuler(System&&) = delete;
+
+    /// Takes `count` steps of h, s, finite and > 0. On failure the state is as it was before.
+    Report step(State& state, Scalar h, Index count = 1) {
+        return loop_.run(*system_, state, h, count, [&]() -> Report {
+            system_->force(state, f_);
+            state.x += h * state.v;
+            state.v.array() += h * (f_.array().rowwise() * system_->inverse_mass().transpose().array());
+            return {};
+        });
+    }
+
+private:
+    const System* system_;
+    detail::StepLoop<State> loop_;
+    decltype(State::x) f_;  // force, Dim × n, N
+};
+
+}  // namespace taut

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "../core/method.hpp"
+#include "detail/step_loop.hpp"
+
+namespace taut {
+
+/// Velocity Verlet:  v½ = v + ½h M⁻¹f,  x⁺ = x + h v½,  v⁺ = v½ + ½h M⁻¹f⁺  with f⁺ = f(x⁺, v½).
+///
+/// Order 2 without damping (order 1 with), one force evaluation a step: f⁺ serves the next step as
+/// long as nobody touches the state or the system in between. In (x, v½) it is symplectic Euler, so
+/// it has that limit, 2/√k_max without damping [T10].
+template <class System>
+class VelocityVerlet {
+    static_assert((require_system<System>(), true));
+
+public:
+    using Scalar = typename System::Scalar;
+    using State = typename System::State;
+    static constexpr Method method = Method::velocity_verlet;
+    static constexpr int order = 2;
+
+    /// Keeps a reference: the system must outlive the stepper.
+    explicit VelocityVerlet(const System& system) : system_(&system) {}
+    explicit VelocityVerlet(System&&) = delete;
+
+    /// Takes `count` steps of h, s, finite and > 0. On failure the state is as it was before.
+    Report step(State& state, Scalar h, Index count = 1) {
+        bool known = force_is_known(state);
+        const Report report = loop_.run(*system_, state, h, count, [&]() -> Report {
+            if (!known) system_->force(state, f_);
+            known = true;
+            kick(state, h / 2);
+            state.x += h * state.v;
+            system_->force(state, f_);
+            kick(state, h / 2);
+            return {};
+        });
+        if (report) {
+            last_ = state;
+            revision_ = system_->revision();
+        } else {
+            last_.x.resize(Eigen::NoChange, 0);
+        }
+        return report;
+    }
+
+private:
+    void kick(State& state, Scalar h) const {
+        state.v.array() += h * (f_.array().rowwise() * system_->inverse_mass().transpose().array());
+    }
+    bool force_is_known(const State& state) const {
+        return system_->revision() == revision_ && last_.x.cols() == state.x.cols() &&
+               state.x.cols() > 0 && state.time == last_.time && state.x == last_.x &&
+               state.v == last_.v;
+    }
+
+    const System* system_;
+    detail::StepLoop<State> loop_;
+    decltype(State::x) f_;         // force at the end of the last step, Dim × n, N
+    State last_;                   // the state that f_ belongs to
+    std::uint64_t revision_ = 0;   // and the system's revision
+};
+
+}  // namespace taut

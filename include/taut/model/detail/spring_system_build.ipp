@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace taut {
+
+template <class Scalar, int Dim, class... Laws>
+Index SpringSystem<Scalar, Dim, Laws...>::add_particle(const Vector& position, Scalar mass) {
+    if (!position.allFinite()) {
+        fail("SpringSystem::add_particle: the position of particle ", size(), " is not finite");
+    }
+    require_mass("add_particle", size(), mass);
+    position_.push_back(position);
+    mass_.push_back(mass);
+    inverse_mass_.push_back(Scalar(1) / mass);
+    ++revision_;
+    ++topology_revision_;
+    return size() - 1;
+}
+
+template <class Scalar, int Dim, class... Laws>
+Index SpringSystem<Scalar, Dim, Laws...>::add_spring(Index a, Index b, Scalar stiffness,
+                                                     Scalar damping) {
+    return add_spring<Hookean>(a, b, {stiffness}, damping);
+}
+
+template <class Scalar, int Dim, class... Laws>
+template <class Law>
+Index SpringSystem<Scalar, Dim, Laws...>::add_spring(
+    Index a, Index b, const typename Law::template Parameters<Scalar>& parameters, Scalar damping) {
+    require_particle("add_spring", "a", a);
+    require_particle("add_spring", "b", b);
+    // The same expression as SpringSet::tangent, so that the spring is unstressed to the last bit.
+    const Vector d = position_[b] - position_[a];
+    return add_spring(Spring<Scalar, Law>{a, b, parameters, d.norm(), damping});
+}
+
+template <class Scalar, int Dim, class... Laws>
+template <class Law>
+Index SpringSystem<Scalar, Dim, Laws...>::add_spring(const Spring<Scalar, Law>& spring) {
+    static_assert((std::is_same_v<Law, Hookean> && sizeof...(Laws) == 0) ||
+                      (std::is_same_v<Law, Laws> || ...),
+                  "taut::SpringSystem::add_spring: the law is not one of the system's Laws");
+    require_particle("add_spring", "a", spring.a);
+    require_particle("add_spring", "b", spring.b);
+    if (spring.a == spring.b) {
+        fail("SpringSystem::add_spring: a and b are both ", spring.a,
+             "; a spring joins two different particles");
+    }
+    require_non_negative("SpringSystem::add_spring", "rest_length", spring.rest_length);
+    require_non_negative("SpringSystem::add_spring", "damping", spring.damping);
+    spring.parameters.require_valid();
+    auto& set = std::get<SpringSet<Scalar, Law>>(sets_);
+    set.add(spring);
+    ++revision_;
+    ++topology_revision_;
+    return set.size() - 1;
+}
+
+template <class Scalar, int Dim, class... Laws>
+void SpringSystem<Scalar, Dim, Laws...>::set_pinned(Index i, bool pinned) {
+    require_particle(pinned ? "pin" : "unpin", "i", i);
+    if (is_pinned(i) == pinned) return;
+    inverse_mass_[i] = pinned ? Scalar(0) : Scalar(1) / mass_[i];
+    ++revision_;
+    ++topology_revision_;
+}
+
+template <class Scalar, int Dim, class... Laws>
+void SpringSystem<Scalar, Dim, Laws...>::set_mass(Index i, Scalar mass) {
+    require_particle("set_mass", "i", i);
+    require_mass("set_mass", i, mass);
+    mass_[i] = mass;
+    if (!is_pinned(i)) inverse_mass_[i] = Scalar(1) / mass;
+    ++revision_;
+}
+
+template <class Scalar, int Dim, class... Laws>
+void SpringSystem<Scalar, Dim, Laws...>::set_gravity(const Vector& gravity) {
+    if (!gravity.allFinite()) fail("SpringSystem::set_gravity: gravity is not finite");
+    gravity_ = gravity;
+}
+
+template <class Scalar, int Dim, class... Laws>
+void SpringSystem<Scalar, Dim, Laws...>::set_rayleigh(const RayleighDamping& rayleigh) {
+    require_non_negative("SpringSystem::set_rayleigh", "mass_proportional",
+                         rayleigh.mass_proportional);
+    require_non_negative("SpringSystem::set_rayleigh", "stiffness_proportional",
+                         rayleigh.stiffness_proportional);
+    rayleigh_ = rayleigh;
+    ++revision_;
+}
+
+template <class Scalar, int Dim, class... Laws>
+Index SpringSystem<Scalar, Dim, Laws...>::spring_count() const {
+    Index count = 0;
+    for_each_set([&](const auto& set) { count += set.size(); });
+    return count;
+}
+
+template <class Scalar, int Dim, class... Laws>
+Index SpringSystem<Scalar, Dim, Laws...>::pinned_count() const {
+    return (inverse_mass().array() == Scalar(0)).count();
+}
+
+template <class Scalar, int Dim, class... Laws>
+auto SpringSystem<Scalar, Dim, Laws...>::initial_state() const -> State {
+    State state{State::zero(size()), State::zero(size()), Scalar(0)};
+    for (Index i = 0; i < size(); ++i) state.x.col(i) = position_[i];
+    return state;
+}
+
+template <class Scalar, int Dim, class... Laws>
+void SpringSystem<Scalar, Dim, Laws...>::require_particle(const char* function,
+                                                          const char* argument, Index i) const {
+    if (i < 0 || i >= size()) {
+        fail("SpringSystem::", function, ": ", argument, " is ", i, "; the system has ", size(),
+             " particles, numbered from 0");
+    }
+}
+
+template <class Scalar, int Dim, class... Laws>
+void SpringSystem<Scalar, Dim, Laws...>::require_state(const char* function,
+                                                       const State& state) const {
+    if (state.x.cols() != size() || state.v.cols() != size()) {
+        fail("SpringSystem::", function, ": the state has ", state.x.cols(), " positions and ",
+             state.v.cols(), " velocities; the system has ", size(), " particles");
+    }
+}
+
+template <class Scalar, int Dim, class... Laws>
+void SpringSystem<Scalar, Dim, Laws...>::require_mass(const char* function, Index i,
+                                                      Scalar mass) const {
+    // 1/mass must be finite too, or a step would divide by zero.
+    if (!(mass > 0) || !std::isfinite(mass) || !std::isfinite(Scalar(1) / mass)) {
+        fail("SpringSystem::", function, ": the mass of particle ", i, " is ", mass,
+             "; it must be finite and > 0 (pin a particle to fix it)");
+    }
+}
+
+}  // namespace taut

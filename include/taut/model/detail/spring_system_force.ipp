@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace taut {
+
+template <class Scalar, int Dim, class... Laws>
+template <class Visitor>
+void SpringSystem<Scalar, Dim, Laws...>::for_each_spring(Visitor&& visit) const {
+    for_each_set([&](const auto& set) {
+        for (std::size_t s = 0; s < set.a.size(); ++s) visit(Index(set.a[s]), Index(set.b[s]));
+    });
+}
+
+template <class Scalar, int Dim, class... Laws>
+template <class Real, class Visitor>
+void SpringSystem<Scalar, Dim, Laws...>::for_each_tangent(const Points<Real, Dim>& x,
+                                                          Visitor&& visit) const {
+    for_each_set([&](const auto& set) {
+        for (std::size_t s = 0; s < set.a.size(); ++s) visit(set.tangent(s, x));
+    });
+}
+
+template <class Scalar, int Dim, class... Laws>
+template <bool Dampers, bool Rayleigh, class Set>
+void SpringSystem<Scalar, Dim, Laws...>::add_spring_forces(const Set& set, const State& state,
+                                                           Force& f) const {
+    using Law = typename Set::Law;
+    [[maybe_unused]] const Scalar alpha = static_cast<Scalar>(rayleigh_.stiffness_proportional);
+    for (std::size_t s = 0; s < set.a.size(); ++s) {
+        const int a = set.a[s];
+        const int b = set.b[s];
+        const Vector dx = state.x.col(b) - state.x.col(a);
+        const Scalar l = dx.norm();
+        Vector pull = Vector::Zero();  // on a; the opposite acts on b
+        if (l > 0) {
+            const Scalar over_l = Law::tension(set.parameters[s], set.rest_length[s], l) / l;
+            pull = over_l * dx;
+            if constexpr (Dampers || Rayleigh) {
+                const Vector d = dx / l;
+                const Vector dv = state.v.col(b) - state.v.col(a);
+                const Scalar stretching = d.dot(dv);
+                if constexpr (Dampers) pull += set.damping[s] * stretching * d;
+                if constexpr (Rayleigh) {
+                    const Scalar slope =
+                        Law::tension_slope(set.parameters[s], set.rest_length[s], l);
+                    const Scalar axial = slope > 0 ? slope : Scalar(0);
+                    const Scalar transverse = over_l > 0 ? over_l : Scalar(0);
+                    pull += alpha * (transverse * dv + (axial - transverse) * stretching * d);
+                }
+            }
+        } else if constexpr (Rayleigh) {
+            const Scalar bound = Law::stiffness_bound(set.parameters[s], set.rest_length[s]);
+            pull = alpha * bound * (state.v.col(b) - state.v.col(a));
+        }
+        f.col(a) += pull;
+        f.col(b) -= pull;
+    }
+}
+
+template <class Scalar, int Dim, class... Laws>
+void SpringSystem<Scalar, Dim, Laws...>::force(const State& state, Force& f) const {
+    require_state("force", state);
+    const Eigen::Map<const VectorX<Scalar>> mass(mass_.data(), size());
+    f.resize(Dim, size());
+    f.noalias() = gravity_ * mass.transpose();
+    if (rayleigh_.mass_proportional > 0) {
+        const Scalar d0 = static_cast<Scalar>(rayleigh_.mass_proportional);
+        f.array() -= state.v.array().rowwise() * (d0 * mass.transpose().array());
+    }
+    const bool rayleigh = rayleigh_.stiffness_proportional > 0;
+    for_each_set([&](const auto& set) {
+        const bool dampers = !set.damping.empty();
+        if (dampers && rayleigh) add_spring_forces<true, true>(set, state, f);
+        if (dampers && !rayleigh) add_spring_forces<true, false>(set, state, f);
+        if (!dampers && rayleigh) add_spring_forces<false, true>(set, state, f);
+        if (!dampers && !rayleigh) add_spring_forces<false, false>(set, state, f);
+    });
+    if (external_force_) external_force_(state, f);
+}
+
+template <class Scalar, int Dim, class... Laws>
+Scalar SpringSystem<Scalar, Dim, Laws...>::kinetic_energy(const State& state) const {
+    require_state("kinetic_energy", state);
+    Scalar energy = 0;
+    for (Index i = 0; i < size(); ++i) {
+        if (!is_pinned(i)) energy += Scalar(0.5) * mass_[i] * state.v.col(i).squaredNorm();
+    }
+    return energy;
+}
+
+template <class Scalar, int Dim, class... Laws>
+Scalar SpringSystem<Scalar, Dim, Laws...>::potential_energy(const State& state) const {
+    require_state("potential_energy", state);
+    Scalar energy = 0;
+    for (Index i = 0; i < size(); ++i) energy -= mass_[i] * gravity_.dot(state.x.col(i));
+    for_each_set([&](const auto& set) {
+        using Law = typename std::decay_t<decltype(set)>::Law;
+        for (std::size_t s = 0; s < set.a.size(); ++s) {
+            const Vector dx = state.x.col(set.b[s]) - state.x.col(set.a[s]);
+            energy += Law::energy(set.parameters[s], set.rest_length[s], dx.norm());
+        }
+    });
+    return energy;
+}
+
+template <class Scalar, int Dim, class... Laws>
+LinearSystem<Scalar> SpringSystem<Scalar, Dim, Laws...>::linearize(const State& state) const {
+    require_state("linearize", state);
+    if (!state.finite()) {
+        fail("SpringSystem::linearize: particle ", state.first_not_finite(),
+             " has a position or velocity that is not finite");
+    }
+    if (pinned_count() == size()) {
+        fail("SpringSystem::linearize: none of the ", size(), " particles is free");
+    }
+    const TangentMatrix<Scalar, Dim> tangent(*this);
+    auto K = tangent.zero();
+    auto D = tangent.zero();
+    tangent.assemble(*this, state.x, {0, 1, 0, false}, K);
+    tangent.assemble(*this, state.x, {0, 0, 1}, D);
+
+    State still = state;
+    still.v.setZero();
+    Force f;
+    force(still, f);
+    const auto free = static_cast<Index>(tangent.free().size());
+    FreeMap<Scalar> map{Dim, size(), tangent.free(), VectorX<Scalar>(Dim * free)};
+    VectorX<Scalar> mass(Dim * free);
+    VectorX<Scalar> load(Dim * free);
+    for (Index j = 0; j < free; ++j) {
+        const Index i = tangent.free()[j];
+        mass.template segment<Dim>(Dim * j).setConstant(mass_[i]);
+        load.template segment<Dim>(Dim * j) = f.col(i);
+        map.pose.template segment<Dim>(Dim * j) = state.x.col(i);
+    }
+    LinearSystem<Scalar> linear(std::move(mass), std::move(D), std::move(K), std::move(load));
+    linear.set_free_map(std::move(map));
+    return linear;
+}
+
+}  // namespace taut

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "../core/error.hpp"
+
+namespace taut {
+
+/// The linear spring: tension T = k(l − L), energy ½k(l − L)².
+///
+/// Every law has this form (docs/concepts.md). Its functions take the parameters of one spring, its
+/// rest length L and its present length l > 0, in m, and are accurate to a few ulp of the bound.
+struct Hookean {
+    /// Whether the energy is convex in the positions, as theory [T24] asks.
+    static constexpr bool convex = false;
+
+    template <class Scalar>
+    struct Parameters {
+        Scalar stiffness;  ///< k, N/m, ≥ 0
+
+        void require_valid() const { require_non_negative("Hookean", "stiffness", stiffness); }
+        template <class Other>
+        Parameters<Other> cast() const { return {static_cast<Other>(stiffness)}; }
+    };
+
+    /// T(l), N; positive pulls the ends together.
+    template <class Scalar>
+    static Scalar tension(const Parameters<Scalar>& p, Scalar L, Scalar l) {
+        return p.stiffness * (l - L);
+    }
+    /// T′(l), N/m.
+    template <class Scalar>
+    static Scalar tension_slope(const Parameters<Scalar>& p, Scalar, Scalar) {
+        return p.stiffness;
+    }
+    /// Energy, J; its derivative by l is the tension.
+    template <class Scalar>
+    static Scalar energy(const Parameters<Scalar>& p, Scalar L, Scalar l) {
+        return Scalar(0.5) * p.stiffness * (l - L) * (l - L);
+    }
+    /// A bound ≥ max(T′(l), T(l)/l) over all l > 0, N/m [T3], [T23].
+    template <class Scalar>
+    static Scalar stiffness_bound(const Parameters<Scalar>& p, Scalar) {
+        return p.stiffness;
+    }
+};
+
+}  // namespace taut

@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "../core/error.hpp"
+#include "damping.hpp"
+#include "hookean.hpp"
+#include "linear_system.hpp"
+#include "spring_set.hpp"
+#include "state.hpp"
+#include "tangent_matrix.hpp"
+
+namespace taut {
+
+/// Particles joined by springs: M ẍ = f(x, v) [T1] with gravity, pins, dampers and Rayleigh damping.
+///
+/// Each law of `Laws` (none means Hookean) keeps its own springs. Spring indices count the laws in
+/// the order they are named, and within one law the order of adding. A pinned particle ignores
+/// forces and moves with the velocity that the state gives it (zero unless you set it).
+template <class Scalar_, int Dim_, class... Laws>
+class SpringSystem {
+    static_assert(std::is_floating_point_v<Scalar_>,
+                  "taut::SpringSystem<Scalar, Dim>: Scalar must be float, double or long double");
+    static_assert(Dim_ >= 1 && Dim_ <= 3,
+                  "taut::SpringSystem<Scalar, Dim>: Dim must be 1, 2 or 3");
+
+public:
+    using Scalar = Scalar_;
+    static constexpr int Dim = Dim_;
+    using State = taut::State<Scalar, Dim>;
+    using Vector = Eigen::Matrix<Scalar, Dim, 1>;
+    using Force = Points<Scalar, Dim>;
+    /// Adds forces, N, to its second argument (Dim × n). Taken as constant over a step.
+    using ExternalForce = std::function<void(const State&, Force&)>;
+    using SpringSets = std::conditional_t<sizeof...(Laws) == 0, std::tuple<SpringSet<Scalar, Hookean>>,
+                                          std::tuple<SpringSet<Scalar, Laws>...>>;
+    using FirstLaw = typename std::tuple_element_t<0, SpringSets>::Law;
+
+    // ---- building; every call is checked, wrong values go to fail() ----
+
+    /// @param position  m, finite   @param mass  kg, finite and > 0   @returns its index
+    Index add_particle(const Vector& position, Scalar mass);
+    /// A Hookean spring at rest where its ends are now. @param stiffness N/m @param damping N·s/m
+    Index add_spring(Index a, Index b, Scalar stiffness, Scalar damping = 0);
+    /// A spring of any law of the system, at rest where its ends are now.
+    template <class Law>
+    Index add_spring(Index a, Index b, const typename Law::template Parameters<Scalar>& parameters,
+                     Scalar damping = 0);
+    /// A spring with its rest length given. @returns its index within its law
+    template <class Law>
+    Index add_spring(const Spring<Scalar, Law>& spring);
+
+    void pin(Index i) { set_pinned(i, true); }
+    void unpin(Index i) { set_pinned(i, false); }
+    void set_mass(Index i, Scalar mass);
+    /// @param gravity  acceleration, m/s²
+    void set_gravity(const Vector& gravity);
+    /// @param rayleigh  both factors finite and ≥ 0; acts through K⁺ [T28]
+    void set_rayleigh(const RayleighDamping& rayleigh);
+    /// The analysis does not see this force's dependence on x and v.
+    void set_external_force(ExternalForce force) { external_force_ = std::move(force); }
+
+    // ---- queries ----
+
+    Index size() const { return static_cast<Index>(mass_.size()); }
+    Index spring_count() const;
+    Index pinned_count() const;
+    bool is_pinned(Index i) const { return inverse_mass_[i] == Scalar(0); }
+    Scalar mass(Index i) const { return mass_[i]; }
+    /// 1/kg for each particle, 0 for a pinned one.
+    Eigen::Map<const VectorX<Scalar>> inverse_mass() const { return {inverse_mass_.data(), size()}; }
+    const RayleighDamping& rayleigh() const { return rayleigh_; }
+    const Vector& gravity() const { return gravity_; }
+    template <class Law = FirstLaw>
+    const SpringSet<Scalar, Law>& springs() const { return std::get<SpringSet<Scalar, Law>>(sets_); }
+    /// Changes whenever springs, masses, pins or damping do: whatever a step limit depends on.
+    std::uint64_t revision() const { return revision_; }
+    /// Changes whenever the sparsity pattern of the free matrices does.
+    std::uint64_t topology_revision() const { return topology_revision_; }
+
+    /// The positions given to add_particle, at rest.
+    State initial_state() const;
+    /// f ← total force on every particle, N, Dim × n; on a pinned one, what its pin has to bear.
+    void force(const State& state, Force& f) const;
+    /// f ← the external force alone, N, Dim × n.
+    void external_force(const State& state, Force& f) const {
+        f.setZero(Dim, size());
+        if (external_force_) external_force_(state, f);
+    }
+    /// Kinetic energy of the free particles, J.
+    Scalar kinetic_energy(const State& state) const;
+    /// Energy of springs and gravity, J; external forces have none.
+    Scalar potential_energy(const State& state) const;
+    Scalar energy(const State& state) const { return kinetic_energy(state) + potential_energy(state); }
+    /// M, D, K and load of the free degrees of freedom about `state`: K = −∂f/∂x with every
+    /// damping velocity taken as 0, D = −∂f/∂v with Rayleigh on K⁺ [T2], [T28].
+    /// Fails when every particle is pinned.
+    LinearSystem<Scalar> linearize(const State& state) const;
+
+    // ---- loops for solvers and analysis ----
+
+    /// visit(a, b) for every spring, in index order.
+    template <class Visitor>
+    void for_each_spring(Visitor&& visit) const;
+    /// visit(SpringTangent<Real, Dim>) for every spring at x, in the precision of x.
+    template <class Real, class Visitor>
+    void for_each_tangent(const Points<Real, Dim>& x, Visitor&& visit) const;
+    /// visit(set) for the SpringSet of every law.
+    template <class Visitor>
+    void for_each_set(Visitor&& visit) const {
+        std::apply([&](const auto&... set) { (visit(set), ...); }, sets_);
+    }
+
+private:
+    void require_particle(const char* function, const char* argument, Index i) const;
+    void require_state(const char* function, const State& state) const;
+    void require_mass(const char* function, Index i, Scalar mass) const;
+    void set_pinned(Index i, bool pinned);
+    template <bool Dampers, bool Rayleigh, class Set>
+    void add_spring_forces(const Set& set, const State& state, Force& f) const;
+
+    std::vector<Vector> position_;      // where add_particle put each particle, m
+    std::vector<Scalar> mass_;          // kg, of pinned particles too
+    std::vector<Scalar> inverse_mass_;  // 1/kg, 0 if pinned
+    SpringSets sets_;
+    Vector gravity_ = Vector::Zero();   // m/s²
+    RayleighDamping rayleigh_;
+    ExternalForce external_force_;
+    std::uint64_t revision_ = 0;
+    std::uint64_t topology_revision_ = 0;
+};
+
+}  // namespace taut
+
+#include "detail/spring_system_build.ipp"
+#include "detail/spring_system_force.ipp"

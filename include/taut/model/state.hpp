@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "../core/types.hpp"
+
+namespace taut {
+
+/// Positions and velocities at one time; w = (x, v) of theory [T1].
+template <class Scalar_, int Dim_>
+struct State {
+    using Scalar = Scalar_;
+    static constexpr int Dim = Dim_;
+
+    Points<Scalar, Dim> x;  ///< Dim × n, m
+    Points<Scalar, Dim> v;  ///< Dim × n, m/s
+    Scalar time = 0;        ///< s
+
+    /// Dim × n zeros.
+    static Points<Scalar, Dim> zero(Index n) { return Points<Scalar, Dim>::Zero(Dim, n); }
+    bool finite() const { return x.allFinite() && v.allFinite(); }
+    /// Index of the first particle with a coordinate that is not finite, or -1.
+    Index first_not_finite() const {
+        for (Index i = 0; i < x.cols(); ++i) {
+            if (!x.col(i).allFinite() || !v.col(i).allFinite()) return i;
+        }
+        return -1;
+    }
+};
+
+}  // namespace taut

@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "../core/status.hpp"
+#include "../model/spring_system.hpp"
+
+namespace taut {
+
+struct EquilibriumOptions {
+    int max_iterations = 500;
+    /// On the norm of the free forces, relative to that of the largest forces met or the weight.
+    double tolerance = 1e-8;
+};
+
+namespace detail {
+
+/// Newton's method on the free particles: (K⁺ + σM) Δx = f with a line search on the energy. σ holds
+/// mechanisms back, and shrinks with every full step.
+template <class System>
+class EquilibriumSearch {
+public:
+    using Scalar = typename System::Scalar;
+    using State = typename System::State;
+    static constexpr int Dim = System::Dim;
+
+    EquilibriumSearch(const System& system, const State& start);
+
+    /// ‖free forces‖ relative to the largest met, or to the weight.
+    double relative_force() const {
+        return scale_ > 0 ? static_cast<double>(residual_.norm() / scale_) : 0;
+    }
+    Status iterate();
+    const State& state() const { return state_; }
+
+private:
+    void update_forces();
+    bool line_search(const VectorX<Scalar>& dx);
+
+    const System& system_;
+    TangentMatrix<Scalar, Dim> tangent_;
+    SparseMatrix<Scalar> A_;                          // K⁺ + σM
+    Eigen::SimplicialLLT<SparseMatrix<Scalar>> llt_;
+    State state_;
+    State trial_;
+    Points<Scalar, Dim> f_;                           // Dim × n, N
+    Points<Scalar, Dim> external_;                    // its part without an energy, N
+    VectorX<Scalar> residual_;                        // free forces, N
+    Scalar scale_ = 0;                                // what forces are relative to, N
+    Scalar sigma_ = 0;                                // 1/s²
+};
+
+template <class System>
+EquilibriumSearch<System>::EquilibriumSearch(const System& system, const State& start)
+    : system_(system), tangent_(system), A_(tangent_.zero()), state_(start), trial_(start) {
+    llt_.analyzePattern(A_);
+    state_.v.setZero();
+    trial_.v.setZero();
+    Scalar mass = 0;
+    for (const Index i : tangent_.free()) mass += system.mass(i);
+    scale_ = mass * system.gravity().norm();
+    update_forces();
+    // The first step moves a mechanism by about a hundredth of the scene.
+    const Scalar extent = (state_.x.rowwise().maxCoeff() - state_.x.rowwise().minCoeff()).norm();
+    const Scalar step = extent > 0 ? extent / 100 : Scalar(1) / 100;
+    sigma_ = scale_ / (mass * step);
+}
+
+template <class System>
+void EquilibriumSearch<System>::update_forces() {
+    system_.force(state_, f_);
+    system_.external_force(state_, external_);
+    const auto& free = tangent_.free();
+    residual_.resize(tangent_.size());
+    for (std::size_t j = 0; j < free.size(); ++j) {
+        residual_.template segment<Dim>(Dim * static_cast<Index>(j)) = f_.col(free[j]);
+    }
+    scale_ = std::max(scale_, residual_.norm());
+}
+
+/// Halves the step until the energy falls or the forces do; moves state_ if one of them does.
+template <class System>
+bool EquilibriumSearch<System>::line_search(const VectorX<Scalar>& dx) {
+    const auto& free = tangent_.free();
+    const Scalar energy = system_.potential_energy(state_);
+    const Scalar descent = residual_.dot(dx);
+    Points<Scalar, Dim> f;
+    Scalar t = 1;
+    for (int halving = 0; halving < 24; ++halving, t /= 2) {
+        Scalar work = 0;  // of the external force, taken as constant
+        Scalar force = 0;
+        trial_.x = state_.x;
+        for (std::size_t j = 0; j < free.size(); ++j) {
+            const auto step = dx.template segment<Dim>(Dim * static_cast<Index>(j));
+            trial_.x.col(free[j]) += t * step;
+            work += t * external_.col(free[j]).dot(step);
+        }
+        system_.force(trial_, f);
+        for (const Index i : free) force += f.col(i).squaredNorm();
+        const bool lower = system_.potential_energy(trial_) - work < energy - Scalar(1e-4) * t * descent;
+        // Close to the solution differences of energy drown in rounding; the forces do not.
+        if (lower || force < Scalar(0.25) * residual_.squaredNorm()) {
+            state_.x = trial_.x;
+            sigma_ *= halving == 0 ? Scalar(0.25) : Scalar(1);
+            return true;
+        }
+    }
+    return false;
+}
+
+template <class System>
+Status EquilibriumSearch<System>::iterate() {
+    tangent_.assemble(system_, state_.x, {static_cast<double>(sigma_), 1, 0}, A_);
+    llt_.factorize(A_);
+    const VectorX<Scalar> dx =
+        llt_.info() == Eigen::Success ? VectorX<Scalar>(llt_.solve(residual_)) : VectorX<Scalar>();
+    if (dx.size() > 0 && dx.allFinite() && line_search(dx)) {
+        update_forces();
+    } else {
+        sigma_ = 16 * std::max(sigma_, std::numeric_limits<Scalar>::min() * 1000);
+        if (!std::isfinite(sigma_)) return Status::not_positive_definite;
+    }
+    return Status::ok;
+}
+
+}  // namespace detail
+
+/// Moves the free particles of `state` to a pose where no force is left: Newton's method with K⁺ and
+/// a line search on the potential energy. Velocities become 0. An external force is taken as constant
+/// within a line search.
+/// @returns not_converged after max_iterations (a scene that falls for ever has no equilibrium), with
+///          the state as it was; residual is the relative force left
+template <class Scalar, int Dim, class... Laws>
+Report static_equilibrium(const SpringSystem<Scalar, Dim, Laws...>& system,
+                          State<Scalar, Dim>& state, const EquilibriumOptions& options = {}) {
+    if (state.x.cols() != system.size() || state.v.cols() != system.size()) {
+        return {Status::invalid_state};
+    }
+    if (!state.finite()) return {Status::invalid_state, 0, 0, state.first_not_finite()};
+    if (system.pinned_count() == system.size()) {
+        state.v.setZero();
+        return {};
+    }
+    detail::EquilibriumSearch<SpringSystem<Scalar, Dim, Laws...>> search(system, state);
+    Report report;
+    report.residual = search.relative_force();
+    while (report && report.residual > options.tolerance) {
+        if (report.iterations == options.max_iterations) {
+            report.status = Status::not_converged;
+            break;
+        }
+        report.status = search.iterate();
+        ++report.iterations;
+        report.residual = search.relative_force();
+    }
+    if (report) state = search.state();
+    return report;
+}
+
+}  // namespace taut

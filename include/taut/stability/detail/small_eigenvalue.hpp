@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+namespace taut::detail {
+
+/// Whether σI − A is positive definite for certain: a Cholesky factorisation whose pivots stay above
+/// the rounding it can have committed [T22].
+template <int Dim>
+bool proved_above(const Eigen::Matrix<double, Dim, Dim>& A, double sigma) {
+    const double room = 64 * std::numeric_limits<double>::epsilon() * sigma;
+    Eigen::Matrix<double, Dim, Dim> L = -A;
+    L.diagonal().array() += sigma - room;
+    for (int j = 0; j < Dim; ++j) {
+        for (int k = 0; k < j; ++k) L(j, j) -= L(j, k) * L(j, k);
+        if (!(L(j, j) > 0)) return false;
+        L(j, j) = std::sqrt(L(j, j));
+        for (int i = j + 1; i < Dim; ++i) {
+            for (int k = 0; k < j; ++k) L(i, j) -= L(i, k) * L(j, k);
+            L(i, j) /= L(j, j);
+        }
+    }
+    return true;
+}
+
+/// The largest eigenvalue of a symmetric 3 × 3 matrix by the cosine formula: good to about √eps of
+/// its norm, so an estimate only.
+inline double cosine_eigenvalue(const Eigen::Matrix3d& A) {
+    const double mean = A.trace() / 3;
+    const double off = A(1, 0) * A(1, 0) + A(2, 0) * A(2, 0) + A(2, 1) * A(2, 1);
+    const double a = A(0, 0) - mean;
+    const double b = A(1, 1) - mean;
+    const double c = A(2, 2) - mean;
+    const double p = std::sqrt((a * a + b * b + c * c + 2 * off) / 6);
+    if (p == 0) return mean;
+    const double det = a * (b * c - A(2, 1) * A(2, 1)) - A(1, 0) * (A(1, 0) * c - A(2, 1) * A(2, 0)) +
+                       A(2, 0) * (A(1, 0) * A(2, 1) - b * A(2, 0));
+    const double r = std::clamp(det / (2 * p * p * p), -1.0, 1.0);
+    return mean + 2 * p * std::cos(std::acos(r) / 3);
+}
+
+/// A proved upper bound on the largest eigenvalue of a symmetric positive semi-definite matrix,
+/// within 1e-6 of it relative to the norm.
+template <int Dim>
+double eigenvalue_upper_bound(const Eigen::Matrix<double, Dim, Dim>& A) {
+    constexpr double room = 1 + 64 * std::numeric_limits<double>::epsilon();
+    const double trace = A.trace() * room;  // a bound too, since no eigenvalue is negative
+    if constexpr (Dim == 1) {
+        return trace;
+    } else {
+        if (!(trace > 0)) return 0;
+        double sigma;
+        if constexpr (Dim == 2) {
+            sigma = (A(0, 0) + A(1, 1)) / 2 + std::hypot((A(0, 0) - A(1, 1)) / 2, A(1, 0));
+        } else {
+            sigma = cosine_eigenvalue(A);
+        }
+        for (double slack = 1e-12; slack < 2e-6; slack *= 100) {
+            const double candidate = sigma * (1 + slack);
+            if (candidate < trace && proved_above(A, candidate)) return candidate;
+        }
+        return trace;
+    }
+}
+
+}  // namespace taut::detail

@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "../model/linear_system.hpp"
+#include "certificate.hpp"
+#include "pencil.hpp"
+
+namespace taut {
+
+/// The pencil of a LinearSystem: bare matrices, without springs behind them.
+class MatrixPencil final : public Pencil {
+public:
+    template <class Scalar>
+    explicit MatrixPencil(const LinearSystem<Scalar>& system);
+
+    void multiply(const Combination& c, const Eigen::VectorXd& u, Eigen::VectorXd& y) const override {
+        y = c.mass * mass_.cwiseProduct(u);
+        if (c.stiffness != 0) y.noalias() += c.stiffness * (K_ * u);
+        if (c.damping != 0) y.noalias() += c.damping * (D_ * u);
+    }
+    Enclosed quadratic(const Combination& c, const Eigen::VectorXd& u) const override;
+    double upper_bound(const Combination& c) const override;
+    Eigen::SparseMatrix<double> assemble(const Combination& c) const override;
+    bool stiffness_semidefinite() const override { return stiffness_semidefinite_; }
+    bool damping_semidefinite() const override { return damping_semidefinite_; }
+    bool is_rayleigh() const override { return is_rayleigh_; }
+
+private:
+    using Matrix = Eigen::SparseMatrix<double>;
+
+    static bool diagonally_dominant(const Matrix& A);
+    static bool proves_semidefinite(const Matrix& A);
+    void detect_rayleigh();
+
+    Matrix K_;
+    Matrix D_;
+    bool stiffness_semidefinite_ = false;
+    bool damping_semidefinite_ = false;
+    bool is_rayleigh_ = false;
+};
+
+template <class Scalar>
+MatrixPencil::MatrixPencil(const LinearSystem<Scalar>& system)
+    : K_(system.stiffness().template cast<double>()),
+      D_(system.damping().template cast<double>()) {
+    mass_ = system.mass().template cast<double>();
+    detect_rayleigh();
+    stiffness_semidefinite_ = proves_semidefinite(K_);
+    damping_semidefinite_ = is_rayleigh_ || proves_semidefinite(D_);
+}
+
+/// D = d0·M is the one Rayleigh form that bare matrices show exactly; α·K is not looked for, since
+/// rounding would hide it.
+inline void MatrixPencil::detect_rayleigh() {
+    const double d0 = D_.coeff(0, 0) / mass_[0];
+    Matrix rest = D_;
+    rest.diagonal() -= d0 * mass_;  // exact zeros when D was made as d0·M
+    is_rayleigh_ = D_.nonZeros() == 0;
+    if (!is_rayleigh_ && d0 >= 0) {
+        double largest = 0;
+        for (Index j = 0; j < rest.outerSize(); ++j) {
+            for (Matrix::InnerIterator entry(rest, j); entry; ++entry) {
+                largest = std::max(largest, std::abs(entry.value()) / mass_[entry.row()]);
+            }
+        }
+        is_rayleigh_ = largest == 0;
+        if (is_rayleigh_) rayleigh_.mass_proportional = d0;
+    }
+}
+
+/// a_ii ≥ Σ|a_ij| in every row; where the sum rounds, with room for it.
+inline bool MatrixPencil::diagonally_dominant(const Matrix& A) {
+    for (Index j = 0; j < A.outerSize(); ++j) {
+        double diagonal = 0;
+        double others = 0;
+        bool exact = true;
+        int count = 0;
+        for (Matrix::InnerIterator entry(A, j); entry; ++entry, ++count) {
+            if (entry.row() == j) {
+                diagonal = entry.value();
+            } else {
+                // Knuth's two-sum: the residue of this addition.
+                const double term = std::abs(entry.value());
+                const double sum = others + term;
+                const double back = sum - others;
+                exact = exact && (others - (sum - back)) + (term - back) == 0;
+                others = sum;
+            }
+        }
+        const double room = exact ? 0 : count * std::numeric_limits<double>::epsilon() * others;
+        if (!(diagonal >= others + room)) return false;
+    }
+    return true;
+}
+
+inline bool MatrixPencil::proves_semidefinite(const Matrix& A) {
+    if (A.nonZeros() == 0 || diagonally_dominant(A)) return true;
+    return proves_positive_definite(A, Eigen::VectorXd::Zero(A.rows())).proved;
+}
+
+inline Enclosed MatrixPencil::quadratic(const Combination& c, const Eigen::VectorXd& u) const {
+    Enclosed sum;
+    for (Index i = 0; i < size(); ++i) {
+        const double term = c.mass * mass_[i] * u[i] * u[i];
+        sum.value += term;
+        sum.error += std::abs(term);
+    }
+    const auto add = [&](const Matrix& A, double factor) {
+        if (factor == 0) return;
+        for (Index j = 0; j < A.outerSize(); ++j) {
+            for (Matrix::InnerIterator entry(A, j); entry; ++entry) {
+                const double term = factor * entry.value() * u[entry.row()] * u[j];
+                sum.value += term;
+                sum.error += std::abs(term);
+            }
+        }
+    };
+    add(K_, c.stiffness);
+    add(D_, c.damping);
+    const double terms = static_cast<double>(size() + K_.nonZeros() + D_.nonZeros()) + 8;
+    sum.error *= terms * std::numeric_limits<double>::epsilon();
+    return sum;
+}
+
+/// Collatz–Wielandt: λ_max(A) ≤ max_i (a_ii + Σ_{j≠i} |a_ij| p_j/p_i) for every p > 0; the power
+/// iteration on |A| improves p.
+inline double MatrixPencil::upper_bound(const Combination& c) const {
+    constexpr int most_repeats = 60;
+    const Matrix S = assemble(c);
+    // The sizes of what S was added up from: its rounding errors are relative to these.
+    const Matrix sizes = std::abs(c.stiffness) * K_.cwiseAbs() + std::abs(c.damping) * D_.cwiseAbs();
+    Index widest = 1;
+    for (Index j = 0; j < size(); ++j) {
+        widest = std::max<Index>(widest, S.outerIndexPtr()[j + 1] - S.outerIndexPtr()[j]);
+    }
+    const double rounding = static_cast<double>(widest + 8) * std::numeric_limits<double>::epsilon();
+    Eigen::VectorXd p = mass_.cwiseSqrt().cwiseInverse();
+    Eigen::VectorXd others(size());
+    double best = std::numeric_limits<double>::infinity();
+    for (int repeat = 0; repeat < most_repeats; ++repeat) {
+        others.setZero();
+        for (Index j = 0; j < size(); ++j) {
+            for (Matrix::InnerIterator entry(S, j); entry; ++entry) {
+                if (entry.row() != j) others[entry.row()] += std::abs(entry.value()) * p[j];
+            }
+        }
+        const Eigen::VectorXd diagonal = S.diagonal().cwiseProduct(p);
+        const Eigen::VectorXd error =
+            rounding * (sizes * p + std::abs(c.mass) * mass_.cwiseProduct(p));
+        const Eigen::VectorXd weight = mass_.cwiseProduct(p);
+        best = std::min(best, (others + diagonal + error).cwiseQuotient(weight).maxCoeff());
+        const Eigen::VectorXd powered = (others + diagonal.cwiseAbs()).cwiseQuotient(mass_);
+        const double growth = powered.cwiseQuotient(p).maxCoeff();
+        if (!(growth > 0)) break;
+        // Averaging with the old p keeps a bipartite pattern from alternating.
+        p = 0.5 * p + (0.5 / growth) * powered;
+    }
+    return best + 8 * std::numeric_limits<double>::epsilon() * std::abs(best);
+}
+
+inline Eigen::SparseMatrix<double> MatrixPencil::assemble(const Combination& c) const {
+    Matrix S = c.stiffness * K_ + c.damping * D_;
+    Matrix mass(size(), size());
+    mass.setIdentity();
+    mass.diagonal() = c.mass * mass_;
+    S += mass;
+    S.makeCompressed();
+    return S;
+}
+
+}  // namespace taut

@@ -1,0 +1,268 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "detail/small_eigenvalue.hpp"
+#include "pencil.hpp"
+
+namespace taut {
+
+/// The pencil of springs at one pose: no matrix, 64 bytes a spring in three dimensions.
+template <int Dim>
+class SpringPencil final : public Pencil {
+public:
+    using Vector = Eigen::Matrix<double, Dim, 1>;
+    using Block = Eigen::Matrix<double, Dim, Dim>;
+
+    /// The tangents of `system` at x, Dim × n, m.
+    template <class System>
+    static SpringPencil at_pose(const System& system, const Points<double, Dim>& x);
+    /// The graph Laplacians L_k and L_c of theory [T23], a pencil of dimension 1 whatever the
+    /// system's: L_k ⊗ I bounds K at every pose.
+    template <class System>
+    static SpringPencil any_pose(const System& system);
+
+    void multiply(const Combination& c, const Eigen::VectorXd& u, Eigen::VectorXd& y) const override;
+    Enclosed quadratic(const Combination& c, const Eigen::VectorXd& u) const override;
+    double upper_bound(const Combination& c) const override;
+    Eigen::SparseMatrix<double> assemble(const Combination& c) const override;
+    bool stiffness_semidefinite() const override { return !compressed_; }
+    bool damping_semidefinite() const override { return true; }
+    bool is_rayleigh() const override { return !damped_; }
+
+private:
+    struct Link {
+        int a;              // free particle, or −1 when pinned
+        int b;
+        Vector d;           // unit vector, or zero
+        double axial;       // T′, N/m
+        double transverse;  // T/l, N/m
+        double damping;     // N·s/m
+        double bound;       // of the law, N/m: what rounding errors of the tangent are relative to
+    };
+    struct Coefficients {
+        double axial;
+        double transverse;
+    };
+
+    template <class System>
+    void set_particles(const System& system);
+    void add_link(int a, int b, const Vector& d, double axial, double transverse, double damping,
+                  double bound);
+    Coefficients coefficients(const Combination& c, const Link& link) const;
+    double mass_coefficient(const Combination& c) const {
+        return c.mass + c.damping * rayleigh_.mass_proportional;
+    }
+    double weighted_bound(const Combination& c, const std::vector<double>& p,
+                          std::vector<double>& r) const;
+    Vector segment(const Eigen::VectorXd& u, int i) const {
+        return i < 0 ? Vector(Vector::Zero()) : Vector(u.segment<Dim>(Dim * i));
+    }
+
+    std::vector<int> free_;      // particle → free particle, or −1
+    std::vector<int> degree_;    // springs at each free particle
+    std::vector<Link> links_;    // springs with at least one free end
+    bool compressed_ = false;    // a spring has negative stiffness
+    bool damped_ = false;        // a spring has a damper
+};
+
+template <int Dim>
+template <class System>
+void SpringPencil<Dim>::set_particles(const System& system) {
+    rayleigh_ = system.rayleigh();
+    free_.assign(static_cast<std::size_t>(system.size()), -1);
+    int count = 0;
+    for (Index i = 0; i < system.size(); ++i) {
+        if (!system.is_pinned(i)) free_[i] = count++;
+    }
+    mass_.resize(Dim * count);
+    degree_.assign(static_cast<std::size_t>(count), 0);
+    for (Index i = 0; i < system.size(); ++i) {
+        if (free_[i] >= 0) {
+            mass_.template segment<Dim>(Dim * free_[i]).setConstant(static_cast<double>(system.mass(i)));
+        }
+    }
+    links_.reserve(static_cast<std::size_t>(system.spring_count()));
+}
+
+template <int Dim>
+void SpringPencil<Dim>::add_link(int a, int b, const Vector& d, double axial, double transverse,
+                                 double damping, double bound) {
+    if (free_[a] < 0 && free_[b] < 0) return;
+    links_.push_back({free_[a], free_[b], d, axial, transverse, damping, bound});
+    if (free_[a] >= 0) ++degree_[free_[a]];
+    if (free_[b] >= 0) ++degree_[free_[b]];
+    // In one dimension there is no transverse direction; a few ulp below zero are rounding of l − L.
+    const double rounding = -16 * std::numeric_limits<double>::epsilon() * bound;
+    compressed_ = compressed_ || axial < rounding || (Dim > 1 && transverse < rounding);
+    damped_ = damped_ || damping > 0;
+}
+
+template <int Dim>
+template <class System>
+SpringPencil<Dim> SpringPencil<Dim>::at_pose(const System& system, const Points<double, Dim>& x) {
+    SpringPencil pencil;
+    pencil.set_particles(system);
+    system.for_each_tangent(x, [&](const SpringTangent<double, Dim>& t) {
+        const double transverse = Dim == 1 ? 0 : t.transverse;
+        pencil.add_link(static_cast<int>(t.a), static_cast<int>(t.b), t.d, t.axial, transverse,
+                        t.damping, t.bound);
+    });
+    return pencil;
+}
+
+template <int Dim>
+template <class System>
+SpringPencil<Dim> SpringPencil<Dim>::any_pose(const System& system) {
+    static_assert(Dim == 1, "taut::SpringPencil::any_pose: the Laplacians have one row a particle");
+    SpringPencil pencil;
+    pencil.set_particles(system);
+    system.for_each_set([&](const auto& set) {
+        using Law = typename std::decay_t<decltype(set)>::Law;
+        for (std::size_t s = 0; s < set.a.size(); ++s) {
+            const auto parameters = set.parameters[s].template cast<double>();
+            const double bound =
+                Law::stiffness_bound(parameters, static_cast<double>(set.rest_length[s]));
+            pencil.add_link(set.a[s], set.b[s], Vector::Ones(), bound, 0,
+                            static_cast<double>(set.damping_of(s)), bound);
+        }
+    });
+    return pencil;
+}
+
+template <int Dim>
+auto SpringPencil<Dim>::coefficients(const Combination& c, const Link& link) const -> Coefficients {
+    const double plus = c.damping * rayleigh_.stiffness_proportional;
+    const double axial = std::max(link.axial, 0.0);
+    const double transverse = std::max(link.transverse, 0.0);
+    return {c.stiffness * (c.project ? axial : link.axial) + plus * axial + c.damping * link.damping,
+            c.stiffness * (c.project ? transverse : link.transverse) + plus * transverse};
+}
+
+template <int Dim>
+void SpringPencil<Dim>::multiply(const Combination& c, const Eigen::VectorXd& u,
+                                 Eigen::VectorXd& y) const {
+    y = mass_coefficient(c) * mass_.cwiseProduct(u);
+    for (const Link& link : links_) {
+        const auto [axial, transverse] = coefficients(c, link);
+        const Vector du = segment(u, link.a) - segment(u, link.b);
+        const Vector pull = transverse * du + (axial - transverse) * link.d.dot(du) * link.d;
+        if (link.a >= 0) y.segment<Dim>(Dim * link.a) += pull;
+        if (link.b >= 0) y.segment<Dim>(Dim * link.b) -= pull;
+    }
+}
+
+template <int Dim>
+Enclosed SpringPencil<Dim>::quadratic(const Combination& c, const Eigen::VectorXd& u) const {
+    // As a sum over springs the form loses nothing to cancellation between neighbours.
+    Enclosed sum;
+    const double on_mass = mass_coefficient(c);
+    for (Index i = 0; i < size(); ++i) {
+        const double term = mass_[i] * u[i] * u[i];
+        sum.value += on_mass * term;
+        sum.error += std::abs(on_mass) * term;
+    }
+    for (const Link& link : links_) {
+        const auto [axial, transverse] = coefficients(c, link);
+        const Vector du = segment(u, link.a) - segment(u, link.b);
+        const double along = link.d.dot(du);
+        const double across = (du - along * link.d).squaredNorm();
+        sum.value += axial * along * along + transverse * across;
+        const double factor = std::abs(c.stiffness) + std::abs(c.damping) * rayleigh_.stiffness_proportional;
+        sum.error += (factor * link.bound + std::abs(c.damping) * link.damping + std::abs(transverse)) *
+                     du.squaredNorm();
+    }
+    // Each term carries ≤ 32 roundings, the sum one more for each term; √terms would be typical.
+    const double terms = static_cast<double>(size()) + static_cast<double>(links_.size()) + 32;
+    sum.error *= terms * std::numeric_limits<double>::epsilon();
+    return sum;
+}
+
+/// Theory [T26] for one choice of weights p: the bounds r of all particles, and their maximum.
+template <int Dim>
+double SpringPencil<Dim>::weighted_bound(const Combination& c, const std::vector<double>& p,
+                                         std::vector<double>& r) const {
+    std::vector<Block, Eigen::aligned_allocator<Block>> sum(degree_.size(), Block::Zero());
+    std::vector<double> magnitude(degree_.size(), 0);  // Σ of the weighted laws' bounds
+    const double factor = std::abs(c.stiffness) + std::abs(c.damping) * rayleigh_.stiffness_proportional;
+    for (const Link& link : links_) {
+        auto [axial, transverse] = coefficients(c, link);
+        axial = std::max(axial, 0.0);
+        transverse = std::max(transverse, 0.0);
+        Block P = (axial - transverse) * link.d * link.d.transpose();
+        P.diagonal().array() += transverse;
+        const double size = factor * link.bound + std::abs(c.damping) * link.damping + transverse;
+        const auto add = [&](int i, int other) {
+            if (i < 0) return;
+            const double weight = other < 0 ? 1 : 1 + p[other] / p[i];
+            sum[i] += weight * P;
+            magnitude[i] += weight * size;
+        };
+        add(link.a, link.b);
+        add(link.b, link.a);
+    }
+    double largest = 0;
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+        const double rounding =
+            (degree_[i] + 64) * std::numeric_limits<double>::epsilon() * magnitude[i];
+        r[i] = (detail::eigenvalue_upper_bound<Dim>(sum[i]) + rounding) / mass_[Dim * i];
+        largest = std::max(largest, r[i]);
+    }
+    return largest;
+}
+
+template <int Dim>
+double SpringPencil<Dim>::upper_bound(const Combination& c) const {
+    constexpr int most_repeats = 40;
+    constexpr double worth_repeating = 1e-3;  // of the bound, over five repeats
+    std::vector<double> p(degree_.size());
+    for (std::size_t i = 0; i < p.size(); ++i) p[i] = 1 / std::sqrt(mass_[Dim * i]);
+    std::vector<double> r(p.size());
+    double best = weighted_bound(c, p, r);
+    double earlier = best;
+    for (int repeat = 1; repeat <= most_repeats && best > 0; ++repeat) {
+        const double largest = *std::max_element(r.begin(), r.end());
+        // A particle whose bound is far below the largest must not lose all its weight at once.
+        for (std::size_t i = 0; i < p.size(); ++i) p[i] *= std::sqrt(std::max(r[i] / largest, 1e-4));
+        best = std::min(best, weighted_bound(c, p, r));
+        if (repeat % 5 == 0) {
+            if (best > earlier * (1 - worth_repeating)) break;
+            earlier = best;
+        }
+    }
+    const double rounding = 1 + 16 * std::numeric_limits<double>::epsilon();
+    return best * rounding + mass_coefficient(c) * (mass_coefficient(c) > 0 ? rounding : 1 / rounding);
+}
+
+template <int Dim>
+Eigen::SparseMatrix<double> SpringPencil<Dim>::assemble(const Combination& c) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(links_.size() * 4 * Dim * Dim);
+    const auto add = [&](int row, int column, const Block& block) {
+        for (int i = 0; i < Dim; ++i) {
+            for (int j = 0; j < Dim; ++j) {
+                entries.emplace_back(Dim * row + i, Dim * column + j, block(i, j));
+            }
+        }
+    };
+    for (const Link& link : links_) {
+        const auto [axial, transverse] = coefficients(c, link);
+        Block P = (axial - transverse) * link.d * link.d.transpose();
+        P.diagonal().array() += transverse;
+        if (link.a >= 0) add(link.a, link.a, P);
+        if (link.b >= 0) add(link.b, link.b, P);
+        if (link.a >= 0 && link.b >= 0) {
+            add(link.a, link.b, -P);
+            add(link.b, link.a, -P);
+        }
+    }
+    for (int i = 0; i < size(); ++i) entries.emplace_back(i, i, mass_coefficient(c) * mass_[i]);
+    Eigen::SparseMatrix<double> S(size(), size());
+    S.setFromTriplets(entries.begin(), entries.end());
+    return S;
+}
+
+}  // namespace taut

@@ -1,0 +1,258 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "../model/spring_system.hpp"
+#include "detail/limits.hpp"
+#include "detail/zero_modes.hpp"
+#include "matrix_pencil.hpp"
+#include "rayleigh.hpp"
+#include "spring_pencil.hpp"
+
+namespace taut {
+
+/// An interval that contains an eigenvalue, 1/s².
+struct EigenvalueBracket {
+    double lower = 0;
+    double upper = 0;
+};
+
+/// The extremes of the spectrum of K'⁺ = M⁻¹K⁺.
+struct StiffnessSpectrum {
+    EigenvalueBracket k_min;           ///< zero modes included
+    EigenvalueBracket k_max;           ///< upper: proved; lower: refuted by a vector
+    std::optional<Index> zero_modes;   ///< rigid motions and mechanisms; only if asked for; numerical
+};
+
+/// Answer of Stability::certify.
+struct Certificate {
+    Method method = Method::symplectic_euler;
+    double step = 0;      ///< h, s
+    bool proved = false;  ///< false means not proved, which is not a disproof
+};
+
+/// The mode that limits explicit steps: K'⁺u ≈ ku, uᵀMu = 1.
+struct LimitingMode {
+    double k = 0;            ///< its Rayleigh quotient, 1/s²
+    double d = 0;            ///< uᵀDu/uᵀMu, 1/s
+    Eigen::VectorXd shape;   ///< u, one entry for each free degree of freedom
+};
+
+/// How large may the step be, and how do you know? Analysis of one pose of a SpringSystem, or of a
+/// LinearSystem, in double whatever Scalar is. It keeps a copy of what it needs: later changes of
+/// the system do not reach it (see StepLimit::revision).
+///
+///     taut::Stability<double> stability(cloth, state);
+///     auto limit = stability.max_step(taut::Method::symplectic_euler);
+///
+/// Where springs are compressed, K⁺ stands for K in every answer and the growth of the physics is
+/// given apart [T27]. Zero modes never count as unstable.
+template <class Scalar>
+class Stability {
+public:
+    /// Systems of at most this many degrees of freedom are also analysed by dense eigensolvers.
+    static constexpr Index dense_size = 120;
+
+    explicit Stability(const LinearSystem<Scalar>& system)
+        : pencil_(std::make_shared<MatrixPencil>(system)) {}
+
+    /// @param state  the pose; its velocity is taken as zero. Fails unless it is finite and fits.
+    template <int Dim, class... Laws>
+    Stability(const SpringSystem<Scalar, Dim, Laws...>& system, const State<Scalar, Dim>& state);
+
+    /// The bracket of the largest stable step, s: certified by a bound in O(springs) for each of a
+    /// fixed number of passes [T26], refuted by a Ritz vector.
+    StepLimit<Scalar> max_step(Method method) const;
+    /// Whether the bound proves step h, s, stable.
+    Certificate certify(Method method, double h) const {
+        return {method, h, h > 0 && h <= static_cast<double>(max_step(method).certified)};
+    }
+    /// The α, s, that make step h stable with D = d0·M + αK⁺ in place of the system's own damping:
+    /// proved, since it takes k_max from above and k_min from below [T14]–[T16].
+    AlphaWindow rayleigh_window(Method method, double h, double d0 = 0) const {
+        const auto spectrum = stiffness_spectrum();
+        const double compression =
+            size() == 0 ? 0 : std::max(0.0, pencil_->upper_bound({0, -1, 0, false}));
+        return taut::rayleigh_window(method, h, d0, std::max(0.0, spectrum.k_min.lower),
+                                     spectrum.k_max.upper,
+                                     pencil_->stiffness_semidefinite() ? 0 : compression);
+    }
+    /// Brackets of the extreme eigenvalues. @param count_zero_modes by the inertia of K⁺ − εM: one
+    /// sparse factorisation
+    StiffnessSpectrum stiffness_spectrum(bool count_zero_modes = false) const;
+    /// Largest |μ| of one step of size h, s, apart from zero modes. Exact to rounding up to
+    /// dense_size; above, an estimate from below by the extreme Ritz values (D taken as Rayleigh, or
+    /// by its quotients on those two vectors).
+    double spectral_radius(Method method, double h) const;
+    LimitingMode limiting_mode() const;
+
+    /// Free degrees of freedom.
+    Index size() const { return pencil_->size(); }
+    const Pencil& pencil() const { return *pencil_; }
+
+private:
+    RitzPair stiffest() const { return largest_ritz_pair(*pencil_, {0, 1, 0}); }
+    double growth_rate() const;
+    StepLimit<Scalar> explicit_limit() const;
+    StepLimit<Scalar> symplectic_limit() const;
+    StepLimit<Scalar> implicit_limit() const;
+    StepLimit<Scalar> limit(double certified, double refuted, Cause cause) const {
+        return {detail::round_down<Scalar>(certified), detail::round_up<Scalar>(refuted), cause, 0,
+                revision_};
+    }
+
+    std::shared_ptr<const Pencil> pencil_;  // immutable, so copies may share it
+    std::uint64_t revision_ = 0;
+};
+
+template <class Scalar>
+template <int Dim, class... Laws>
+Stability<Scalar>::Stability(const SpringSystem<Scalar, Dim, Laws...>& system,
+                             const State<Scalar, Dim>& state)
+    : revision_(system.revision()) {
+    if (state.x.cols() != system.size()) {
+        fail("Stability: the state has ", state.x.cols(), " positions; the system has ",
+             system.size(), " particles");
+    }
+    if (!state.x.allFinite()) {
+        fail("Stability: the position of particle ", state.first_not_finite(), " is not finite");
+    }
+    const Points<double, Dim> x = state.x.template cast<double>();
+    pencil_ = std::make_shared<SpringPencil<Dim>>(SpringPencil<Dim>::at_pose(system, x));
+}
+
+template <class Scalar>
+StepLimit<Scalar> Stability<Scalar>::max_step(Method method) const {
+    if (size() == 0) return limit(detail::infinity, detail::infinity, Cause::nothing_to_limit);
+    StepLimit<Scalar> answer;
+    switch (method) {
+        case Method::explicit_euler: answer = explicit_limit(); break;
+        case Method::symplectic_euler:
+        case Method::velocity_verlet: answer = symplectic_limit(); break;
+        case Method::implicit_euler: answer = implicit_limit(); break;
+    }
+    answer.growth_rate = growth_rate();
+    if (answer.growth_rate > 0) answer.cause = Cause::buckling;
+    return answer;
+}
+
+template <class Scalar>
+StepLimit<Scalar> Stability<Scalar>::explicit_limit() const {
+    const Pencil& pencil = *pencil_;
+    if (!pencil.damping_semidefinite()) return limit(0, detail::infinity, Cause::damping_unproved);
+    const double k = pencil.upper_bound({0, 1, 0});
+    const double d = pencil.upper_bound({0, 0, 1});
+    if (!(k > 0) && !(d > 0)) {
+        return limit(detail::infinity, detail::infinity, Cause::nothing_to_limit);
+    }
+    if (!(d > 0)) return limit(0, 0, Cause::undamped);
+    // α K⁺ is not a function of an indefinite K, so only d0·M commutes with it.
+    const bool commutes = pencil.is_rayleigh() && (pencil.stiffness_semidefinite() ||
+                                                   pencil.rayleigh().stiffness_proportional == 0);
+    const double certified = detail::certified_explicit(pencil);
+    double refuted = detail::refuted_explicit(pencil, stiffest(), commutes);
+    if (!commutes && size() <= dense_size) {
+        // The dense eigenvalues are numerical; their own error stays far below this allowance.
+        refuted = std::min(refuted, DenseAnalysis(pencil).explicit_limit() * (1 + 1e-6));
+    }
+    if (certified == 0) return limit(0, refuted, Cause::undamped_modes);
+    const bool by_damping = k <= 0 || certified * certified * k < 4 * (1 - 1e-3);
+    return limit(certified, std::max(refuted, certified),
+                 by_damping ? Cause::damping : Cause::stiffness);
+}
+
+template <class Scalar>
+StepLimit<Scalar> Stability<Scalar>::symplectic_limit() const {
+    const Pencil& pencil = *pencil_;
+    if (!pencil.damping_semidefinite()) return limit(0, detail::infinity, Cause::damping_unproved);
+    const double certified = detail::certified_symplectic(pencil);
+    if (!std::isfinite(certified)) {
+        return limit(detail::infinity, detail::infinity, Cause::nothing_to_limit);
+    }
+    RitzPair mode = largest_ritz_pair(pencil, {0, certified * certified, 2 * certified, false});
+    const double refuted = detail::refuted_symplectic(pencil, mode);
+    const Enclosed d = detail::quotients(pencil, mode.vector, true).d;
+    // Half of 4M is used up by the damping term when hd = 1.
+    return limit(certified, refuted, certified * d.value > 1 ? Cause::damping : Cause::stiffness);
+}
+
+template <class Scalar>
+StepLimit<Scalar> Stability<Scalar>::implicit_limit() const {
+    const Pencil& pencil = *pencil_;
+    if (!pencil.damping_semidefinite()) return limit(0, detail::infinity, Cause::damping_unproved);
+    // K⁺ ⪰ 0 for springs: solvable and stable at every step [T20], [T27].
+    const double kappa = std::max(0.0, pencil.upper_bound({0, -1, 0}));
+    if (pencil.stiffness_semidefinite() || kappa == 0) {
+        return limit(detail::infinity, detail::infinity, Cause::unconditional);
+    }
+    // Bare matrices: the step matrix stays definite while 1 − h²κ > 0, and turns singular where a
+    // vector says so [T21].
+    const RitzPair softest = largest_ritz_pair(pencil, {0, -1, 0});
+    const auto [k, d] = detail::quotients(pencil, softest.vector, true);
+    const double refuted =
+        k.upper() < 0 ? critical_step(Method::implicit_euler, k.upper(), std::max(0.0, d.upper()))
+                      : detail::infinity;
+    return limit(1 / std::sqrt(kappa), refuted, Cause::stiffness);
+}
+
+/// √κ of the undamped physics; damping slows the growth but does not remove it.
+template <class Scalar>
+double Stability<Scalar>::growth_rate() const {
+    if (pencil_->stiffness_semidefinite()) return 0;
+    LanczosOptions options;
+    options.steps = 60;
+    const RitzPair softest = largest_ritz_pair(*pencil_, {0, -1, 0, false}, options);
+    const Enclosed k = detail::quotients(*pencil_, softest.vector, false).k;
+    return k.upper() < 0 ? std::sqrt(-k.value) : 0;
+}
+
+template <class Scalar>
+StiffnessSpectrum Stability<Scalar>::stiffness_spectrum(bool count_zero_modes) const {
+    StiffnessSpectrum spectrum;
+    if (size() == 0) return spectrum;
+    const Pencil& pencil = *pencil_;
+    spectrum.k_max.upper = std::max(0.0, pencil.upper_bound({0, 1, 0}));
+    spectrum.k_max.lower = std::max(0.0, detail::quotients(pencil, stiffest().vector, true).k.lower());
+    const RitzPair softest = largest_ritz_pair(pencil, {0, -1, 0});
+    spectrum.k_min.upper = detail::quotients(pencil, softest.vector, true).k.upper();
+    // Springs: K⁺ ⪰ 0 by construction. Bare matrices: proved so, or bounded.
+    spectrum.k_min.lower = -std::max(0.0, pencil.upper_bound({0, -1, 0}));
+    if (pencil.stiffness_semidefinite()) spectrum.k_min.lower = 0;
+    spectrum.k_min.upper = std::max(spectrum.k_min.upper, spectrum.k_min.lower);
+    if (count_zero_modes) spectrum.zero_modes = detail::count_zero_modes(pencil, spectrum.k_max.upper);
+    return spectrum;
+}
+
+template <class Scalar>
+double Stability<Scalar>::spectral_radius(Method method, double h) const {
+    if (!(h > 0) || !std::isfinite(h)) {
+        fail("Stability::spectral_radius: h is ", h, "; it must be finite and > 0");
+    }
+    if (size() == 0) return 0;
+    if (size() <= dense_size) return DenseAnalysis(*pencil_).spectral_radius(method, h);
+    // For fixed h the radius is quasi-convex in k, so the ends of the spectrum decide.
+    double radius = 0;
+    for (const double sign : {1.0, -1.0}) {
+        const RitzPair end = largest_ritz_pair(*pencil_, {0, sign, 0});
+        const auto [k, d] = detail::quotients(*pencil_, end.vector, true);
+        if (std::abs(k.value) <= k.error && std::abs(d.value) <= d.error) continue;  // a zero mode
+        radius = std::max(radius, taut::spectral_radius(method, k.value, d.value, h));
+    }
+    return radius;
+}
+
+template <class Scalar>
+LimitingMode Stability<Scalar>::limiting_mode() const {
+    if (size() == 0) return {};
+    LanczosOptions options;
+    options.steps = 60;
+    options.tolerance = 1e-6;
+    RitzPair pair = largest_ritz_pair(*pencil_, {0, 1, 0}, options);
+    const auto [k, d] = detail::quotients(*pencil_, pair.vector, true);
+    return {k.value, d.value, std::move(pair.vector)};
+}
+
+}  // namespace taut

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "../core/method.hpp"
+
+namespace taut {
+
+/// What sets a step limit, or removes it.
+enum class Cause {
+    stiffness,        ///< the stiffest mode
+    damping,          ///< damping too strong for the step
+    undamped,         ///< explicit Euler without damping
+    undamped_modes,   ///< explicit Euler: some stiffness has no damping beside it
+    unconditional,    ///< implicit Euler: every step is stable
+    nothing_to_limit, ///< no free particle, or neither stiffness nor damping
+    buckling,         ///< K is indefinite: the physics itself grows, at growth_rate
+    damping_unproved  ///< D could not be shown to be positive semi-definite
+};
+
+/// One sentence for people: the cause, and the cure where one is needed.
+constexpr const char* describe(Cause cause) {
+    switch (cause) {
+        case Cause::stiffness: return "the stiffest mode sets the limit";
+        case Cause::damping: return "the damping sets the limit: less of it allows a larger step";
+        case Cause::undamped:
+            return "explicit Euler is unstable at every step without damping: add Rayleigh damping, or "
+                   "use symplectic or implicit Euler";
+        case Cause::undamped_modes:
+            return "some stiffness has no damping beside it, so no explicit Euler step can be "
+                   "certified: add mass-proportional damping d0, or use symplectic or implicit Euler";
+        case Cause::unconditional: return "stable at every step";
+        case Cause::nothing_to_limit:
+            return "nothing limits the step: no particle is free, or none is pulled or damped";
+        case Cause::buckling:
+            return "compressed springs make the physics itself unstable: the limit is the step's own, "
+                   "and growth_rate is what no step size removes; relax the compression, or pin";
+        case Cause::damping_unproved:
+            return "the damping matrix could not be shown to be positive semi-definite: no step is "
+                   "certified; check its sign, or give dampers as springs";
+    }
+    return "unknown cause";
+}
+
+/// The largest stable step as a bracket [certified, refuted): the true limit lies between.
+template <class Scalar>
+struct StepLimit {
+    Scalar certified = 0;  ///< s; proved: every h in (0, certified] is stable (0: none is proved;
+                           ///< infinity: every step is)
+    Scalar refuted = 0;    ///< s; a vector proves that this step fails (infinity: none is known to)
+    Cause cause = Cause::stiffness;
+    double growth_rate = 0;      ///< 1/s; √κ of the physics when K has the eigenvalue −κ, else 0
+    std::uint64_t revision = 0;  ///< of the system that was analysed
+
+    bool unbounded() const { return std::isinf(certified); }
+
+    /// safety·certified, or nothing when the system has changed since the analysis, when no step is
+    /// certified, or when safety is not in (0, 1].
+    template <class System>
+    std::optional<Scalar> step_for(const System& system, Scalar safety) const {
+        if (system.revision() != revision || !(certified > 0)) return std::nullopt;
+        if (!(safety > 0) || safety > 1) return std::nullopt;
+        return safety * certified;
+    }
+};
+
+namespace detail {
+
+/// The largest Scalar ≤ value; `value` first loses what its own arithmetic may have rounded up.
+template <class Scalar>
+Scalar round_down(double value) {
+    if (!std::isfinite(value)) return static_cast<Scalar>(value);
+    value -= 8 * std::numeric_limits<double>::epsilon() * value;
+    const Scalar rounded = static_cast<Scalar>(value);
+    return static_cast<double>(rounded) <= value ? rounded : std::nextafter(rounded, Scalar(0));
+}
+
+/// The smallest Scalar ≥ value, with the same allowance.
+template <class Scalar>
+Scalar round_up(double value) {
+    if (!std::isfinite(value)) return static_cast<Scalar>(value);
+    value += 8 * std::numeric_limits<double>::epsilon() * value;
+    const Scalar rounded = static_cast<Scalar>(value);
+    return static_cast<double>(rounded) >= value
+               ? rounded
+               : std::nextafter(rounded, std::numeric_limits<Scalar>::infinity());
+}
+
+}  // namespace detail
+}  // namespace taut
