@@ -19,8 +19,9 @@ struct EquilibriumOptions {
 
 namespace detail {
 
-/// Newton's method on the free particles: (K⁺ + σM) Δx = f with a line search on the energy. σ holds
-/// mechanisms back, and shrinks with every full step.
+/// Newton's method on the free particles: (K + σM) Δx = f with a line search on the energy, with K⁺
+/// for K far from the solution or where K is indefinite. σ holds mechanisms back, and shrinks with
+/// every full step.
 template <class System>
 class EquilibriumSearch {
 public:
@@ -114,8 +115,13 @@ bool EquilibriumSearch<System>::line_search(const VectorX<Scalar>& dx) {
 
 template <class System>
 Status EquilibriumSearch<System>::iterate() {
-    tangent_.assemble(system_, state_.x, {static_cast<double>(sigma_), 1, 0}, A_);
-    llt_.factorize(A_);
+    const auto factorize = [&](bool project) {
+        tangent_.assemble(system_, state_.x, {static_cast<double>(sigma_), 1, 0, project}, A_);
+        llt_.factorize(A_);
+        return llt_.info() == Eigen::Success;
+    };
+    // Close to a stable pose the true K is definite and converges quadratically, K⁺ only linearly.
+    if (relative_force() > 0.05 || !factorize(false)) factorize(true);
     const VectorX<Scalar> dx =
         llt_.info() == Eigen::Success ? VectorX<Scalar>(llt_.solve(residual_)) : VectorX<Scalar>();
     if (dx.size() > 0 && dx.allFinite() && line_search(dx)) {
@@ -129,7 +135,7 @@ Status EquilibriumSearch<System>::iterate() {
 
 }  // namespace detail
 
-/// Moves the free particles of `state` to a pose where no force is left: Newton's method with K⁺ and
+/// Moves the free particles of `state` to a pose where no force is left: Newton's method and
 /// a line search on the potential energy. Velocities become 0. An external force is taken as constant
 /// within a line search.
 /// @returns not_converged after max_iterations (a scene that falls for ever has no equilibrium), with

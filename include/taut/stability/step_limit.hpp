@@ -23,6 +23,21 @@ enum class Cause {
     damping_unproved  ///< D could not be shown to be positive semi-definite
 };
 
+/// The name as the programs and their JSON spell it.
+constexpr const char* name(Cause cause) {
+    switch (cause) {
+        case Cause::stiffness: return "stiffness";
+        case Cause::damping: return "damping";
+        case Cause::undamped: return "undamped";
+        case Cause::undamped_modes: return "undamped_modes";
+        case Cause::unconditional: return "unconditional";
+        case Cause::nothing_to_limit: return "nothing_to_limit";
+        case Cause::buckling: return "buckling";
+        case Cause::damping_unproved: return "damping_unproved";
+    }
+    return "unknown";
+}
+
 /// One sentence for people: the cause, and the cure where one is needed.
 constexpr const char* describe(Cause cause) {
     switch (cause) {
