@@ -3,7 +3,7 @@
 #pragma once
 
 #include "../model/spring_system.hpp"
-#include "detail/limits.hpp"
+#include "detail/narrow.hpp"
 #include "spring_pencil.hpp"
 
 namespace taut {
@@ -11,23 +11,38 @@ namespace taut {
 /// The step that holds while the scene moves: 4M − 2hL_c − h²L_k ≻ 0 on the graph Laplacians proves
 /// that symplectic Euler (and velocity Verlet) has no multiplier μ ≤ −1 at any pose [T23].
 ///
-/// `certified` is proved by the splitting bound [T26]. `refuted` is where the condition itself fails:
-/// no larger step can be certified for every pose, though a given pose may allow one. Void when
-/// stiffness or damping is added, mass removed or a particle unpinned (see StepLimit::step_for).
-template <class Scalar, int Dim, class... Laws>
-StepLimit<Scalar> any_pose_limit(const SpringSystem<Scalar, Dim, Laws...>& system) {
+/// `certified` is proved; `refuted` is where the condition itself fails: no larger step can be certified
+/// for every pose in this way, though a given pose may allow one. Void when stiffness or damping is
+/// added, mass removed or a particle unpinned (see StepLimit::step_for).
+/// @param tightness  0: by the splitting bound alone [T26]; above 0: narrowed by factorisations of n × n
+///                   matrices until refuted/certified ≤ 1 + tightness [T22]
+template <class Cholesky = EigenCholesky, class Scalar, int Dim, class... Laws>
+StepLimit<Scalar> any_pose_limit(const SpringSystem<Scalar, Dim, Laws...>& system,
+                                 double tightness = 0) {
+    require_non_negative("any_pose_limit", "tightness", tightness);
     const auto laplacian = SpringPencil<1>::any_pose(system);
-    const double certified =
-        laplacian.size() == 0 ? detail::infinity : detail::certified_symplectic(laplacian);
-    if (!std::isfinite(certified)) {
-        return {static_cast<Scalar>(certified), static_cast<Scalar>(certified),
-                Cause::nothing_to_limit, 0, system.revision()};
+    StepLimit<Scalar> limit;
+    limit.revision = system.revision();
+    detail::Bracket bracket;
+    bracket.certified = laplacian.size() == 0 ? detail::infinity : detail::certified_symplectic(laplacian);
+    if (!std::isfinite(bracket.certified)) {
+        limit.certified = limit.refuted = std::numeric_limits<Scalar>::infinity();
+        limit.cause = Cause::nothing_to_limit;
+        return limit;
     }
-    RitzPair mode = largest_ritz_pair(laplacian, {0, certified * certified, 2 * certified});
-    const double refuted = detail::refuted_symplectic(laplacian, mode);
-    const double d = detail::quotients(laplacian, mode.vector, true).d.value;
-    return {detail::round_down<Scalar>(certified), detail::round_up<Scalar>(refuted),
-            certified * d > 1 ? Cause::damping : Cause::stiffness, 0, system.revision()};
+    const double h = bracket.certified;
+    RitzPair mode = largest_ritz_pair(laplacian, {0, h * h, 2 * h});
+    bracket.refuted = detail::refuted_symplectic(laplacian, mode);
+    bracket.vector = std::move(mode.vector);
+    if (tightness > 0 && !bracket.within(tightness)) {
+        Prover<Cholesky> prover;
+        detail::narrow_symplectic(laplacian, prover, tightness, bracket);
+    }
+    limit.certified = detail::round_down<Scalar>(bracket.certified);
+    limit.refuted = detail::round_up<Scalar>(bracket.refuted);
+    const double d = detail::quotients(laplacian, bracket.vector, true).d.value;
+    if (bracket.certified * d > 1) limit.cause = Cause::damping;
+    return limit;
 }
 
 }  // namespace taut

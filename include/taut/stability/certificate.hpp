@@ -2,86 +2,95 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/SparseCholesky>
 #include <cmath>
 #include <limits>
-#include <vector>
 
-#include "../core/types.hpp"
+#include "eigen_cholesky.hpp"
+#include "pencil.hpp"
 
 namespace taut {
 
-/// Outcome of proves_positive_definite.
+/// Outcome of an attempt to prove a matrix positive definite.
 struct DefinitenessProof {
-    bool proved = false;
-    double shift = 0;  ///< subtracted from the unit diagonal to pay for all rounding, relative
+    bool proved = false;  ///< false means not proved, never a disproof
+    double shift = 0;     ///< subtracted from the diagonal to pay for all rounding, relative to it
+    double room = 0;      ///< least squared pivot of the unit-diagonal matrix: 1 is far from singular
 };
 
 namespace detail {
-
-/// Most nonzeros in a row of L, the diagonal counted.
-inline Index widest_row(const Eigen::SparseMatrix<double>& L) {
-    std::vector<Index> count(static_cast<std::size_t>(L.rows()), 0);
-    for (Index j = 0; j < L.outerSize(); ++j) {
-        for (Eigen::SparseMatrix<double>::InnerIterator entry(L, j); entry; ++entry) {
-            ++count[entry.row()];
-        }
-    }
-    return *std::max_element(count.begin(), count.end());
-}
 
 /// γ/(1 − γ) with γ = (q + 1)u/(1 − (q + 1)u), rounded up [T22].
 inline double cholesky_rounding(Index q) {
     const double u = std::numeric_limits<double>::epsilon() / 2;
     const double gamma = static_cast<double>(q + 2) * u;  // one more for this line's own rounding
-    return gamma / (1 - 2 * gamma);
+    return gamma / (1 - 3 * gamma);
 }
 
 }  // namespace detail
 
-/// Proves that a symmetric matrix is positive definite, rounding included: a floating-point Cholesky
+/// Proves symmetric matrices positive definite, rounding included: a floating-point Cholesky
 /// factorisation of A − cI that runs to completion, with c above all that rounding can hide
 /// (S. M. Rump, Verification of positive definiteness, BIT 2006) [T22].
 ///
 /// A is first scaled to a diagonal near one by powers of two, which is exact and keeps definiteness.
-/// @param A      symmetric, both triangles stored
-/// @param error  N: bounds on the absolute row sums of the errors with which A was formed
-/// @returns proved, or not proved: never a disproof.
-inline DefinitenessProof proves_positive_definite(const Eigen::SparseMatrix<double>& A,
-                                                  const Eigen::VectorXd& error) {
+/// The pattern is analysed once for matrices that share it.
+/// @tparam Cholesky  EigenCholesky, or another factorisation with its interface. Not one whose kernels
+///                   multiply by an inverted diagonal block: [T22] does not cover them.
+template <class Cholesky = EigenCholesky>
+class Prover {
+public:
+    /// @param A           symmetric, both triangles stored, the same pattern at every call
+    /// @param max_error   max_error(s): a bound on max_i Σ_j s_i |E_ij| s_j, where E are the errors with
+    ///                    which A was formed and s > 0 a scaling of its rows and columns
+    template <class Error>
+    DefinitenessProof operator()(const SparseMatrix<double>& A, Error&& max_error);
+    int factorizations() const { return factorizations_; }
+
+private:
+    Cholesky cholesky_;
+    Index widest_ = 0;  // most nonzeros in a row of the factor; 0: not analysed yet
+    int factorizations_ = 0;
+};
+
+template <class Cholesky>
+template <class Error>
+DefinitenessProof Prover<Cholesky>::operator()(const SparseMatrix<double>& A, Error&& max_error) {
     DefinitenessProof proof;
     const Index N = A.rows();
     Eigen::VectorXd scale(N);
-    double slack = 0;
+    const Eigen::VectorXd diagonal = A.diagonal();
     for (Index i = 0; i < N; ++i) {
-        const double a = A.coeff(i, i);
-        if (!(a > error[i]) || !std::isfinite(a)) return proof;
-        scale[i] = std::exp2(-std::round(std::log2(a) / 2));
+        if (!(diagonal[i] > 0) || !std::isfinite(diagonal[i])) return proof;
+        scale[i] = std::exp2(-std::round(std::log2(diagonal[i]) / 2));
     }
-    Eigen::SparseMatrix<double> S = scale.asDiagonal() * A * scale.asDiagonal();
-    // Gershgorin for the errors, in the scaled matrix: |s_i E_ij s_j| ≤ (s_i² + s_j²)/2 · |E_ij|.
-    const double spread = scale.maxCoeff();
-    for (Index i = 0; i < N; ++i) slack = std::max(slack, scale[i] * error[i] * spread);
-    const double trace = S.diagonal().sum() * (1 + 1e-10);
+    SparseMatrix<double> S = scale.asDiagonal() * A * scale.asDiagonal();
+    if (widest_ == 0) widest_ = cholesky_.analyze(S);
 
-    Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> llt;
-    llt.analyzePattern(S);
-    Index assumed = std::min<Index>(N, 256);
-    for (int attempt = 0; attempt < 2; ++attempt) {
-        const double u = std::numeric_limits<double>::epsilon();
-        proof.shift = (slack + detail::cholesky_rounding(assumed) * trace) * (1 + 1e-10) + 4 * u;
-        Eigen::SparseMatrix<double> shifted = S;
-        shifted.diagonal().array() -= proof.shift;
-        llt.factorize(shifted);
-        if (llt.info() != Eigen::Success) return proof;
-        const Index q = detail::widest_row(llt.matrixL().nestedExpression());
-        if (q <= assumed) {
-            proof.proved = true;
-            return proof;
-        }
-        assumed = q;
-    }
+    const double u = std::numeric_limits<double>::epsilon();
+    const double sum_rounding = 1 + static_cast<double>(N) * u;
+    const double trace = S.diagonal().sum() * sum_rounding;
+    const double slack = max_error(scale) * sum_rounding;
+    // The last two terms: rounding of S − cI on a diagonal below 4, and underflow in the factorisation.
+    const double underflow = static_cast<double>(N * (widest_ + 1)) * std::numeric_limits<double>::min();
+    proof.shift = (slack + detail::cholesky_rounding(widest_) * trace) * (1 + 8 * u) + 4 * u + underflow;
+    if (!(proof.shift < 0.5)) return proof;
+    S.diagonal().array() -= proof.shift;
+    ++factorizations_;
+    proof.proved = cholesky_.factorize(S);
+    if (proof.proved) proof.room = cholesky_.least_pivot();
     return proof;
+}
+
+/// Proves a matrix that is given exactly, as its stored numbers stand.
+inline DefinitenessProof proves_positive_definite(const SparseMatrix<double>& A) {
+    return Prover<>{}(A, [](const Eigen::VectorXd&) { return 0.0; });
+}
+
+/// Proves the combination S of a pencil, the rounding of its assembly counted.
+template <class Cholesky>
+DefinitenessProof prove(Prover<Cholesky>& prover, const Pencil& pencil, const Combination& c) {
+    return prover(pencil.assemble(c),
+                  [&](const Eigen::VectorXd& scale) { return pencil.assembly_error(c, scale); });
 }
 
 }  // namespace taut

@@ -3,19 +3,19 @@
 #pragma once
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <utility>
-#include <vector>
 
 #include "pencil.hpp"
 
 namespace taut {
 
 struct LanczosOptions {
-    int steps = 24;           ///< of one run: the memory is steps × N doubles
-    int restarts = 4;         ///< more runs, each from the last Ritz vector
-    double tolerance = 1e-3;  ///< stop when residual ≤ tolerance·|value|
+    int basis = 24;           ///< vectors kept at most: the memory is basis × N doubles
+    int restarts = 4;         ///< at most; each keeps the best third of the basis
+    double tolerance = 1e-3;  ///< stop when residual ≤ tolerance·|value| …
+    double settled = 0;       ///< … or when a restart raised the value by less than this share
 };
 
 /// An approximate eigenpair of M⁻¹S.
@@ -43,25 +43,28 @@ inline Eigen::VectorXd scattered_vector(Index N) {
 
 }  // namespace detail
 
-/// The largest eigenvalue of M⁻¹S by Lanczos with full reorthogonalisation, from below.
+/// The largest eigenvalue of M⁻¹S from below: Lanczos with full reorthogonalisation and thick restart
+/// (K. Wu and H. Simon, Thick-restart Lanczos method for large symmetric eigenvalue problems, 2000).
 /// Negate the factors of `c` for the smallest one.
 /// @param start  an approximate eigenvector to begin with, N; empty: a fixed scattered vector
 inline RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
                                   const LanczosOptions& options = {},
                                   const Eigen::VectorXd& start = {}) {
     const Index N = pencil.size();
+    const Index m = std::min<Index>(options.basis, N);
     const Eigen::VectorXd root = pencil.mass().cwiseSqrt();
-    const Index m = std::min<Index>(options.steps, N);
-    Eigen::MatrixXd Q(N, m);
-    Eigen::VectorXd diagonal(m);
-    Eigen::VectorXd off(m);
+    Eigen::MatrixXd Q(N, m);                            // orthonormal basis
+    Eigen::MatrixXd H = Eigen::MatrixXd::Zero(m, m);    // QᵀAQ with A = M⁻½SM⁻½
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> projected;
     Eigen::VectorXd w(N);
-    RitzPair pair;
+    Eigen::VectorXd h(m);
     Eigen::VectorXd q = start.size() == N ? Eigen::VectorXd(root.cwiseProduct(start))
                                           : detail::scattered_vector(N);
+    q.normalize();
+    RitzPair pair;
+    Index kept = 0;
     for (int run = 0; run <= options.restarts; ++run) {
-        q.normalize();
-        Index used = 0;
+        Index used = kept;
         double beta = 0;
         while (used < m) {
             const Index j = used++;
@@ -69,27 +72,30 @@ inline RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
             pencil.multiply(c, q.cwiseQuotient(root), w);
             ++pair.products;
             w.array() /= root.array();
-            diagonal[j] = q.dot(w);
+            h.head(used).noalias() = Q.leftCols(used).transpose() * w;
+            H.col(j).head(used) = h.head(used);
+            H.row(j).head(used) = h.head(used);
+            w.noalias() -= Q.leftCols(used) * h.head(used);
             // Twice is enough (Parlett): the basis stays orthogonal to rounding.
-            for (int pass = 0; pass < 2; ++pass) {
-                w.noalias() -= Q.leftCols(used) * (Q.leftCols(used).transpose() * w).eval();
-            }
+            h.head(used).noalias() = Q.leftCols(used).transpose() * w;
+            w.noalias() -= Q.leftCols(used) * h.head(used);
             beta = w.norm();
-            off[j] = beta;
-            const double scale = std::abs(diagonal[j]) + (j > 0 ? off[j - 1] : 0);
-            if (!(beta > 1e-14 * scale)) break;  // an invariant subspace: the Ritz values are exact
+            if (!(beta > 1e-14 * H.col(j).head(used).norm())) break;  // an invariant subspace
             q = w / beta;
         }
-        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> tridiagonal;
-        tridiagonal.computeFromTridiagonal(diagonal.head(used), off.head(used - 1));
-        const Eigen::VectorXd s = tridiagonal.eigenvectors().col(used - 1);
-        pair.value = tridiagonal.eigenvalues()[used - 1];
-        pair.residual = beta * std::abs(s[used - 1]);
-        q = Q.leftCols(used) * s;
-        if (pair.residual <= options.tolerance * std::abs(pair.value)) break;
+        projected.compute(H.topLeftCorner(used, used));
+        const double earlier = pair.value;
+        pair.value = projected.eigenvalues()[used - 1];
+        pair.residual = beta * std::abs(projected.eigenvectors()(used - 1, used - 1));
+        const bool settled = run > 0 && pair.value - earlier <= options.settled * std::abs(pair.value);
+        const bool last = run == options.restarts || used < m || settled ||
+                          pair.residual <= options.tolerance * std::abs(pair.value);
+        kept = last ? 1 : std::max<Index>(1, used / 3);
+        Q.leftCols(kept) = Q.leftCols(used) * projected.eigenvectors().rightCols(kept);
+        if (last) break;
+        H.topLeftCorner(kept, kept) = projected.eigenvalues().tail(kept).asDiagonal();
     }
-    q.normalize();
-    pair.vector = q.cwiseQuotient(root);
+    pair.vector = Q.col(kept - 1).normalized().cwiseQuotient(root);
     return pair;
 }
 

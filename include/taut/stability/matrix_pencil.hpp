@@ -24,15 +24,22 @@ public:
         if (c.damping != 0) y.noalias() += c.damping * (D_ * u);
     }
     Enclosed quadratic(const Combination& c, const Eigen::VectorXd& u) const override;
-    double upper_bound(const Combination& c) const override;
-    Eigen::SparseMatrix<double> assemble(const Combination& c) const override;
+    double upper_bound(const Combination& c, double enough = 0) const override;
+    SparseMatrix<double> assemble(const Combination& c) const override;
+    double assembly_error(const Combination& c, const Eigen::VectorXd& s) const override;
+    bool projects() const override { return false; }
     bool stiffness_semidefinite() const override { return stiffness_semidefinite_; }
     bool damping_semidefinite() const override { return damping_semidefinite_; }
     bool is_rayleigh() const override { return is_rayleigh_; }
 
 private:
-    using Matrix = Eigen::SparseMatrix<double>;
+    using Matrix = SparseMatrix<double>;
 
+    /// The sizes of what S is added up from, the mass term apart: its rounding errors are relative to
+    /// these.
+    Matrix magnitudes(const Combination& c) const {
+        return std::abs(c.stiffness) * K_.cwiseAbs() + std::abs(c.damping) * D_.cwiseAbs();
+    }
     static bool diagonally_dominant(const Matrix& A);
     static bool proves_semidefinite(const Matrix& A);
     void detect_rayleigh();
@@ -100,7 +107,7 @@ inline bool MatrixPencil::diagonally_dominant(const Matrix& A) {
 
 inline bool MatrixPencil::proves_semidefinite(const Matrix& A) {
     if (A.nonZeros() == 0 || diagonally_dominant(A)) return true;
-    return proves_positive_definite(A, Eigen::VectorXd::Zero(A.rows())).proved;
+    return proves_positive_definite(A).proved;
 }
 
 inline Enclosed MatrixPencil::quadratic(const Combination& c, const Eigen::VectorXd& u) const {
@@ -129,11 +136,10 @@ inline Enclosed MatrixPencil::quadratic(const Combination& c, const Eigen::Vecto
 
 /// Collatz–Wielandt: λ_max(A) ≤ max_i (a_ii + Σ_{j≠i} |a_ij| p_j/p_i) for every p > 0; the power
 /// iteration on |A| improves p.
-inline double MatrixPencil::upper_bound(const Combination& c) const {
+inline double MatrixPencil::upper_bound(const Combination& c, double enough) const {
     constexpr int most_repeats = 60;
     const Matrix S = assemble(c);
-    // The sizes of what S was added up from: its rounding errors are relative to these.
-    const Matrix sizes = std::abs(c.stiffness) * K_.cwiseAbs() + std::abs(c.damping) * D_.cwiseAbs();
+    const Matrix sizes = magnitudes(c);
     Index widest = 1;
     for (Index j = 0; j < size(); ++j) {
         widest = std::max<Index>(widest, S.outerIndexPtr()[j + 1] - S.outerIndexPtr()[j]);
@@ -142,7 +148,7 @@ inline double MatrixPencil::upper_bound(const Combination& c) const {
     Eigen::VectorXd p = mass_.cwiseSqrt().cwiseInverse();
     Eigen::VectorXd others(size());
     double best = std::numeric_limits<double>::infinity();
-    for (int repeat = 0; repeat < most_repeats; ++repeat) {
+    for (int repeat = 0; repeat < most_repeats && best > enough; ++repeat) {
         others.setZero();
         for (Index j = 0; j < size(); ++j) {
             for (Matrix::InnerIterator entry(S, j); entry; ++entry) {
@@ -163,7 +169,7 @@ inline double MatrixPencil::upper_bound(const Combination& c) const {
     return best + 8 * std::numeric_limits<double>::epsilon() * std::abs(best);
 }
 
-inline Eigen::SparseMatrix<double> MatrixPencil::assemble(const Combination& c) const {
+inline SparseMatrix<double> MatrixPencil::assemble(const Combination& c) const {
     Matrix S = c.stiffness * K_ + c.damping * D_;
     Matrix mass(size(), size());
     mass.setIdentity();
@@ -171,6 +177,12 @@ inline Eigen::SparseMatrix<double> MatrixPencil::assemble(const Combination& c) 
     S += mass;
     S.makeCompressed();
     return S;
+}
+
+/// Two products and two sums an entry.
+inline double MatrixPencil::assembly_error(const Combination& c, const Eigen::VectorXd& s) const {
+    const Eigen::VectorXd row = magnitudes(c) * s + std::abs(c.mass) * mass_.cwiseProduct(s);
+    return 4 * std::numeric_limits<double>::epsilon() * s.cwiseProduct(row).maxCoeff();
 }
 
 }  // namespace taut

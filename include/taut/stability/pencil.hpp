@@ -38,10 +38,15 @@ public:
     virtual Enclosed quadratic(const Combination& c, const Eigen::VectorXd& u) const = 0;
     /// A proved upper bound on the largest eigenvalue of M⁻¹S, rounding included [T26]. For springs it
     /// is never below c.mass + c.damping·d0.
-    virtual double upper_bound(const Combination& c) const = 0;
+    /// @param enough  stop improving the bound once it is at most this
+    virtual double upper_bound(const Combination& c, double enough = 0) const = 0;
     /// S as a sparse matrix, both triangles.
-    virtual Eigen::SparseMatrix<double> assemble(const Combination& c) const = 0;
+    virtual SparseMatrix<double> assemble(const Combination& c) const = 0;
+    /// A bound on max_i Σ_j s_i |E_ij| s_j, E the rounding errors of assemble(c), tangents included.
+    virtual double assembly_error(const Combination& c, const Eigen::VectorXd& s) const = 0;
 
+    /// Whether K⁺ differs from K where K is indefinite: springs, not bare matrices.
+    virtual bool projects() const = 0;
     /// Whether K (not K⁺) is known to be positive semi-definite.
     virtual bool stiffness_semidefinite() const = 0;
     /// Whether D is known to be positive semi-definite.

@@ -27,8 +27,10 @@ public:
 
     void multiply(const Combination& c, const Eigen::VectorXd& u, Eigen::VectorXd& y) const override;
     Enclosed quadratic(const Combination& c, const Eigen::VectorXd& u) const override;
-    double upper_bound(const Combination& c) const override;
-    Eigen::SparseMatrix<double> assemble(const Combination& c) const override;
+    double upper_bound(const Combination& c, double enough = 0) const override;
+    SparseMatrix<double> assemble(const Combination& c) const override;
+    double assembly_error(const Combination& c, const Eigen::VectorXd& s) const override;
+    bool projects() const override { return true; }
     bool stiffness_semidefinite() const override { return !compressed_; }
     bool damping_semidefinite() const override { return true; }
     bool is_rayleigh() const override { return !damped_; }
@@ -53,6 +55,13 @@ private:
     void add_link(int a, int b, const Vector& d, double axial, double transverse, double damping,
                   double bound);
     Coefficients coefficients(const Combination& c, const Link& link) const;
+    /// What the rounding errors of a link's block are relative to, N/m.
+    double magnitude(const Combination& c, const Link& link) const {
+        const double factor =
+            std::abs(c.stiffness) + std::abs(c.damping) * rayleigh_.stiffness_proportional;
+        return factor * std::max(link.bound, std::abs(link.transverse)) +
+               std::abs(c.damping) * link.damping;
+    }
     double mass_coefficient(const Combination& c) const {
         return c.mass + c.damping * rayleigh_.mass_proportional;
     }
@@ -171,9 +180,7 @@ Enclosed SpringPencil<Dim>::quadratic(const Combination& c, const Eigen::VectorX
         const double along = link.d.dot(du);
         const double across = (du - along * link.d).squaredNorm();
         sum.value += axial * along * along + transverse * across;
-        const double factor = std::abs(c.stiffness) + std::abs(c.damping) * rayleigh_.stiffness_proportional;
-        sum.error += (factor * link.bound + std::abs(c.damping) * link.damping + std::abs(transverse)) *
-                     du.squaredNorm();
+        sum.error += magnitude(c, link) * du.squaredNorm();
     }
     // Each term carries ≤ 32 roundings, the sum one more for each term; √terms would be typical.
     const double terms = static_cast<double>(size()) + static_cast<double>(links_.size()) + 32;
@@ -186,20 +193,18 @@ template <int Dim>
 double SpringPencil<Dim>::weighted_bound(const Combination& c, const std::vector<double>& p,
                                          std::vector<double>& r) const {
     std::vector<Block, Eigen::aligned_allocator<Block>> sum(degree_.size(), Block::Zero());
-    std::vector<double> magnitude(degree_.size(), 0);  // Σ of the weighted laws' bounds
-    const double factor = std::abs(c.stiffness) + std::abs(c.damping) * rayleigh_.stiffness_proportional;
+    std::vector<double> size(degree_.size(), 0);  // Σ of the weighted magnitudes
     for (const Link& link : links_) {
         auto [axial, transverse] = coefficients(c, link);
         axial = std::max(axial, 0.0);
         transverse = std::max(transverse, 0.0);
         Block P = (axial - transverse) * link.d * link.d.transpose();
         P.diagonal().array() += transverse;
-        const double size = factor * link.bound + std::abs(c.damping) * link.damping + transverse;
         const auto add = [&](int i, int other) {
             if (i < 0) return;
             const double weight = other < 0 ? 1 : 1 + p[other] / p[i];
             sum[i] += weight * P;
-            magnitude[i] += weight * size;
+            size[i] += weight * magnitude(c, link);
         };
         add(link.a, link.b);
         add(link.b, link.a);
@@ -207,7 +212,7 @@ double SpringPencil<Dim>::weighted_bound(const Combination& c, const std::vector
     double largest = 0;
     for (std::size_t i = 0; i < sum.size(); ++i) {
         const double rounding =
-            (degree_[i] + 64) * std::numeric_limits<double>::epsilon() * magnitude[i];
+            (degree_[i] + 64) * std::numeric_limits<double>::epsilon() * size[i];
         r[i] = (detail::eigenvalue_upper_bound<Dim>(sum[i]) + rounding) / mass_[Dim * i];
         largest = std::max(largest, r[i]);
     }
@@ -215,7 +220,7 @@ double SpringPencil<Dim>::weighted_bound(const Combination& c, const std::vector
 }
 
 template <int Dim>
-double SpringPencil<Dim>::upper_bound(const Combination& c) const {
+double SpringPencil<Dim>::upper_bound(const Combination& c, double enough) const {
     constexpr int most_repeats = 40;
     constexpr double worth_repeating = 1e-3;  // of the bound, over five repeats
     std::vector<double> p(degree_.size());
@@ -223,7 +228,7 @@ double SpringPencil<Dim>::upper_bound(const Combination& c) const {
     std::vector<double> r(p.size());
     double best = weighted_bound(c, p, r);
     double earlier = best;
-    for (int repeat = 1; repeat <= most_repeats && best > 0; ++repeat) {
+    for (int repeat = 1; repeat <= most_repeats && best > std::max(0.0, enough); ++repeat) {
         const double largest = *std::max_element(r.begin(), r.end());
         // A particle whose bound is far below the largest must not lose all its weight at once.
         for (std::size_t i = 0; i < p.size(); ++i) p[i] *= std::sqrt(std::max(r[i] / largest, 1e-4));
@@ -238,7 +243,7 @@ double SpringPencil<Dim>::upper_bound(const Combination& c) const {
 }
 
 template <int Dim>
-Eigen::SparseMatrix<double> SpringPencil<Dim>::assemble(const Combination& c) const {
+SparseMatrix<double> SpringPencil<Dim>::assemble(const Combination& c) const {
     std::vector<Eigen::Triplet<double>> entries;
     entries.reserve(links_.size() * 4 * Dim * Dim);
     const auto add = [&](int row, int column, const Block& block) {
@@ -260,9 +265,34 @@ Eigen::SparseMatrix<double> SpringPencil<Dim>::assemble(const Combination& c) co
         }
     }
     for (int i = 0; i < size(); ++i) entries.emplace_back(i, i, mass_coefficient(c) * mass_[i]);
-    Eigen::SparseMatrix<double> S(size(), size());
+    SparseMatrix<double> S(size(), size());
     S.setFromTriplets(entries.begin(), entries.end());
     return S;
+}
+
+/// Each entry of a link's block carries ≤ 24 roundings of its magnitude (the tangent's own among
+/// them), and adding d of them up d more; a row of Dim entries meets two blocks of each link.
+template <int Dim>
+double SpringPencil<Dim>::assembly_error(const Combination& c, const Eigen::VectorXd& s) const {
+    std::vector<double> row(degree_.size());
+    std::vector<double> scale(degree_.size());
+    for (std::size_t i = 0; i < scale.size(); ++i) {
+        const auto first = static_cast<Index>(Dim * i);
+        scale[i] = s.segment<Dim>(first).maxCoeff();
+        row[i] = std::abs(mass_coefficient(c)) * mass_[first] * scale[i] * scale[i];
+    }
+    for (const Link& link : links_) {
+        const double entry = Dim * magnitude(c, link);
+        const double sa = link.a < 0 ? 0 : scale[link.a];
+        const double sb = link.b < 0 ? 0 : scale[link.b];
+        if (link.a >= 0) row[link.a] += entry * sa * (sa + sb);
+        if (link.b >= 0) row[link.b] += entry * sb * (sa + sb);
+    }
+    double largest = 0;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        largest = std::max(largest, (degree_[i] + 32) * row[i]);
+    }
+    return largest * std::numeric_limits<double>::epsilon();
 }
 
 }  // namespace taut

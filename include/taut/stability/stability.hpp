@@ -7,6 +7,7 @@
 
 #include "../model/spring_system.hpp"
 #include "detail/limits.hpp"
+#include "detail/narrow.hpp"
 #include "detail/zero_modes.hpp"
 #include "matrix_pencil.hpp"
 #include "rayleigh.hpp"
@@ -50,7 +51,8 @@ struct LimitingMode {
 ///
 /// Where springs are compressed, K⁺ stands for K in every answer and the growth of the physics is
 /// given apart [T27]. Zero modes never count as unstable.
-template <class Scalar>
+/// @tparam Cholesky  the factorisation behind proofs (see Prover)
+template <class Scalar, class Cholesky = EigenCholesky>
 class Stability {
 public:
     /// Systems of at most this many degrees of freedom are also analysed by dense eigensolvers.
@@ -63,13 +65,14 @@ public:
     template <int Dim, class... Laws>
     Stability(const SpringSystem<Scalar, Dim, Laws...>& system, const State<Scalar, Dim>& state);
 
-    /// The bracket of the largest stable step, s: certified by a bound in O(springs) for each of a
-    /// fixed number of passes [T26], refuted by a Ritz vector.
-    StepLimit<Scalar> max_step(Method method) const;
-    /// Whether the bound proves step h, s, stable.
-    Certificate certify(Method method, double h) const {
-        return {method, h, h > 0 && h <= static_cast<double>(max_step(method).certified)};
-    }
+    /// The bracket of the largest stable step, s.
+    /// @param tightness  0: by bounds alone, O(springs) for each of a fixed number of passes [T26], and
+    ///                   a Ritz vector. Above 0: narrowed by sparse factorisations until
+    ///                   refuted/certified ≤ 1 + tightness where the method's conditions allow it
+    ///                   (1e-6 is reachable; a factorisation or two) [T22].
+    StepLimit<Scalar> max_step(Method method, double tightness = 0) const;
+    /// Whether step h, s, is proved stable: by the bound, or else by factorisation.
+    Certificate certify(Method method, double h) const;
     /// The α, s, that make step h stable with D = d0·M + αK⁺ in place of the system's own damping:
     /// proved, since it takes k_max from above and k_min from below [T14]–[T16].
     AlphaWindow rayleigh_window(Method method, double h, double d0 = 0) const {
@@ -94,23 +97,28 @@ public:
     const Pencil& pencil() const { return *pencil_; }
 
 private:
-    RitzPair stiffest() const { return largest_ritz_pair(*pencil_, {0, 1, 0}); }
-    double growth_rate() const;
-    StepLimit<Scalar> explicit_limit() const;
-    StepLimit<Scalar> symplectic_limit() const;
+    RitzPair stiffest() const;
+    void add_growth(StepLimit<Scalar>& limit, double tightness) const;
+    StepLimit<Scalar> explicit_limit(double tightness) const;
+    StepLimit<Scalar> symplectic_limit(double tightness) const;
     StepLimit<Scalar> implicit_limit() const;
     StepLimit<Scalar> limit(double certified, double refuted, Cause cause) const {
-        return {detail::round_down<Scalar>(certified), detail::round_up<Scalar>(refuted), cause, 0,
-                revision_};
+        StepLimit<Scalar> answer;
+        answer.certified = detail::round_down<Scalar>(certified);
+        answer.refuted = detail::round_up<Scalar>(refuted);
+        answer.cause = cause;
+        answer.revision = revision_;
+        return answer;
     }
 
     std::shared_ptr<const Pencil> pencil_;  // immutable, so copies may share it
     std::uint64_t revision_ = 0;
+    mutable Eigen::VectorXd stiffest_;      // the last Ritz vector of k_max, where the next one starts
 };
 
-template <class Scalar>
+template <class Scalar, class Cholesky>
 template <int Dim, class... Laws>
-Stability<Scalar>::Stability(const SpringSystem<Scalar, Dim, Laws...>& system,
+Stability<Scalar, Cholesky>::Stability(const SpringSystem<Scalar, Dim, Laws...>& system,
                              const State<Scalar, Dim>& state)
     : revision_(system.revision()) {
     if (state.x.cols() != system.size()) {
@@ -124,25 +132,44 @@ Stability<Scalar>::Stability(const SpringSystem<Scalar, Dim, Laws...>& system,
     pencil_ = std::make_shared<SpringPencil<Dim>>(SpringPencil<Dim>::at_pose(system, x));
 }
 
-template <class Scalar>
-StepLimit<Scalar> Stability<Scalar>::max_step(Method method) const {
+template <class Scalar, class Cholesky>
+RitzPair Stability<Scalar, Cholesky>::stiffest() const {
+    RitzPair pair = largest_ritz_pair(*pencil_, {0, 1, 0}, {}, stiffest_);
+    stiffest_ = pair.vector;
+    return pair;
+}
+
+template <class Scalar, class Cholesky>
+StepLimit<Scalar> Stability<Scalar, Cholesky>::max_step(Method method, double tightness) const {
+    require_non_negative("Stability::max_step", "tightness", tightness);
     if (size() == 0) return limit(detail::infinity, detail::infinity, Cause::nothing_to_limit);
+    if (!pencil_->damping_semidefinite()) return limit(0, detail::infinity, Cause::damping_unproved);
     StepLimit<Scalar> answer;
     switch (method) {
-        case Method::explicit_euler: answer = explicit_limit(); break;
+        case Method::explicit_euler: answer = explicit_limit(tightness); break;
         case Method::symplectic_euler:
-        case Method::velocity_verlet: answer = symplectic_limit(); break;
+        case Method::velocity_verlet: answer = symplectic_limit(tightness); break;
         case Method::implicit_euler: answer = implicit_limit(); break;
     }
-    answer.growth_rate = growth_rate();
-    if (answer.growth_rate > 0) answer.cause = Cause::buckling;
+    add_growth(answer, tightness);
     return answer;
 }
 
-template <class Scalar>
-StepLimit<Scalar> Stability<Scalar>::explicit_limit() const {
+template <class Scalar, class Cholesky>
+Certificate Stability<Scalar, Cholesky>::certify(Method method, double h) const {
+    Certificate certificate{method, h, false};
+    if (!(h > 0) || !std::isfinite(h)) return certificate;
+    const StepLimit<Scalar> bound = max_step(method);
+    certificate.proved = h <= static_cast<double>(bound.certified);
+    if (certificate.proved || !(h < static_cast<double>(bound.refuted))) return certificate;
+    const double room = static_cast<double>(bound.refuted) / h - 1;
+    certificate.proved = h <= static_cast<double>(max_step(method, std::max(room, 1e-7)).certified);
+    return certificate;
+}
+
+template <class Scalar, class Cholesky>
+StepLimit<Scalar> Stability<Scalar, Cholesky>::explicit_limit(double tightness) const {
     const Pencil& pencil = *pencil_;
-    if (!pencil.damping_semidefinite()) return limit(0, detail::infinity, Cause::damping_unproved);
     const double k = pencil.upper_bound({0, 1, 0});
     const double d = pencil.upper_bound({0, 0, 1});
     if (!(k > 0) && !(d > 0)) {
@@ -152,37 +179,64 @@ StepLimit<Scalar> Stability<Scalar>::explicit_limit() const {
     // α K⁺ is not a function of an indefinite K, so only d0·M commutes with it.
     const bool commutes = pencil.is_rayleigh() && (pencil.stiffness_semidefinite() ||
                                                    pencil.rayleigh().stiffness_proportional == 0);
-    const double certified = detail::certified_explicit(pencil);
-    double refuted = detail::refuted_explicit(pencil, stiffest(), commutes);
+    detail::Bracket bracket{detail::certified_explicit(pencil, k), detail::infinity, {}};
+    RitzPair mode = stiffest();
+    Prover<Cholesky> prover;
+    if (tightness > 0 && pencil.is_rayleigh() && pencil.stiffness_semidefinite()) {
+        auto proved = detail::narrow_maximum(pencil, prover, tightness);
+        bracket.certified = std::max(bracket.certified, detail::certified_explicit(pencil, proved.upper));
+        mode.vector = std::move(proved.vector);
+    }
+    bracket.refuted = detail::refuted_explicit(pencil, mode, commutes);
     if (!commutes && size() <= dense_size) {
         // The dense eigenvalues are numerical; their own error stays far below this allowance.
-        refuted = std::min(refuted, DenseAnalysis(pencil).explicit_limit() * (1 + 1e-6));
+        bracket.refuted = std::min(bracket.refuted, DenseAnalysis(pencil).explicit_limit() * (1 + 1e-6));
     }
-    if (certified == 0) return limit(0, refuted, Cause::undamped_modes);
+    double up_to = 0;
+    double delta = 0;
+    if (tightness > 0 && !bracket.within(tightness) && !pencil.is_rayleigh()) {
+        // No limit is above that of the best commuting damping by much [T12].
+        const double high = k > 0 ? 4 / std::sqrt(k) : 4 / d;
+        detail::narrow_explicit(pencil, prover, tightness, high, bracket, up_to, delta);
+    }
+    const double certified = bracket.certified;
     const bool by_damping = k <= 0 || certified * certified * k < 4 * (1 - 1e-3);
-    return limit(certified, std::max(refuted, certified),
-                 by_damping ? Cause::damping : Cause::stiffness);
+    StepLimit<Scalar> answer =
+        limit(certified, std::max(bracket.refuted, certified),
+              certified == 0 ? Cause::undamped_modes : by_damping ? Cause::damping : Cause::stiffness);
+    if (up_to > certified) {
+        answer.certified_up_to = detail::round_down<Scalar>(up_to);
+        answer.admitted_growth = delta;
+        if (certified == 0) answer.cause = Cause::rounding;
+    }
+    return answer;
 }
 
-template <class Scalar>
-StepLimit<Scalar> Stability<Scalar>::symplectic_limit() const {
+template <class Scalar, class Cholesky>
+StepLimit<Scalar> Stability<Scalar, Cholesky>::symplectic_limit(double tightness) const {
     const Pencil& pencil = *pencil_;
-    if (!pencil.damping_semidefinite()) return limit(0, detail::infinity, Cause::damping_unproved);
-    const double certified = detail::certified_symplectic(pencil);
-    if (!std::isfinite(certified)) {
+    // A bound within 3 % of the Ritz value's step needs no improvement.
+    RitzPair mode = stiffest();
+    detail::Bracket bracket;
+    bracket.certified = detail::certified_symplectic(pencil, 1.05 * mode.value);
+    if (!std::isfinite(bracket.certified)) {
         return limit(detail::infinity, detail::infinity, Cause::nothing_to_limit);
     }
-    RitzPair mode = largest_ritz_pair(pencil, {0, certified * certified, 2 * certified, false});
-    const double refuted = detail::refuted_symplectic(pencil, mode);
-    const Enclosed d = detail::quotients(pencil, mode.vector, true).d;
+    bracket.refuted = detail::refuted_symplectic(pencil, mode);
+    bracket.vector = std::move(mode.vector);
+    if (tightness > 0 && !bracket.within(tightness)) {
+        Prover<Cholesky> prover;
+        detail::narrow_symplectic(pencil, prover, tightness, bracket);
+    }
+    const Enclosed d = detail::quotients(pencil, bracket.vector, true).d;
     // Half of 4M is used up by the damping term when hd = 1.
-    return limit(certified, refuted, certified * d.value > 1 ? Cause::damping : Cause::stiffness);
+    return limit(bracket.certified, bracket.refuted,
+                 bracket.certified * d.value > 1 ? Cause::damping : Cause::stiffness);
 }
 
-template <class Scalar>
-StepLimit<Scalar> Stability<Scalar>::implicit_limit() const {
+template <class Scalar, class Cholesky>
+StepLimit<Scalar> Stability<Scalar, Cholesky>::implicit_limit() const {
     const Pencil& pencil = *pencil_;
-    if (!pencil.damping_semidefinite()) return limit(0, detail::infinity, Cause::damping_unproved);
     // K⁺ ⪰ 0 for springs: solvable and stable at every step [T20], [T27].
     const double kappa = std::max(0.0, pencil.upper_bound({0, -1, 0}));
     if (pencil.stiffness_semidefinite() || kappa == 0) {
@@ -192,25 +246,48 @@ StepLimit<Scalar> Stability<Scalar>::implicit_limit() const {
     // vector says so [T21].
     const RitzPair softest = largest_ritz_pair(pencil, {0, -1, 0});
     const auto [k, d] = detail::quotients(pencil, softest.vector, true);
-    const double refuted =
-        k.upper() < 0 ? critical_step(Method::implicit_euler, k.upper(), std::max(0.0, d.upper()))
-                      : detail::infinity;
-    return limit(1 / std::sqrt(kappa), refuted, Cause::stiffness);
+    if (k.upper() < 0) {
+        return limit(1 / std::sqrt(kappa),
+                     critical_step(Method::implicit_euler, k.upper(), std::max(0.0, d.upper())),
+                     Cause::stiffness);
+    }
+    Prover<Cholesky> prover;
+    const double epsilon = detail::semidefinite_deficit(pencil, prover, {0, 1, 0}, kappa);
+    return limit(1 / std::sqrt(std::min(epsilon, kappa)), detail::infinity, Cause::stiffness);
 }
 
-/// √κ of the undamped physics; damping slows the growth but does not remove it.
-template <class Scalar>
-double Stability<Scalar>::growth_rate() const {
-    if (pencil_->stiffness_semidefinite()) return 0;
+/// What the physics adds where K is not known to be positive semi-definite [T27]: √κ of the undamped
+/// motion (damping slows the growth but does not remove it), or what could not be excluded.
+template <class Scalar, class Cholesky>
+void Stability<Scalar, Cholesky>::add_growth(StepLimit<Scalar>& limit, double tightness) const {
+    const Pencil& pencil = *pencil_;
+    if (pencil.stiffness_semidefinite() || limit.cause == Cause::undamped) return;
     LanczosOptions options;
-    options.steps = 60;
-    const RitzPair softest = largest_ritz_pair(*pencil_, {0, -1, 0, false}, options);
-    const Enclosed k = detail::quotients(*pencil_, softest.vector, false).k;
-    return k.upper() < 0 ? std::sqrt(-k.value) : 0;
+    options.basis = 48;
+    options.tolerance = 1e-4;
+    const RitzPair softest = largest_ritz_pair(pencil, {0, -1, 0, false}, options);
+    const Enclosed k = detail::quotients(pencil, softest.vector, false).k;
+    if (k.upper() < 0) {
+        limit.growth_rate = std::sqrt(-k.value);
+        limit.cause = Cause::buckling;
+        return;
+    }
+    // Not refuted, not proved: K ⪰ −εM is what can be said.
+    double epsilon = std::max(0.0, pencil.upper_bound({0, -1, 0, false}));
+    if (epsilon > 0 && (tightness > 0 || !pencil.projects())) {
+        Prover<Cholesky> prover;
+        epsilon = std::min(epsilon, detail::semidefinite_deficit(pencil, prover, {0, 1, 0, false},
+                                                                 epsilon));
+    }
+    limit.admitted_growth = std::max(limit.admitted_growth, std::sqrt(epsilon));
+    if (pencil.projects()) return;
+    limit.certified_up_to = std::max(limit.certified, limit.certified_up_to);
+    limit.certified = 0;
+    limit.cause = Cause::rounding;
 }
 
-template <class Scalar>
-StiffnessSpectrum Stability<Scalar>::stiffness_spectrum(bool count_zero_modes) const {
+template <class Scalar, class Cholesky>
+StiffnessSpectrum Stability<Scalar, Cholesky>::stiffness_spectrum(bool count_zero_modes) const {
     StiffnessSpectrum spectrum;
     if (size() == 0) return spectrum;
     const Pencil& pencil = *pencil_;
@@ -226,8 +303,8 @@ StiffnessSpectrum Stability<Scalar>::stiffness_spectrum(bool count_zero_modes) c
     return spectrum;
 }
 
-template <class Scalar>
-double Stability<Scalar>::spectral_radius(Method method, double h) const {
+template <class Scalar, class Cholesky>
+double Stability<Scalar, Cholesky>::spectral_radius(Method method, double h) const {
     if (!(h > 0) || !std::isfinite(h)) {
         fail("Stability::spectral_radius: h is ", h, "; it must be finite and > 0");
     }
@@ -244,11 +321,11 @@ double Stability<Scalar>::spectral_radius(Method method, double h) const {
     return radius;
 }
 
-template <class Scalar>
-LimitingMode Stability<Scalar>::limiting_mode() const {
+template <class Scalar, class Cholesky>
+LimitingMode Stability<Scalar, Cholesky>::limiting_mode() const {
     if (size() == 0) return {};
     LanczosOptions options;
-    options.steps = 60;
+    options.basis = 60;
     options.tolerance = 1e-6;
     RitzPair pair = largest_ritz_pair(*pencil_, {0, 1, 0}, options);
     const auto [k, d] = detail::quotients(*pencil_, pair.vector, true);

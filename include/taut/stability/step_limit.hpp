@@ -20,7 +20,8 @@ enum class Cause {
     unconditional,    ///< implicit Euler: every step is stable
     nothing_to_limit, ///< no free particle, or neither stiffness nor damping
     buckling,         ///< K is indefinite: the physics itself grows, at growth_rate
-    damping_unproved  ///< D could not be shown to be positive semi-definite
+    damping_unproved, ///< D could not be shown to be positive semi-definite
+    rounding          ///< semi-definiteness was shown up to rounding only: see certified_up_to
 };
 
 /// The name as the programs and their JSON spell it.
@@ -34,6 +35,7 @@ constexpr const char* name(Cause cause) {
         case Cause::nothing_to_limit: return "nothing_to_limit";
         case Cause::buckling: return "buckling";
         case Cause::damping_unproved: return "damping_unproved";
+        case Cause::rounding: return "rounding";
     }
     return "unknown";
 }
@@ -58,6 +60,10 @@ constexpr const char* describe(Cause cause) {
         case Cause::damping_unproved:
             return "the damping matrix could not be shown to be positive semi-definite: no step is "
                    "certified; check its sign, or give dampers as springs";
+        case Cause::rounding:
+            return "a matrix could be shown to be positive semi-definite only up to rounding, so slow "
+                   "growth is not excluded: certified_up_to is safe but for admitted_growth; give the "
+                   "scene as springs to have it exact";
     }
     return "unknown cause";
 }
@@ -70,6 +76,9 @@ struct StepLimit {
     Scalar refuted = 0;    ///< s; a vector proves that this step fails (infinity: none is known to)
     Cause cause = Cause::stiffness;
     double growth_rate = 0;      ///< 1/s; √κ of the physics when K has the eigenvalue −κ, else 0
+    Scalar certified_up_to = 0;  ///< s; where semi-definiteness could be shown only up to rounding:
+                                 ///< up to this step nothing grows faster than admitted_growth
+    double admitted_growth = 0;  ///< 1/s
     std::uint64_t revision = 0;  ///< of the system that was analysed
 
     bool unbounded() const { return std::isinf(certified); }

@@ -34,9 +34,10 @@ inline Quotients quotients(const Pencil& pencil, const Eigen::VectorXd& u, bool 
 }
 
 /// The largest step of which 4M − 2hD − h²K⁺ ≻ 0 is proved by the bound [T19], [T23].
-inline double certified_symplectic(const Pencil& pencil) {
+/// @param enough  a bound on k_max, 1/s², that need not be improved
+inline double certified_symplectic(const Pencil& pencil, double enough = 0) {
     if (pencil.is_rayleigh()) {
-        const double k = std::max(0.0, pencil.upper_bound({0, 1, 0}));
+        const double k = std::max(0.0, pencil.upper_bound({0, 1, 0}, enough));
         const auto& rayleigh = pencil.rayleigh();
         return critical_step(Method::symplectic_euler, k,
                              rayleigh.mass_proportional + rayleigh.stiffness_proportional * k);
@@ -84,10 +85,10 @@ inline bool certifies_explicit(const Pencil& pencil, double h) {
            pencil.upper_bound({0, -h * h, 2 * h, false}) < 4;
 }
 
-/// The largest step that the bound certifies for explicit Euler; 0: none.
-inline double certified_explicit(const Pencil& pencil) {
+/// The largest step that a proved bound k on k_max, or else the bound, certifies for explicit Euler;
+/// 0: none.
+inline double certified_explicit(const Pencil& pencil, double k) {
     const auto [d0, alpha] = pencil.rayleigh();
-    const double k = std::max(0.0, pencil.upper_bound({0, 1, 0}));
     if (pencil.is_rayleigh() && pencil.stiffness_semidefinite()) {
         // k may be anything in (0, k_max]: as k → 0 the limit is 2/d0, or α when d0 = 0 [T9], [T13].
         const double at_zero = d0 > 0 ? 2 / d0 : alpha;

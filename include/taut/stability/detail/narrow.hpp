@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "../certificate.hpp"
+#include "limits.hpp"
+
+// Brackets narrowed by factorisations: sharpen the vector that refutes, then prove a step just below.
+
+namespace taut::detail {
+
+/// [certified, refuted), s, and the vector that refutes.
+struct Bracket {
+    double certified = 0;
+    double refuted = infinity;
+    Eigen::VectorXd vector;
+
+    bool within(double tightness) const { return refuted <= certified * (1 + tightness); }
+};
+
+/// Options for a Ritz value whose relative error is well below `share`.
+inline LanczosOptions sharp(double share) {
+    LanczosOptions options;
+    options.basis = 32;
+    options.restarts = 200;
+    options.tolerance = share / 10;
+    options.settled = share / 100;
+    return options;
+}
+
+/// Tries proves(h) just below bracket.refuted, sharpening the refutation first, then further down.
+/// @param sharpen  double sharpen(Bracket&, share): lowers bracket.refuted
+template <class Sharpen, class Proves>
+void narrow(Bracket& bracket, double tightness, Sharpen&& sharpen, Proves&& proves) {
+    // A failed proof means that the vector was not sharp enough, or that rounding hides the rest.
+    double share = tightness;
+    for (double distance = tightness; distance < 0.5 && !bracket.within(distance); distance *= 16) {
+        sharpen(bracket, share);
+        const double h = bracket.refuted / (1 + 0.9 * distance);
+        if (h > bracket.certified && proves(h)) bracket.certified = h;
+        share = std::max(share / 16, 1e-14);
+    }
+}
+
+/// Symplectic Euler: 4M − 2hD − h²K ≻ 0 with the true K [T19]. Needs D ⪰ 0.
+template <class Cholesky>
+void narrow_symplectic(const Pencil& pencil, Prover<Cholesky>& prover, double tightness,
+                       Bracket& bracket) {
+    const auto step = [&](const Eigen::VectorXd& u) {
+        const auto [k, d] = quotients(pencil, u, false);
+        return critical_step(Method::symplectic_euler, k.lower(), std::max(0.0, d.lower()));
+    };
+    const auto sharpen = [&](Bracket& b, double share) {
+        for (int repeat = 0; repeat < 8; ++repeat) {
+            const double h = b.refuted;
+            const RitzPair pair =
+                largest_ritz_pair(pencil, {0, h * h, 2 * h, false}, sharp(share), b.vector);
+            const double smaller = step(pair.vector);
+            if (!(smaller < h)) return;
+            b.refuted = smaller;
+            b.vector = pair.vector;
+            // Without damping the vector does not depend on h: one pass is all.
+            if (smaller > h * (1 - 0.1 * share) ||
+                (pencil.is_rayleigh() && pencil.stiffness_semidefinite())) {
+                return;
+            }
+        }
+    };
+    narrow(bracket, tightness, sharpen, [&](double h) {
+        return prove(prover, pencil, {4, -h * h, -2 * h, false}).proved;
+    });
+}
+
+/// k_max of K'⁺ as a bracket {refuted lower value, proved upper one}, by σM − K⁺ ≻ 0.
+struct ProvedMaximum {
+    double lower = 0;
+    double upper = 0;
+    Eigen::VectorXd vector;
+};
+
+template <class Cholesky>
+ProvedMaximum narrow_maximum(const Pencil& pencil, Prover<Cholesky>& prover, double tightness) {
+    ProvedMaximum k;
+    k.upper = std::max(0.0, pencil.upper_bound({0, 1, 0}));
+    // narrow() works on steps: 1/k is a step's square, up to a factor.
+    Bracket inverse{k.upper > 0 ? 1 / k.upper : infinity, infinity, {}};
+    const auto sharpen = [&](Bracket& b, double share) {
+        RitzPair pair = largest_ritz_pair(pencil, {0, 1, 0}, sharp(share), b.vector);
+        const double value = quotients(pencil, pair.vector, true).k.lower();
+        if (value > 0) b.refuted = std::min(b.refuted, 1 / value);
+        b.vector = std::move(pair.vector);
+    };
+    narrow(inverse, tightness, sharpen,
+           [&](double share) { return prove(prover, pencil, {1 / share, -1, 0}).proved; });
+    k.upper = std::min(k.upper, 1 / inverse.certified * (1 + 4e-16));
+    k.lower = std::isfinite(inverse.refuted) ? 1 / inverse.refuted : 0;
+    k.vector = std::move(inverse.vector);
+    return k;
+}
+
+/// An ε ≥ 0, 1/s², with K ⪰ −εM proved by factorisation of K + εM: the smallest that rounding allows,
+/// within a factor of 16; infinity when none up to k_max is. For K with factor `stiffness` or D.
+template <class Cholesky>
+double semidefinite_deficit(const Pencil& pencil, Prover<Cholesky>& prover, const Combination& c,
+                            double norm) {
+    for (double epsilon = 1e-14 * norm; epsilon <= norm; epsilon *= 16) {
+        Combination shifted = c;
+        shifted.mass += epsilon;
+        if (prove(prover, pencil, shifted).proved) return epsilon;
+    }
+    return infinity;
+}
+
+/// Explicit Euler with a D that does not commute: [T17] by two factorisations, as far as D − hK⁺ is
+/// definite up to −δM. Raises `up_to` and `delta`, 1/s; certified itself where δ = 0 sufficed.
+template <class Cholesky>
+void narrow_explicit(const Pencil& pencil, Prover<Cholesky>& prover, double tightness, double high,
+                     Bracket& bracket, double& up_to, double& delta) {
+    const double k = pencil.upper_bound({0, 1, 0});
+    const auto second = [&](double h) {
+        return prove(prover, pencil, {4, h * h, -2 * h, false}).proved;
+    };
+    // The largest h with D − hK⁺ ⪰ −δM, δ tiny beside hK⁺, by bisection: each test may fail early.
+    double low = bracket.certified;
+    double top = std::min(high, bracket.refuted);
+    double shown = 0;
+    for (int repeat = 0; repeat < 60 && top > (low > 0 ? low : top * 1e-12) * (1 + tightness); ++repeat) {
+        const double h = low > 0 ? std::sqrt(low * top) : top / 16;
+        const double tiny = 1e-9 * h * k;
+        const bool strict = prove(prover, pencil, {0, -h, 1}).proved;
+        const bool weak = strict || prove(prover, pencil, {tiny, -h, 1}).proved;
+        if (weak && second(h)) {
+            low = h;
+            shown = strict ? 0 : tiny;
+            if (strict) bracket.certified = h;
+        } else {
+            top = h;
+            if (low == 0 && h < 1e-12 * high) break;
+        }
+    }
+    if (low > bracket.certified) {
+        up_to = low;
+        delta = shown;
+    }
+}
+
+}  // namespace taut::detail

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <vector>
+
+#include "../core/types.hpp"
+
+namespace taut {
+
+/// Eigen's simplicial LLᵀ as certificates use it: scalar operations only, in an order that [T22]
+/// covers, and the width of the factor's rows known before it is computed.
+class EigenCholesky : private Eigen::SimplicialLLT<SparseMatrix<double>> {
+    using Base = Eigen::SimplicialLLT<SparseMatrix<double>>;
+
+public:
+    /// Analyses the pattern of a symmetric matrix, both triangles stored.
+    /// @returns the most nonzeros in a row of the factor, the diagonal counted
+    Index analyze(const SparseMatrix<double>& A) {
+        Base::analyzePattern(A);
+        return widest_row(A);
+    }
+    /// @returns whether the factorisation ran to completion
+    bool factorize(const SparseMatrix<double>& A) {
+        Base::factorize(A);
+        return Base::info() == Eigen::Success;
+    }
+    /// The smallest squared pivot.
+    double least_pivot() const {
+        const auto diagonal = m_matrix.diagonal();
+        double least = diagonal[0];
+        for (Index i = 1; i < diagonal.size(); ++i) least = std::min(least, diagonal[i]);
+        return least * least;
+    }
+
+private:
+    /// Row k of L is what the nonzeros of column k reach in the elimination tree.
+    Index widest_row(const SparseMatrix<double>& A) const {
+        SparseMatrix<double> permuted = A;
+        if (m_P.size() > 0) permuted = A.twistedBy(m_P);
+        std::vector<Index> seen(static_cast<std::size_t>(A.rows()), -1);
+        Index widest = 1;
+        for (Index k = 0; k < permuted.outerSize(); ++k) {
+            Index count = 1;
+            seen[k] = k;
+            for (SparseMatrix<double>::InnerIterator entry(permuted, k); entry; ++entry) {
+                for (Index i = entry.row(); i >= 0 && i < k && seen[i] != k; i = m_parent[i]) {
+                    seen[i] = k;
+                    ++count;
+                }
+            }
+            widest = std::max(widest, count);
+        }
+        return widest;
+    }
+};
+
+}  // namespace taut
