@@ -29,11 +29,19 @@ public:
 
     /// min over λ(C) of −2 Re λ/|λ|², the exact limit of explicit Euler for any D [T18]; 0 when an
     /// undamped mode allows none, infinity when there is nothing but zero modes.
-    double explicit_limit() const;
+    double explicit_limit() const { return limits().estimate; }
+    /// The same from above: each λ may err by its condition number times the rounding of C, to first
+    /// order; eigenvalues that this leaves undecided are passed over.
+    double explicit_limit_above() const { return limits().above; }
     /// Largest |μ| of one step over all modes but the zero modes.
     double spectral_radius(Method method, double h) const;
 
 private:
+    struct Limits {
+        double estimate = std::numeric_limits<double>::infinity();
+        double above = std::numeric_limits<double>::infinity();
+    };
+    Limits limits() const;
     Eigen::MatrixXd generator() const;
 
     Eigen::VectorXd root_;  // √M
@@ -54,14 +62,13 @@ inline DenseAnalysis::DenseAnalysis(const Pencil& pencil) : root_(pencil.mass().
     zero_ = 64 * static_cast<double>(pencil.size()) * std::numeric_limits<double>::epsilon() * norm;
 }
 
-/// C [T1] without the positions of zero modes, which no force depends on: [[0, Rᵀ], [−KR, −D]] with
-/// R the other modes. What is left of λ = 0 is simple, and so is computed to full accuracy.
+/// C [T1] in energy coordinates y = √k x of the modes, [[0, S], [−S, −D]] with S = √k: skew-symmetric
+/// but for D, so its eigenvalues are well conditioned under light damping. Zero modes have no y, for no
+/// force depends on it; what is left of λ = 0 is simple.
 inline Eigen::MatrixXd DenseAnalysis::generator() const {
     const Index N = root_.size();
-    const Index zeros = zero_modes();
-    const Index r = N - zeros;
-    Eigen::MatrixXd C = Eigen::MatrixXd::Zero(r + N, r + N);
-    // In modal coordinates K is diagonal; a permutation brings the zero modes last.
+    const Index r = N - zero_modes();
+    // A permutation brings the zero modes last.
     Eigen::MatrixXd V(N, N);
     Eigen::VectorXd k(N);
     Index front = 0;
@@ -71,26 +78,32 @@ inline Eigen::MatrixXd DenseAnalysis::generator() const {
         V.col(to) = modes_.eigenvectors().col(j);
         k[to] = modes_.eigenvalues()[j];
     }
-    C.topRightCorner(r, r).setIdentity();
-    C.block(r, 0, r, r).diagonal() = -k.head(r);
+    Eigen::MatrixXd C = Eigen::MatrixXd::Zero(r + N, r + N);
+    C.block(0, r, r, r).diagonal() = k.head(r).cwiseMax(0).cwiseSqrt();
+    C.block(r, 0, r, r).diagonal() = -C.block(0, r, r, r).diagonal();
     C.bottomRightCorner(N, N) = -V.transpose() * D_ * V;
     return C;
 }
 
-inline double DenseAnalysis::explicit_limit() const {
+inline DenseAnalysis::Limits DenseAnalysis::limits() const {
     const Eigen::MatrixXd C = generator();
-    const Eigen::VectorXcd lambda = C.eigenvalues();
-    const double norm = C.cwiseAbs().maxCoeff();
-    double limit = std::numeric_limits<double>::infinity();
-    for (const auto& value : lambda) {
-        const double rounding =
-            64 * static_cast<double>(C.rows()) * std::numeric_limits<double>::epsilon();
-        // λ = 0 to rounding: a zero mode's velocity. Its scale is √‖K‖, not ‖C‖.
-        if (std::abs(value) <= rounding * std::max(std::sqrt(norm), norm)) continue;
-        if (value.real() >= -rounding * std::abs(value)) return 0;
-        limit = std::min(limit, -2 * value.real() / std::norm(value));
+    const Eigen::EigenSolver<Eigen::MatrixXd> solver(C);
+    const Eigen::MatrixXcd V = solver.eigenvectors();
+    const Eigen::MatrixXcd W = V.partialPivLu().inverse();
+    const double rounding =
+        4 * static_cast<double>(C.rows()) * std::numeric_limits<double>::epsilon() * C.norm();
+    Limits limits;
+    for (Index i = 0; i < C.rows(); ++i) {
+        const std::complex<double> lambda = solver.eigenvalues()[i];
+        if (std::abs(lambda) <= rounding) continue;  // a zero mode's velocity
+        const double size = std::norm(lambda);
+        limits.estimate = std::min(limits.estimate, std::max(0.0, -2 * lambda.real() / size));
+        const double error = rounding * V.col(i).norm() * W.row(i).norm();
+        const double least = std::abs(lambda) - error;
+        if (!(least > std::abs(lambda) / 2)) continue;
+        limits.above = std::min(limits.above, 2 * std::max(0.0, error - lambda.real()) / (least * least));
     }
-    return limit;
+    return limits;
 }
 
 inline double DenseAnalysis::spectral_radius(Method method, double h) const {
@@ -107,7 +120,7 @@ inline double DenseAnalysis::spectral_radius(Method method, double h) const {
             // v⁺ from the old x, then x⁺ from v⁺.
             step = I;
             step.bottomRows(N) += h * C.bottomRows(N);
-            step.topRows(r) += h * step.block(r, 0, r, n);
+            step.topRows(r) += h * C.block(0, r, r, r).diagonal().asDiagonal() * step.middleRows(r, r);
             break;
         }
         case Method::implicit_euler: step = (I - h * C).partialPivLu().inverse(); break;

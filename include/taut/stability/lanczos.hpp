@@ -29,9 +29,9 @@ struct RitzPair {
 namespace detail {
 
 /// A fixed pseudo-random vector: the same on every machine, with a component along every mode.
-inline Eigen::VectorXd scattered_vector(Index N) {
+inline Eigen::VectorXd scattered_vector(Index N, Index seed = 0) {
     Eigen::VectorXd q(N);
-    std::uint64_t word = 0x9e3779b97f4a7c15u;
+    std::uint64_t word = 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(seed);
     for (Index i = 0; i < N; ++i) {
         word ^= word << 13;
         word ^= word >> 7;
@@ -80,15 +80,23 @@ inline RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
             h.head(used).noalias() = Q.leftCols(used).transpose() * w;
             w.noalias() -= Q.leftCols(used) * h.head(used);
             beta = w.norm();
-            if (!(beta > 1e-14 * H.col(j).head(used).norm())) break;  // an invariant subspace
-            q = w / beta;
+            if (!(beta > 1e-14 * H.col(j).head(used).norm())) {
+                // An invariant subspace, not always that of the largest eigenvalue: go on elsewhere.
+                beta = 0;
+                w = detail::scattered_vector(N, used);
+                for (int pass = 0; pass < 2; ++pass) {
+                    h.head(used).noalias() = Q.leftCols(used).transpose() * w;
+                    w.noalias() -= Q.leftCols(used) * h.head(used);
+                }
+            }
+            q = w.normalized();
         }
         projected.compute(H.topLeftCorner(used, used));
         const double earlier = pair.value;
         pair.value = projected.eigenvalues()[used - 1];
         pair.residual = beta * std::abs(projected.eigenvectors()(used - 1, used - 1));
         const bool settled = run > 0 && pair.value - earlier <= options.settled * std::abs(pair.value);
-        const bool last = run == options.restarts || used < m || settled ||
+        const bool last = run == options.restarts || m == N || settled ||
                           pair.residual <= options.tolerance * std::abs(pair.value);
         kept = last ? 1 : std::max<Index>(1, used / 3);
         Q.leftCols(kept) = Q.leftCols(used) * projected.eigenvectors().rightCols(kept);

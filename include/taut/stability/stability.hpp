@@ -185,12 +185,11 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::explicit_limit(double tightness) 
     if (tightness > 0 && pencil.is_rayleigh() && pencil.stiffness_semidefinite()) {
         auto proved = detail::narrow_maximum(pencil, prover, tightness);
         bracket.certified = std::max(bracket.certified, detail::certified_explicit(pencil, proved.upper));
-        mode.vector = std::move(proved.vector);
+        if (proved.vector.size() > 0) mode.vector = std::move(proved.vector);
     }
     bracket.refuted = detail::refuted_explicit(pencil, mode, commutes);
     if (!commutes && size() <= dense_size) {
-        // The dense eigenvalues are numerical; their own error stays far below this allowance.
-        bracket.refuted = std::min(bracket.refuted, DenseAnalysis(pencil).explicit_limit() * (1 + 1e-6));
+        bracket.refuted = std::min(bracket.refuted, DenseAnalysis(pencil).explicit_limit_above());
     }
     double up_to = 0;
     double delta = 0;
