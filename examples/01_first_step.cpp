@@ -7,15 +7,18 @@
 #include <taut/taut.hpp>
 
 int main() {
-    taut::SpringSystem<double, 3> cloth = taut::hanging_cloth<double>({64, 64});  // 1 m × 1 m, 0.3 kg
+    taut::SpringSystem<double, 3> cloth =
+        taut::hanging_cloth<double>({64, 64});  // 1 m × 1 m, 0.3 kg
     auto state = cloth.initial_state();
 
     taut::Stability<double> stability(cloth, state);
     auto limit = stability.max_step(taut::Method::symplectic_euler);
-    std::printf("at rest: %.4g s is proved stable, %.4g s is not\n", limit.certified, limit.refuted);
+    std::printf("at rest: %.4g s is proved stable, %.4g s is not\n", limit.certified,
+                limit.refuted);
 
     auto alpha = stability.rayleigh_window(taut::Method::explicit_euler, 1e-4);
-    std::printf("explicit Euler at 1e-4 s needs alpha in (%.4g, %.4g) s\n", alpha.lower, alpha.upper);
+    std::printf("explicit Euler at 1e-4 s needs alpha in (%.4g, %.4g) s\n", alpha.lower,
+                alpha.upper);
 
     auto moving = taut::any_pose_limit(cloth);  // holds while the cloth moves
     taut::SymplecticEuler stepper(cloth);

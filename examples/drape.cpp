@@ -21,7 +21,7 @@ constexpr int diverged = 3;  // exit code
 struct Options {
     example::SceneOptions scene;
     std::string method = "symplectic";
-    double step = 0;  // s; 0: 0.95 of the any-pose limit, or a frame for the implicit method
+    double step = 0;      // s; 0: 0.95 of the any-pose limit, or a frame for the implicit method
     double duration = 2;  // s
     double frame_rate = 30;
     std::string output = "drape";
@@ -38,9 +38,12 @@ Step make_stepper(const std::string& method, const example::System& system) {
             return stepper->step(state, h, count);
         };
     };
-    if (method == "explicit") return wrap(std::make_shared<taut::ExplicitEuler<example::System>>(system));
-    if (method == "verlet") return wrap(std::make_shared<taut::VelocityVerlet<example::System>>(system));
-    if (method == "implicit") return wrap(std::make_shared<taut::ImplicitEuler<example::System>>(system));
+    if (method == "explicit")
+        return wrap(std::make_shared<taut::ExplicitEuler<example::System>>(system));
+    if (method == "verlet")
+        return wrap(std::make_shared<taut::VelocityVerlet<example::System>>(system));
+    if (method == "implicit")
+        return wrap(std::make_shared<taut::ImplicitEuler<example::System>>(system));
     return wrap(std::make_shared<taut::SymplecticEuler<example::System>>(system));
 }
 
@@ -76,7 +79,8 @@ int simulate(const Options& options, const example::Scene& scene) {
     const int frames = std::max(1, static_cast<int>(wanted_frames));
     const double wanted = options.step > 0 ? options.step : default_step(options, system);
     const double frame_time = options.duration / frames;
-    const auto substeps = std::max<taut::Index>(1, static_cast<taut::Index>(std::ceil(frame_time / wanted)));
+    const auto substeps =
+        std::max<taut::Index>(1, static_cast<taut::Index>(std::ceil(frame_time / wanted)));
     const double h = frame_time / static_cast<double>(substeps);
     std::printf("%s\n%s steps of %.4e s, %lld for each of %d frames of %.4g s\n",
                 example::describe(scene).c_str(), options.method.c_str(), h,
@@ -105,7 +109,8 @@ int simulate(const Options& options, const example::Scene& scene) {
         const double kinetic = system.kinetic_energy(state);
         const double potential = system.potential_energy(state);
         highest = std::max(highest, kinetic + potential);
-        std::fprintf(csv, "%.9g,%.9g,%.9g,%.9g\n", state.time, kinetic, potential, kinetic + potential);
+        std::fprintf(csv, "%.9g,%.9g,%.9g,%.9g\n", state.time, kinetic, potential,
+                     kinetic + potential);
         if (kinetic + potential > start_energy + allowance) {
             char text[96];
             std::snprintf(text, sizeof text, "the energy rose from %.3g J to %.3g J", start_energy,
@@ -113,27 +118,31 @@ int simulate(const Options& options, const example::Scene& scene) {
             trouble = text;
         } else if (!taut::write_obj(frame_path(options.output, frame), state.x, scene.faces)) {
             std::fclose(csv);
-            throw std::runtime_error("--output: " + frame_path(options.output, frame) + " cannot be written");
+            throw std::runtime_error("--output: " + frame_path(options.output, frame) +
+                                     " cannot be written");
         }
         if (!options.quiet && frame % std::max(1, frames / 10) == 0) {
             std::fprintf(stderr, "%7.3f of %.3f s, energy %.4g J\n", state.time, options.duration,
                          kinetic + potential);
         }
     }
-    if (std::fclose(csv) != 0) throw std::runtime_error("--output: " + table + " cannot be written");
+    if (std::fclose(csv) != 0)
+        throw std::runtime_error("--output: " + table + " cannot be written");
     if (!trouble.empty()) {
-        std::fprintf(stderr,
-                     "drape: the simulation diverged in the frame after %.4g s: %s.\n"
-                     "The step %.4e s is too large for this scene and method; stability_report says "
-                     "which steps are safe.\n",
-                     state.time, trouble.c_str(), h);
+        std::fprintf(
+            stderr,
+            "drape: the simulation diverged in the frame after %.4g s: %s.\n"
+            "The step %.4e s is too large for this scene and method; stability_report says "
+            "which steps are safe.\n",
+            state.time, trouble.c_str(), h);
         return diverged;
     }
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    std::printf("%.4g s simulated in %.3g s; highest energy %.3e J above the start\n"
-                "%s/frame_*.obj (in Blender: import one after another, or an OBJ sequence add-on), %s\n",
-                state.time, seconds, highest - start_energy, options.output.c_str(), table.c_str());
+    std::printf(
+        "%.4g s simulated in %.3g s; highest energy %.3e J above the start\n"
+        "%s/frame_*.obj (in Blender: import one after another, or an OBJ sequence add-on), %s\n",
+        state.time, seconds, highest - start_energy, options.output.c_str(), table.c_str());
     return 0;
 }
 
@@ -144,8 +153,9 @@ int run(int argc, char** argv) {
     app.add_option("--method", options.method, "symplectic, verlet, explicit or implicit")
         ->check(CLI::IsMember({"symplectic", "verlet", "explicit", "implicit"}))
         ->capture_default_str();
-    app.add_option("--step", options.step,
-                   "largest time step, s (default: 0.95 of the any-pose limit; implicit: one frame)")
+    app.add_option(
+           "--step", options.step,
+           "largest time step, s (default: 0.95 of the any-pose limit; implicit: one frame)")
         ->check(example::positive());
     app.add_option("--duration", options.duration, "simulated time, s")
         ->check(example::positive())

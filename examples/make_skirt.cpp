@@ -59,8 +59,8 @@ int main(int argc, char** argv) {
         for (int c = 0; c < columns; ++c) {
             const int a = r * columns + c + 1;  // OBJ counts from 1
             const int b = r * columns + (c + 1) % columns + 1;
-            const int d = a + columns;  // below a
-            const int e = b + columns;  // below b
+            const int d = a + columns;           // below a
+            const int e = b + columns;           // below b
             const bool even = (r + c) % 2 == 0;  // the diagonal is a-e or b-d in turns
             std::snprintf(line, sizeof line, "f %d %d %d\nf %d %d %d\n", a, b, even ? e : d,
                           even ? a : b, e, d);

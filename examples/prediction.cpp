@@ -21,7 +21,7 @@ struct Trial {
     double predicted = 0;  // |μ| of the limiting mode
     double measured = 0;   // growth a step, the geometric mean
     taut::Index steps = 0;
-    double largest = 0;    // amplitude met, relative to the first
+    double largest = 0;  // amplitude met, relative to the first
     bool finite = true;
 };
 
@@ -41,9 +41,11 @@ Trial try_step(const Linear& system, const taut::LimitingMode& mode, double h) {
     const double growth = std::log(trial.predicted);
     trial.steps = growth > 1e-4 ? std::lround(std::log(1e3) / growth) : 4000;
 
-    // x⁺ = μx fixes the velocity that belongs to x: by the new one (symplectic) or the old (explicit).
+    // x⁺ = μx fixes the velocity that belongs to x: by the new one (symplectic) or the old
+    // (explicit).
     const bool explicit_euler = Stepper::method == Method::explicit_euler;
-    const std::complex<double> speed = (larger - 1.0) / (explicit_euler ? std::complex<double>(h) : h * larger);
+    const std::complex<double> speed =
+        (larger - 1.0) / (explicit_euler ? std::complex<double>(h) : h * larger);
     auto state = system.initial_state();
     state.x = 1e-3 * mode.shape.transpose();
     state.v = speed.real() * state.x;
@@ -62,7 +64,8 @@ Trial try_step(const Linear& system, const taut::LimitingMode& mode, double h) {
 
 /// Prints a trial and says whether it went as predicted.
 bool print_trial(const char* label, double h, const Trial& trial, bool stable) {
-    // Twenty is room for the transients of a non-normal step; 2 % for modes close to the limiting one.
+    // Twenty is room for the transients of a non-normal step; 2 % for modes close to the limiting
+    // one.
     const bool as_predicted = stable ? trial.finite && trial.largest < 20
                                      : std::abs(trial.measured / trial.predicted - 1) < 0.02;
     std::printf("  %-34s %.4e s %8lld  %10.6f %10.6f  %8.2g  %s\n", label, h,
@@ -78,7 +81,8 @@ bool try_limit(const char* label, const Linear& linear, const taut::StepLimit<do
     bool good = print_trial((name + ", 0.99 certified").c_str(), 0.99 * limit.certified,
                             try_step<Stepper>(linear, mode, 0.99 * limit.certified), true);
     good = print_trial((name + ", 1.01 refuted").c_str(), 1.01 * limit.refuted,
-                       try_step<Stepper>(linear, mode, 1.01 * limit.refuted), false) && good;
+                       try_step<Stepper>(linear, mode, 1.01 * limit.refuted), false) &&
+           good;
     return good;
 }
 
@@ -89,9 +93,10 @@ Linear unforced(const example::System& system) {
 }
 
 bool try_linearised(example::System& system) {
-    std::printf("The linearised scene, unforced, started in its limiting mode\n"
-                "  %-34s %-12s %8s  %10s %10s  %8s\n", "", "step", "steps", "predicted", "measured",
-                "largest");
+    std::printf(
+        "The linearised scene, unforced, started in its limiting mode\n"
+        "  %-34s %-12s %8s  %10s %10s  %8s\n",
+        "", "step", "steps", "predicted", "measured", "largest");
     const auto pose = system.initial_state();
     bool good = true;
     {
@@ -109,9 +114,10 @@ bool try_linearised(example::System& system) {
         std::printf("  with alpha = %.3e s, inside the window (%.3e, %.3e) s of h = %.3e s:\n",
                     system.rayleigh().stiffness_proportional, window.lower, window.upper, h);
         const taut::Stability<double> damped(system, pose);
-        good = try_limit<taut::ExplicitEuler<Linear>>(
-                   "explicit Euler", unforced(system), damped.max_step(Method::explicit_euler),
-                   damped.limiting_mode()) && good;
+        good = try_limit<taut::ExplicitEuler<Linear>>("explicit Euler", unforced(system),
+                                                      damped.max_step(Method::explicit_euler),
+                                                      damped.limiting_mode()) &&
+               good;
         system.set_rayleigh({});
     }
     return good;
@@ -132,19 +138,22 @@ bool try_moving(const example::System& system, double duration) {
         lowest = std::min(lowest, energy);
         highest = std::max(highest, energy);
     }
-    // The energy of a stable symplectic step swings about a constant; an unstable one grows without bound.
+    // The energy of a stable symplectic step swings about a constant; an unstable one grows without
+    // bound.
     good = good && highest - lowest <= 0.1 * kinetic;
-    std::printf("The moving cloth, symplectic Euler at 0.95 of the any-pose limit, %.4e s, for %.3g s\n"
-                "  energy within [%+.2e, %+.2e] J of its start, largest kinetic energy %.2e J: %s\n",
-                h, state.time, lowest - start, highest - start, kinetic,
-                good ? "bounded" : "NOT AS PREDICTED");
+    std::printf(
+        "The moving cloth, symplectic Euler at 0.95 of the any-pose limit, %.4e s, for %.3g s\n"
+        "  energy within [%+.2e, %+.2e] J of its start, largest kinetic energy %.2e J: %s\n",
+        h, state.time, lowest - start, highest - start, kinetic,
+        good ? "bounded" : "NOT AS PREDICTED");
     return good;
 }
 
 int run(int argc, char** argv) {
     example::SceneOptions options;
     double duration = 2;
-    CLI::App app{"Compares predicted and simulated stability of a scene. Exit code 2: they differ."};
+    CLI::App app{
+        "Compares predicted and simulated stability of a scene. Exit code 2: they differ."};
     options.add_to(app);
     app.add_option("--duration", duration, "simulated time of the moving cloth, s")
         ->check(example::positive())

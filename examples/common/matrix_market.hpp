@@ -62,11 +62,14 @@ inline taut::SparseMatrix<double> read_matrix_market(const std::string& path) {
     std::vector<Eigen::Triplet<double>> triplets;
     const auto add = [&](long long i, long long j, double value) {
         triplets.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
-        if (symmetric && i != j) triplets.emplace_back(static_cast<int>(j), static_cast<int>(i), value);
+        if (symmetric && i != j)
+            triplets.emplace_back(static_cast<int>(j), static_cast<int>(i), value);
     };
     if (coordinate) {
         for (long long e = 0; e < entries; ++e) {
-            if (!next()) fail("ends after " + std::to_string(e) + " of " + std::to_string(entries) + " entries");
+            if (!next())
+                fail("ends after " + std::to_string(e) + " of " + std::to_string(entries) +
+                     " entries");
             std::istringstream entry(line);
             long long i = 0, j = 0;
             std::string number;

@@ -14,8 +14,8 @@
 namespace example {
 
 struct MeshFile {
-    taut::Points<double, 3> vertices;               // 3 × V, m
-    std::vector<std::vector<taut::Index>> faces;    // corners, 0-based
+    taut::Points<double, 3> vertices;             // 3 × V, m
+    std::vector<std::vector<taut::Index>> faces;  // corners, 0-based
 };
 
 /// Reads an OBJ file; polygons stay whole. Throws std::runtime_error naming the file.

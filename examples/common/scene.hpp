@@ -46,8 +46,8 @@ struct SceneOptions {
     double bend = 100;      // N/m
     double mass = 0.3;      // kg
     std::string pins;
-    double d0 = 0;          // 1/s
-    double alpha = 0;       // s
+    double d0 = 0;     // 1/s
+    double alpha = 0;  // s
 
     /// Declares the options on `app`.
     void add_to(CLI::App& app) {
@@ -107,8 +107,8 @@ inline Scene hanging_cloth_scene(const SceneOptions& options) {
     cloth.stretch = options.stretch;
     cloth.bend = options.bend;
     cloth.mass = options.mass;
-    Scene scene{"hanging_cloth " + std::to_string(options.size), taut::hanging_cloth<double>(cloth),
-                {}, 0};
+    Scene scene{
+        "hanging_cloth " + std::to_string(options.size), taut::hanging_cloth<double>(cloth), {}, 0};
     for (taut::Index r = 0; r + 1 < cloth.rows; ++r) {
         for (taut::Index c = 0; c + 1 < cloth.columns; ++c) {
             const taut::Index i = r * cloth.columns + c;
@@ -137,7 +137,8 @@ inline Scene make_scene(const SceneOptions& options) {
         }
         scene.system.set_gravity({0, -9.81, 0});
     }
-    const auto vertices = built_in ? scene.system.size() : static_cast<taut::Index>(particle.size());
+    const auto vertices =
+        built_in ? scene.system.size() : static_cast<taut::Index>(particle.size());
     for (const taut::Index pin : pins) {
         if (pin >= vertices) {
             throw std::runtime_error("--pin: vertex " + std::to_string(pin) + " does not exist; " +
@@ -145,7 +146,8 @@ inline Scene make_scene(const SceneOptions& options) {
                                      " vertices, numbered from 0");
         }
         if (!built_in && particle[pin] < 0) {
-            throw std::runtime_error("--pin: vertex " + std::to_string(pin) + " is used by no face");
+            throw std::runtime_error("--pin: vertex " + std::to_string(pin) +
+                                     " is used by no face");
         }
         scene.system.pin(built_in ? pin : particle[pin]);
     }
@@ -156,8 +158,9 @@ inline Scene make_scene(const SceneOptions& options) {
 /// One line about the scene.
 inline std::string describe(const Scene& scene) {
     std::ostringstream text;
-    text << scene.name << ": " << scene.system.size() << " particles (" << scene.system.pinned_count()
-         << " pinned), " << scene.system.spring_count() << " springs";
+    text << scene.name << ": " << scene.system.size() << " particles ("
+         << scene.system.pinned_count() << " pinned), " << scene.system.spring_count()
+         << " springs";
     if (scene.unused_vertices > 0) {
         text << "; " << scene.unused_vertices << " vertices that no face uses are left out";
     }

@@ -15,4 +15,6 @@
 #include "scene/mesh.hpp"
 #include "solver/static_equilibrium.hpp"
 #include "stability/any_pose.hpp"
+#include "stability/mass_scaling.hpp"
+#include "stability/rayleigh_design.hpp"
 #include "stability/stability.hpp"

@@ -18,14 +18,21 @@ struct detector<std::void_t<Operation<Args...>>, Operation, Args...> : std::true
 template <template <class...> class Operation, class... Args>
 inline constexpr bool is_detected_v = detector<void, Operation, Args...>::value;
 
-template <class T> using scalar_of = typename T::Scalar;
-template <class T> using state_of = typename T::State;
 template <class T>
-using force_of = decltype(std::declval<const T&>().force(
-    std::declval<const typename T::State&>(), std::declval<decltype(T::State::x)&>()));
-template <class T> using size_of = decltype(std::declval<const T&>().size());
-template <class T> using inverse_mass_of = decltype(std::declval<const T&>().inverse_mass());
-template <class T> using revision_of = decltype(std::declval<const T&>().revision());
+using scalar_of = typename T::Scalar;
+template <class T>
+using state_of = typename T::State;
+template <class T>
+using force_of = decltype(std::declval<const T&>().force(std::declval<const typename T::State&>(),
+                                                         std::declval<decltype(T::State::x)&>()));
+template <class T>
+using size_of = decltype(std::declval<const T&>().size());
+template <class T>
+using inverse_mass_of = decltype(std::declval<const T&>().inverse_mass());
+template <class T>
+using revision_of = decltype(std::declval<const T&>().revision());
+template <class T>
+using force_revision_of = decltype(std::declval<const T&>().force_revision());
 
 template <class Solver, class Matrix>
 using analyze_pattern_of =
@@ -34,7 +41,8 @@ template <class Solver, class Matrix>
 using factorize_of = decltype(std::declval<Solver&>().factorize(std::declval<const Matrix&>()));
 template <class Solver, class Vector>
 using solve_of = decltype(std::declval<const Solver&>().solve(std::declval<const Vector&>()));
-template <class Solver> using up_lo_of = decltype(Solver::UpLo);
+template <class Solver>
+using up_lo_of = decltype(Solver::UpLo);
 
 }  // namespace detail
 
@@ -49,10 +57,14 @@ constexpr void require_system() {
                   "taut::System: needs `Index size() const`, the number of particles");
     static_assert(detail::is_detected_v<detail::force_of, T>,
                   "taut::System: needs `void force(const State&, Points& f) const`");
-    static_assert(detail::is_detected_v<detail::inverse_mass_of, T>,
-                  "taut::System: needs `inverse_mass() const`, 1/kg for each particle, 0 if pinned");
+    static_assert(
+        detail::is_detected_v<detail::inverse_mass_of, T>,
+        "taut::System: needs `inverse_mass() const`, 1/kg for each particle, 0 if pinned");
     static_assert(detail::is_detected_v<detail::revision_of, T>,
                   "taut::System: needs `revision() const`, a number that changes with the system");
+    static_assert(
+        detail::is_detected_v<detail::force_revision_of, T>,
+        "taut::System: needs `force_revision() const`, a number that changes with the force");
 }
 
 /// The Solver concept: Eigen's own sparse solver interface, so that every Eigen solver fits.

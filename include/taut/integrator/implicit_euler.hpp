@@ -36,7 +36,7 @@ public:
 
     /// Keeps a reference: the system must outlive the stepper.
     explicit ImplicitEuler(const System& system) : system_(&system) {}
-    explicit ImplicitEuler(System&&) = delete;
+    explicit ImplicitEuler(const System&&) = delete;
 
     /// Takes `count` steps of h, s, finite and > 0. On failure the state is as it was before.
     /// The report's residual is that of the last linear solve, relative to its right-hand side.

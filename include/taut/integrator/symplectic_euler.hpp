@@ -23,13 +23,14 @@ public:
 
     /// Keeps a reference: the system must outlive the stepper.
     explicit SymplecticEuler(const System& system) : system_(&system) {}
-    explicit SymplecticEuler(System&&) = delete;
+    explicit SymplecticEuler(const System&&) = delete;
 
     /// Takes `count` steps of h, s, finite and > 0. On failure the state is as it was before.
     Report step(State& state, Scalar h, Index count = 1) {
         return loop_.run(*system_, state, h, count, [&]() -> Report {
             system_->force(state, f_);
-            state.v.array() += h * (f_.array().rowwise() * system_->inverse_mass().transpose().array());
+            state.v.array() +=
+                h * (f_.array().rowwise() * system_->inverse_mass().transpose().array());
             state.x += h * state.v;
             return {};
         });

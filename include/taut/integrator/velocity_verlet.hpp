@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+
 #include "../core/method.hpp"
 #include "detail/step_loop.hpp"
 
@@ -24,7 +26,7 @@ public:
 
     /// Keeps a reference: the system must outlive the stepper.
     explicit VelocityVerlet(const System& system) : system_(&system) {}
-    explicit VelocityVerlet(System&&) = delete;
+    explicit VelocityVerlet(const System&&) = delete;
 
     /// Takes `count` steps of h, s, finite and > 0. On failure the state is as it was before.
     Report step(State& state, Scalar h, Index count = 1) {
@@ -34,13 +36,14 @@ public:
             known = true;
             kick(state, h / 2);
             state.x += h * state.v;
+            state.time += h;
             system_->force(state, f_);
             kick(state, h / 2);
             return {};
         });
         if (report) {
             last_ = state;
-            revision_ = system_->revision();
+            revision_ = system_->force_revision();
         } else {
             last_.x.resize(Eigen::NoChange, 0);
         }
@@ -52,16 +55,16 @@ private:
         state.v.array() += h * (f_.array().rowwise() * system_->inverse_mass().transpose().array());
     }
     bool force_is_known(const State& state) const {
-        return system_->revision() == revision_ && last_.x.cols() == state.x.cols() &&
+        return system_->force_revision() == revision_ && last_.x.cols() == state.x.cols() &&
                state.x.cols() > 0 && state.time == last_.time && state.x == last_.x &&
                state.v == last_.v;
     }
 
     const System* system_;
     detail::StepLoop<State> loop_;
-    decltype(State::x) f_;         // force at the end of the last step, Dim × n, N
-    State last_;                   // the state that f_ belongs to
-    std::uint64_t revision_ = 0;   // and the system's revision
+    decltype(State::x) f_;        // force at the end of the last step, Dim × n, N
+    State last_;                  // the state that f_ belongs to
+    std::uint64_t revision_ = 0;  // and the system's force_revision()
 };
 
 }  // namespace taut

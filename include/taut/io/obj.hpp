@@ -10,8 +10,9 @@
 
 namespace taut {
 
-/// Writes points and faces as a Wavefront OBJ file, metres, one vertex a particle; corner indices are
-/// 0-based here and 1-based in the file. A scene in one or two dimensions gets zeros for the rest.
+/// Writes points and faces as a Wavefront OBJ file, metres, one vertex a particle; corner indices
+/// are 0-based here and 1-based in the file. A scene in one or two dimensions gets zeros for the
+/// rest.
 /// @returns false when the file cannot be written completely
 template <class Scalar, int Dim>
 bool write_obj(const std::string& path, const Points<Scalar, Dim>& x,
@@ -25,7 +26,8 @@ bool write_obj(const std::string& path, const Points<Scalar, Dim>& x,
     }
     for (const auto& face : faces) {
         std::fputc('f', file);
-        for (const Index corner : face) std::fprintf(file, " %lld", static_cast<long long>(corner) + 1);
+        for (const Index corner : face)
+            std::fprintf(file, " %lld", static_cast<long long>(corner) + 1);
         std::fputc('\n', file);
     }
     const bool written = std::ferror(file) == 0;

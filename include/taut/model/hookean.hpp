@@ -20,7 +20,9 @@ struct Hookean {
 
         void require_valid() const { require_non_negative("Hookean", "stiffness", stiffness); }
         template <class Other>
-        Parameters<Other> cast() const { return {static_cast<Other>(stiffness)}; }
+        Parameters<Other> cast() const {
+            return {static_cast<Other>(stiffness)};
+        }
     };
 
     /// T(l), N; positive pulls the ends together.

@@ -18,9 +18,9 @@ namespace taut {
 template <class Scalar>
 struct FreeMap {
     int dim = 0;
-    Index particles = 0;          ///< of the spring system, pinned ones included
-    std::vector<Index> free;      ///< their indices, ascending
-    VectorX<Scalar> pose;         ///< N, m: the free coordinates that u = 0 stands for
+    Index particles = 0;      ///< of the spring system, pinned ones included
+    std::vector<Index> free;  ///< their indices, ascending
+    VectorX<Scalar> pose;     ///< N, m: the free coordinates that u = 0 stands for
 };
 
 /// The linear system M ü + D u̇ + K u = f [T1] with any sparse D and K, symmetric or not
@@ -48,6 +48,7 @@ public:
     const Vector& load() const { return load_; }
     /// Always 0: the matrices do not change after construction.
     std::uint64_t revision() const { return 0; }
+    std::uint64_t force_revision() const { return 0; }
 
     State initial_state() const { return {State::zero(size()), State::zero(size()), Scalar(0)}; }
 
@@ -127,7 +128,8 @@ GeneralLinearSystem<Scalar>::GeneralLinearSystem(Vector mass, Matrix damping, Ma
     const Index N = mass_.size();
     if (N == 0) fail("LinearSystem: mass is empty; at least one degree of freedom is needed");
     for (Index i = 0; i < N; ++i) {
-        if (!(mass_[i] > 0) || !std::isfinite(mass_[i])) {
+        // 1/mass must be finite too, or a step would divide by zero.
+        if (!(mass_[i] > 0) || !std::isfinite(mass_[i]) || !std::isfinite(1 / mass_[i])) {
             fail("LinearSystem: mass[", i, "] is ", mass_[i], "; it must be finite and > 0");
         }
     }

@@ -18,8 +18,18 @@
 #include "tangent_matrix.hpp"
 
 namespace taut {
+namespace detail {
 
-/// Particles joined by springs: M ẍ = f(x, v) [T1] with gravity, pins, dampers and Rayleigh damping.
+template <class... Types>
+inline constexpr bool all_different = true;
+template <class First, class... Rest>
+inline constexpr bool all_different<First, Rest...> =
+    !(std::is_same_v<First, Rest> || ...) && all_different<Rest...>;
+
+}  // namespace detail
+
+/// Particles joined by springs: M ẍ = f(x, v) [T1] with gravity, pins, dampers and Rayleigh
+/// damping.
 ///
 /// Each law of `Laws` (none means Hookean) keeps its own springs. Spring indices count the laws in
 /// the order they are named, and within one law the order of adding. A pinned particle ignores
@@ -28,8 +38,9 @@ template <class Scalar_, int Dim_, class... Laws>
 class SpringSystem {
     static_assert(std::is_floating_point_v<Scalar_>,
                   "taut::SpringSystem<Scalar, Dim>: Scalar must be float, double or long double");
-    static_assert(Dim_ >= 1 && Dim_ <= 3,
-                  "taut::SpringSystem<Scalar, Dim>: Dim must be 1, 2 or 3");
+    static_assert(Dim_ >= 1 && Dim_ <= 3, "taut::SpringSystem<Scalar, Dim>: Dim must be 1, 2 or 3");
+    static_assert(detail::all_different<Laws...>,
+                  "taut::SpringSystem<Scalar, Dim, Laws...>: each law is named once");
 
 public:
     using Scalar = Scalar_;
@@ -39,8 +50,9 @@ public:
     using Force = Points<Scalar, Dim>;
     /// Adds forces, N, to its second argument (Dim × n). Taken as constant over a step.
     using ExternalForce = std::function<void(const State&, Force&)>;
-    using SpringSets = std::conditional_t<sizeof...(Laws) == 0, std::tuple<SpringSet<Scalar, Hookean>>,
-                                          std::tuple<SpringSet<Scalar, Laws>...>>;
+    using SpringSets =
+        std::conditional_t<sizeof...(Laws) == 0, std::tuple<SpringSet<Scalar, Hookean>>,
+                           std::tuple<SpringSet<Scalar, Laws>...>>;
     using FirstLaw = typename std::tuple_element_t<0, SpringSets>::Law;
 
     // ---- building; every call is checked, wrong values go to fail() ----
@@ -65,7 +77,10 @@ public:
     /// @param rayleigh  both factors finite and ≥ 0; acts through K⁺ [T28]
     void set_rayleigh(const RayleighDamping& rayleigh);
     /// The analysis does not see this force's dependence on x and v.
-    void set_external_force(ExternalForce force) { external_force_ = std::move(force); }
+    void set_external_force(ExternalForce force) {
+        external_force_ = std::move(force);
+        ++force_revision_;
+    }
 
     // ---- queries ----
 
@@ -75,13 +90,19 @@ public:
     bool is_pinned(Index i) const { return inverse_mass_[i] == Scalar(0); }
     Scalar mass(Index i) const { return mass_[i]; }
     /// 1/kg for each particle, 0 for a pinned one.
-    Eigen::Map<const VectorX<Scalar>> inverse_mass() const { return {inverse_mass_.data(), size()}; }
+    Eigen::Map<const VectorX<Scalar>> inverse_mass() const {
+        return {inverse_mass_.data(), size()};
+    }
     const RayleighDamping& rayleigh() const { return rayleigh_; }
     const Vector& gravity() const { return gravity_; }
     template <class Law = FirstLaw>
-    const SpringSet<Scalar, Law>& springs() const { return std::get<SpringSet<Scalar, Law>>(sets_); }
+    const SpringSet<Scalar, Law>& springs() const {
+        return std::get<SpringSet<Scalar, Law>>(sets_);
+    }
     /// Changes whenever springs, masses, pins or damping do: whatever a step limit depends on.
     std::uint64_t revision() const { return revision_; }
+    /// Changes whenever the force may have: with revision(), gravity and the external force.
+    std::uint64_t force_revision() const { return revision_ + force_revision_; }
     /// Changes whenever the sparsity pattern of the free matrices does.
     std::uint64_t topology_revision() const { return topology_revision_; }
 
@@ -98,7 +119,9 @@ public:
     Scalar kinetic_energy(const State& state) const;
     /// Energy of springs and gravity, J; external forces have none.
     Scalar potential_energy(const State& state) const;
-    Scalar energy(const State& state) const { return kinetic_energy(state) + potential_energy(state); }
+    Scalar energy(const State& state) const {
+        return kinetic_energy(state) + potential_energy(state);
+    }
     /// M, D, K and load of the free degrees of freedom about `state`: K = −∂f/∂x with every
     /// damping velocity taken as 0, D = −∂f/∂v with Rayleigh on K⁺ [T2], [T28].
     /// Fails when every particle is pinned.
@@ -130,11 +153,12 @@ private:
     std::vector<Scalar> mass_;          // kg, of pinned particles too
     std::vector<Scalar> inverse_mass_;  // 1/kg, 0 if pinned
     SpringSets sets_;
-    Vector gravity_ = Vector::Zero();   // m/s²
+    Vector gravity_ = Vector::Zero();  // m/s²
     RayleighDamping rayleigh_;
     ExternalForce external_force_;
     std::uint64_t revision_ = 0;
     std::uint64_t topology_revision_ = 0;
+    std::uint64_t force_revision_ = 0;  // of gravity and the external force
 };
 
 }  // namespace taut

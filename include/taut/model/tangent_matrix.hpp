@@ -58,12 +58,12 @@ private:
         int ab;  // place of block (a, b) in column b, or -1 when an end is pinned
         int ba;  // place of block (b, a) in column a
     };
-    std::vector<Index> free_;      // free particles, ascending
-    std::vector<Index> column_;    // particle → block column, or -1
-    std::vector<Index> first_;     // block column → number of blocks before it
-    std::vector<int> rows_;        // block rows of all columns, ascending in each
-    std::vector<int> diagonal_;    // block column → place of its diagonal block
-    std::vector<Slots> slots_;     // one for each spring, in the order of for_each_spring
+    std::vector<Index> free_;    // free particles, ascending
+    std::vector<Index> column_;  // particle → block column, or -1
+    std::vector<Index> first_;   // block column → number of blocks before it
+    std::vector<int> rows_;      // block rows of all columns, ascending in each
+    std::vector<int> diagonal_;  // block column → place of its diagonal block
+    std::vector<Slots> slots_;   // one for each spring, in the order of for_each_spring
 };
 
 template <class Scalar, int Dim>
@@ -99,9 +99,9 @@ TangentMatrix<Scalar, Dim>::TangentMatrix(const System& system) {
         diagonal_.push_back(place(static_cast<Index>(j), static_cast<Index>(j)));
     }
     system.for_each_spring([&](Index a, Index b) {
-        slots_.push_back(both_free(a, b) ? Slots{place(column_[a], column_[b]),
-                                                 place(column_[b], column_[a])}
-                                         : Slots{-1, -1});
+        slots_.push_back(both_free(a, b)
+                             ? Slots{place(column_[a], column_[b]), place(column_[b], column_[a])}
+                             : Slots{-1, -1});
     });
 }
 
@@ -143,10 +143,10 @@ void TangentMatrix<Scalar, Dim>::assemble(const System& system, const Points<Sca
         const Index b = column_[raw.b];
         const auto plus = raw.projected();
         const auto& k = c.project ? plus : raw;
-        const Scalar axial =
-            on_k * k.axial + on_k_plus * plus.axial + on_damper * raw.damping;
+        const Scalar axial = on_k * k.axial + on_k_plus * plus.axial + on_damper * raw.damping;
         const Scalar transverse = on_k * k.transverse + on_k_plus * plus.transverse;
-        Block P = (axial - transverse) * raw.d * raw.d.transpose();
+        const Block dd = raw.d * raw.d.transpose();  // first, so that P is symmetric to the bit
+        Block P = (axial - transverse) * dd;
         P.diagonal().array() += transverse;
         if (a >= 0) add(values, diagonal_[a], a, P);
         if (b >= 0) add(values, diagonal_[b], b, P);

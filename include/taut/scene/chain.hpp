@@ -12,16 +12,16 @@ namespace taut {
 enum class ChainEnds { fixed_fixed, fixed_free, free_free, ring };
 
 struct ChainOptions {
-    Index masses = 8;                      ///< free particles, ≥ 1 (≥ 2 in free_free, ≥ 3 in a ring)
+    Index masses = 8;  ///< free particles, ≥ 1 (≥ 2 in free_free, ≥ 3 in a ring)
     ChainEnds ends = ChainEnds::fixed_fixed;
-    double mass = 1;                       ///< of each particle, kg
-    double stiffness = 1;                  ///< of each spring, N/m
-    double spacing = 1;                    ///< distance of neighbours, m
-    bool zero_rest_length = false;         ///< else springs are at rest as laid out
+    double mass = 1;                ///< of each particle, kg
+    double stiffness = 1;           ///< of each spring, N/m
+    double spacing = 1;             ///< distance of neighbours, m
+    bool zero_rest_length = false;  ///< else springs are at rest as laid out
 };
 
-/// Equal masses and springs in a row along the first axis, or in a circle (for Dim = 1 too a ring is
-/// closed by a spring from the last to the first). Free particles come first, pinned ones last.
+/// Equal masses and springs in a row along the first axis, or in a circle (for Dim = 1 too a ring
+/// is closed by a spring from the last to the first). Free particles come first, pinned ones last.
 /// The eigenvalues of M⁻¹K along the chain have closed forms (docs/theory.md, closed forms).
 template <class Scalar, int Dim = 1>
 SpringSystem<Scalar, Dim> chain(const ChainOptions& options = {}) {
@@ -35,8 +35,9 @@ SpringSystem<Scalar, Dim> chain(const ChainOptions& options = {}) {
         Vector x = Vector::Zero();
         if constexpr (Dim >= 2) {
             if (ring) {
-                const double angle = 2 * EIGEN_PI * static_cast<double>(i) / static_cast<double>(n);
-                const double radius = options.spacing / (2 * std::sin(EIGEN_PI / static_cast<double>(n)));
+                const double sector = 2 * static_cast<double>(EIGEN_PI) / static_cast<double>(n);
+                const double angle = sector * static_cast<double>(i);
+                const double radius = options.spacing / (2 * std::sin(sector / 2));
                 x[0] = static_cast<Scalar>(radius * std::cos(angle));
                 x[1] = static_cast<Scalar>(radius * std::sin(angle));
                 return x;

@@ -6,20 +6,20 @@
 
 namespace taut {
 
-/// A rectangular cloth of rows × columns particles in the plane z = 0. Defaults: the reference scene
-/// of the benchmarks.
+/// A rectangular cloth of rows × columns particles in the plane z = 0. Defaults: the reference
+/// scene of the benchmarks.
 struct ClothOptions {
     Index rows = 64;
     Index columns = 64;
-    double height = 1;                ///< extent along y, m
-    double width = 1;                 ///< extent along x, m
-    double mass = 0.3;                ///< of all particles together, kg, in equal parts
-    double stretch = 1000;            ///< stiffness between neighbours and on both diagonals, N/m
-    double bend = 100;                ///< stiffness between particles two apart, N/m; 0: none
-    double gravity = 9.81;            ///< along −z, m/s²
-    bool pin_corners = true;          ///< particles 0 and columns − 1, the corners of one edge
+    double height = 1;        ///< extent along y, m
+    double width = 1;         ///< extent along x, m
+    double mass = 0.3;        ///< of all particles together, kg, in equal parts
+    double stretch = 1000;    ///< stiffness between neighbours and on both diagonals, N/m
+    double bend = 100;        ///< stiffness between particles two apart, N/m; 0: none
+    double gravity = 9.81;    ///< along −z, m/s²
+    bool pin_corners = true;  ///< particles 0 and columns − 1, the corners of one edge
     bool diagonals = true;
-    bool zero_rest_length = false;    ///< else springs are at rest as laid out
+    bool zero_rest_length = false;  ///< else springs are at rest as laid out
 };
 
 /// The cloth of `options`, undamped; particle row·columns + column.
@@ -29,8 +29,10 @@ SpringSystem<Scalar, 3> hanging_cloth(const ClothOptions& options = {}) {
     const Index rows = options.rows;
     const Index columns = options.columns;
     if (rows < 2 || columns < 2) {
-        fail("hanging_cloth: ", rows, " rows and ", columns, " columns; at least 2 of each are needed");
+        fail("hanging_cloth: ", rows, " rows and ", columns,
+             " columns; at least 2 of each are needed");
     }
+    require_non_negative("hanging_cloth", "bend", options.bend);
     SpringSystem<Scalar, 3> system;
     const auto count = static_cast<double>(rows * columns);
     const double dx = options.width / static_cast<double>(columns - 1);

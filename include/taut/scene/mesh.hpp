@@ -24,7 +24,7 @@ struct MeshSprings {
     SpringSystem<Scalar, 3> system;
     std::vector<Index> particle_of_vertex;  ///< −1 for a vertex that no face uses
     Index unused_vertices = 0;
-    Index stretch_springs = 0;              ///< they come first
+    Index stretch_springs = 0;  ///< they come first
     Index bend_springs = 0;
 };
 
@@ -71,12 +71,13 @@ inline void require_faces(const std::vector<std::vector<Index>>& faces, Index ve
     for (std::size_t f = 0; f < faces.size(); ++f) {
         auto corners = faces[f];
         if (corners.size() < 3) {
-            fail("springs_from_mesh: face ", f, " has ", corners.size(), " corners; at least 3 are needed");
+            fail("springs_from_mesh: face ", f, " has ", corners.size(),
+                 " corners; at least 3 are needed");
         }
         for (const Index corner : corners) {
             if (corner < 0 || corner >= vertices) {
-                fail("springs_from_mesh: face ", f, " names vertex ", corner, "; the mesh has ", vertices,
-                     " vertices, numbered from 0");
+                fail("springs_from_mesh: face ", f, " names vertex ", corner, "; the mesh has ",
+                     vertices, " vertices, numbered from 0");
             }
         }
         std::sort(corners.begin(), corners.end());
@@ -107,6 +108,9 @@ MeshSprings<Scalar> springs_from_mesh(const Points<Scalar, 3>& vertices,
     mesh.unused_vertices = vertices.cols() - used;
     for (Index v = 0; v < vertices.cols(); ++v) {
         if (particle[v] < 0) continue;
+        if (!vertices.col(v).allFinite()) {
+            fail("springs_from_mesh: the position of vertex ", v, " is not finite");
+        }
         const auto mass = static_cast<Scalar>(options.mass / static_cast<double>(used));
         particle[v] = mesh.system.add_particle(vertices.col(v), mass);
     }

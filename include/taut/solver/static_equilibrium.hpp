@@ -44,15 +44,15 @@ private:
 
     const System& system_;
     TangentMatrix<Scalar, Dim> tangent_;
-    SparseMatrix<Scalar> A_;                          // K⁺ + σM
+    SparseMatrix<Scalar> A_;  // K⁺ + σM
     Eigen::SimplicialLLT<SparseMatrix<Scalar>> llt_;
     State state_;
     State trial_;
-    Points<Scalar, Dim> f_;                           // Dim × n, N
-    Points<Scalar, Dim> external_;                    // its part without an energy, N
-    VectorX<Scalar> residual_;                        // free forces, N
-    Scalar scale_ = 0;                                // what forces are relative to, N
-    Scalar sigma_ = 0;                                // 1/s²
+    Points<Scalar, Dim> f_;         // Dim × n, N
+    Points<Scalar, Dim> external_;  // its part without an energy, N
+    VectorX<Scalar> residual_;      // free forces, N
+    Scalar scale_ = 0;              // what forces are relative to, N
+    Scalar sigma_ = 0;              // 1/s²
 };
 
 template <class System>
@@ -102,7 +102,8 @@ bool EquilibriumSearch<System>::line_search(const VectorX<Scalar>& dx) {
         }
         system_.force(trial_, f);
         for (const Index i : free) force += f.col(i).squaredNorm();
-        const bool lower = system_.potential_energy(trial_) - work < energy - Scalar(1e-4) * t * descent;
+        const bool lower =
+            system_.potential_energy(trial_) - work < energy - Scalar(1e-4) * t * descent;
         // Close to the solution differences of energy drown in rounding; the forces do not.
         if (lower || force < Scalar(0.25) * residual_.squaredNorm()) {
             state_.x = trial_.x;
@@ -136,9 +137,10 @@ Status EquilibriumSearch<System>::iterate() {
 }  // namespace detail
 
 /// Moves the free particles of `state` to a pose where no force is left: Newton's method and
-/// a line search on the potential energy. Velocities become 0. An external force is taken as constant
-/// within a line search.
-/// @returns not_converged after max_iterations (a scene that falls for ever has no equilibrium), with
+/// a line search on the potential energy. Velocities become 0. An external force is taken as
+/// constant within a line search.
+/// @returns not_converged after max_iterations (a scene that falls for ever has no equilibrium),
+/// with
 ///          the state as it was; residual is the relative force left
 template <class Scalar, int Dim, class... Laws>
 Report static_equilibrium(const SpringSystem<Scalar, Dim, Laws...>& system,
@@ -154,9 +156,10 @@ Report static_equilibrium(const SpringSystem<Scalar, Dim, Laws...>& system,
     detail::EquilibriumSearch<SpringSystem<Scalar, Dim, Laws...>> search(system, state);
     Report report;
     report.residual = search.relative_force();
-    while (report && report.residual > options.tolerance) {
-        if (report.iterations == options.max_iterations) {
-            report.status = Status::not_converged;
+    while (report && !(report.residual <= options.tolerance)) {
+        if (report.iterations >= options.max_iterations || !std::isfinite(report.residual)) {
+            report.status =
+                std::isfinite(report.residual) ? Status::not_converged : Status::diverged;
             break;
         }
         report.status = search.iterate();

@@ -11,10 +11,11 @@ namespace taut {
 /// The step that holds while the scene moves: 4M − 2hL_c − h²L_k ≻ 0 on the graph Laplacians proves
 /// that symplectic Euler (and velocity Verlet) has no multiplier μ ≤ −1 at any pose [T23].
 ///
-/// `certified` is proved; `refuted` is where the condition itself fails: no larger step can be certified
-/// for every pose in this way, though a given pose may allow one. Void when stiffness or damping is
-/// added, mass removed or a particle unpinned (see StepLimit::step_for).
-/// @param tightness  0: by the splitting bound alone [T26]; above 0: narrowed by factorisations of n × n
+/// `certified` is proved; `refuted` is where the condition itself fails: no larger step can be
+/// certified for every pose in this way, though a given pose may allow one. Void when stiffness or
+/// damping is added, mass removed or a particle unpinned (see StepLimit::step_for).
+/// @param tightness  0: by the splitting bound alone [T26]; above 0: narrowed by factorisations of
+/// n × n
 ///                   matrices until refuted/certified ≤ 1 + tightness [T22]
 template <class Cholesky = EigenCholesky, class Scalar, int Dim, class... Laws>
 StepLimit<Scalar> any_pose_limit(const SpringSystem<Scalar, Dim, Laws...>& system,
@@ -24,10 +25,15 @@ StepLimit<Scalar> any_pose_limit(const SpringSystem<Scalar, Dim, Laws...>& syste
     StepLimit<Scalar> limit;
     limit.revision = system.revision();
     detail::Bracket bracket;
-    bracket.certified = laplacian.size() == 0 ? detail::infinity : detail::certified_symplectic(laplacian);
+    bracket.certified =
+        laplacian.size() == 0 ? detail::infinity : detail::certified_symplectic(laplacian);
     if (!std::isfinite(bracket.certified)) {
         limit.certified = limit.refuted = std::numeric_limits<Scalar>::infinity();
         limit.cause = Cause::nothing_to_limit;
+        return limit;
+    }
+    if (!(bracket.certified > 0)) {  // overflow: nothing is proved
+        limit.refuted = std::numeric_limits<Scalar>::infinity();
         return limit;
     }
     const double h = bracket.certified;

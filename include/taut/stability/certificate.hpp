@@ -14,7 +14,7 @@ namespace taut {
 struct DefinitenessProof {
     bool proved = false;  ///< false means not proved, never a disproof
     double shift = 0;     ///< subtracted from the diagonal to pay for all rounding, relative to it
-    double room = 0;      ///< least squared pivot of the unit-diagonal matrix: 1 is far from singular
+    double room = 0;  ///< least squared pivot of the unit-diagonal matrix: 1 is far from singular
 };
 
 namespace detail {
@@ -32,15 +32,17 @@ inline double cholesky_rounding(Index q) {
 /// factorisation of A − cI that runs to completion, with c above all that rounding can hide
 /// (S. M. Rump, Verification of positive definiteness, BIT 2006) [T22].
 ///
-/// A is first scaled to a diagonal near one by powers of two, which is exact and keeps definiteness.
-/// The pattern is analysed once for matrices that share it.
-/// @tparam Cholesky  EigenCholesky, or another factorisation with its interface. Not one whose kernels
+/// A is first scaled to a diagonal near one by powers of two, which is exact and keeps
+/// definiteness. The pattern is analysed once for matrices that share it.
+/// @tparam Cholesky  EigenCholesky, or another factorisation with its interface. Not one whose
+/// kernels
 ///                   multiply by an inverted diagonal block: [T22] does not cover them.
 template <class Cholesky = EigenCholesky>
 class Prover {
 public:
     /// @param A           symmetric, both triangles stored, the same pattern at every call
-    /// @param max_error   max_error(s): a bound on max_i Σ_j s_i |E_ij| s_j, where E are the errors with
+    /// @param max_error   max_error(s): a bound on max_i Σ_j s_i |E_ij| s_j, where E are the errors
+    /// with
     ///                    which A was formed and s > 0 a scaling of its rows and columns
     template <class Error>
     DefinitenessProof operator()(const SparseMatrix<double>& A, Error&& max_error);
@@ -70,9 +72,12 @@ DefinitenessProof Prover<Cholesky>::operator()(const SparseMatrix<double>& A, Er
     const double sum_rounding = 1 + static_cast<double>(N) * u;
     const double trace = S.diagonal().sum() * sum_rounding;
     const double slack = max_error(scale) * sum_rounding;
-    // The last two terms: rounding of S − cI on a diagonal below 4, and underflow in the factorisation.
-    const double underflow = static_cast<double>(N * (widest_ + 1)) * std::numeric_limits<double>::min();
-    proof.shift = (slack + detail::cholesky_rounding(widest_) * trace) * (1 + 8 * u) + 4 * u + underflow;
+    // The last two terms: rounding of S − cI on a diagonal below 4, and underflow in the
+    // factorisation.
+    const double underflow =
+        static_cast<double>(N * (widest_ + 1)) * std::numeric_limits<double>::min();
+    proof.shift =
+        (slack + detail::cholesky_rounding(widest_) * trace) * (1 + 8 * u) + 4 * u + underflow;
     if (!(proof.shift < 0.5)) return proof;
     S.diagonal().array() -= proof.shift;
     ++factorizations_;

@@ -17,12 +17,15 @@ namespace taut {
 /// left out of limits and radii.
 class DenseAnalysis {
 public:
-    explicit DenseAnalysis(const Pencil& pencil);
+    /// @param project  take K⁺ for K
+    explicit DenseAnalysis(const Pencil& pencil, bool project = true);
 
     /// Eigenvalues of K'⁺, ascending, 1/s².
     const Eigen::VectorXd& stiffness_eigenvalues() const { return modes_.eigenvalues(); }
     /// Eigenvectors in the coordinates u: column j has uᵀMu = 1.
-    Eigen::VectorXd mode(Index j) const { return modes_.eigenvectors().col(j).cwiseQuotient(root_); }
+    Eigen::VectorXd mode(Index j) const {
+        return modes_.eigenvectors().col(j).cwiseQuotient(root_);
+    }
     /// Eigenvalues with |k| ≤ this are zero modes.
     double zero_tolerance() const { return zero_; }
     Index zero_modes() const { return (modes_.eigenvalues().array().abs() <= zero_).count(); }
@@ -30,8 +33,8 @@ public:
     /// min over λ(C) of −2 Re λ/|λ|², the exact limit of explicit Euler for any D [T18]; 0 when an
     /// undamped mode allows none, infinity when there is nothing but zero modes.
     double explicit_limit() const { return limits().estimate; }
-    /// The same from above: each λ may err by its condition number times the rounding of C, to first
-    /// order; eigenvalues that this leaves undecided are passed over.
+    /// The same from above: each λ may err by its condition number times the rounding of C, to
+    /// first order; eigenvalues that this leaves undecided are passed over.
     double explicit_limit_above() const { return limits().above; }
     /// Largest |μ| of one step over all modes but the zero modes.
     double spectral_radius(Method method, double h) const;
@@ -50,21 +53,22 @@ private:
     double zero_ = 0;
 };
 
-inline DenseAnalysis::DenseAnalysis(const Pencil& pencil) : root_(pencil.mass().cwiseSqrt()) {
+inline DenseAnalysis::DenseAnalysis(const Pencil& pencil, bool project)
+    : root_(pencil.mass().cwiseSqrt()) {
     const auto scaled = [&](const Combination& c) {
         const Eigen::VectorXd inverse = root_.cwiseInverse();
         const Eigen::MatrixXd S = Eigen::MatrixXd(pencil.assemble(c));
         return Eigen::MatrixXd(inverse.asDiagonal() * S * inverse.asDiagonal());
     };
     D_ = scaled({0, 0, 1});
-    modes_.compute(scaled({0, 1, 0}));
+    modes_.compute(scaled({0, 1, 0, project}));
     const double norm = modes_.eigenvalues().cwiseAbs().maxCoeff();
     zero_ = 64 * static_cast<double>(pencil.size()) * std::numeric_limits<double>::epsilon() * norm;
 }
 
-/// C [T1] in energy coordinates y = √k x of the modes, [[0, S], [−S, −D]] with S = √k: skew-symmetric
-/// but for D, so its eigenvalues are well conditioned under light damping. Zero modes have no y, for no
-/// force depends on it; what is left of λ = 0 is simple.
+/// C [T1] in energy coordinates y = √k x of the modes, [[0, S], [−S, −D]] with S = √k:
+/// skew-symmetric but for D, so its eigenvalues are well conditioned under light damping. Zero
+/// modes have no y, for no force depends on it; what is left of λ = 0 is simple.
 inline Eigen::MatrixXd DenseAnalysis::generator() const {
     const Index N = root_.size();
     const Index r = N - zero_modes();
@@ -79,8 +83,9 @@ inline Eigen::MatrixXd DenseAnalysis::generator() const {
         k[to] = modes_.eigenvalues()[j];
     }
     Eigen::MatrixXd C = Eigen::MatrixXd::Zero(r + N, r + N);
-    C.block(0, r, r, r).diagonal() = k.head(r).cwiseMax(0).cwiseSqrt();
-    C.block(r, 0, r, r).diagonal() = -C.block(0, r, r, r).diagonal();
+    C.block(0, r, r, r).diagonal() = k.head(r).cwiseAbs().cwiseSqrt();
+    C.block(r, 0, r, r).diagonal() =
+        -k.head(r).cwiseSign().cwiseProduct(C.block(0, r, r, r).diagonal());
     C.bottomRightCorner(N, N) = -V.transpose() * D_ * V;
     return C;
 }
@@ -92,16 +97,21 @@ inline DenseAnalysis::Limits DenseAnalysis::limits() const {
     const Eigen::MatrixXcd W = V.partialPivLu().inverse();
     const double rounding =
         4 * static_cast<double>(C.rows()) * std::numeric_limits<double>::epsilon() * C.norm();
+    const bool buckled = modes_.eigenvalues()[0] < -zero_;
     Limits limits;
     for (Index i = 0; i < C.rows(); ++i) {
         const std::complex<double> lambda = solver.eigenvalues()[i];
         if (std::abs(lambda) <= rounding) continue;  // a zero mode's velocity
+        // The growth of a buckled system is not the step's [T27].
+        if (buckled && lambda.real() > 0 && std::abs(lambda.imag()) <= 1e-6 * std::abs(lambda))
+            continue;
         const double size = std::norm(lambda);
         limits.estimate = std::min(limits.estimate, std::max(0.0, -2 * lambda.real() / size));
         const double error = rounding * V.col(i).norm() * W.row(i).norm();
         const double least = std::abs(lambda) - error;
         if (!(least > std::abs(lambda) / 2)) continue;
-        limits.above = std::min(limits.above, 2 * std::max(0.0, error - lambda.real()) / (least * least));
+        limits.above =
+            std::min(limits.above, 2 * std::max(0.0, error - lambda.real()) / (least * least));
     }
     return limits;
 }
@@ -120,7 +130,8 @@ inline double DenseAnalysis::spectral_radius(Method method, double h) const {
             // v⁺ from the old x, then x⁺ from v⁺.
             step = I;
             step.bottomRows(N) += h * C.bottomRows(N);
-            step.topRows(r) += h * C.block(0, r, r, r).diagonal().asDiagonal() * step.middleRows(r, r);
+            step.topRows(r) +=
+                h * C.block(0, r, r, r).diagonal().asDiagonal() * step.middleRows(r, r);
             break;
         }
         case Method::implicit_euler: step = (I - h * C).partialPivLu().inverse(); break;
@@ -128,7 +139,8 @@ inline double DenseAnalysis::spectral_radius(Method method, double h) const {
     double radius = 0;
     for (const auto& mu : Eigen::VectorXcd(step.eigenvalues())) {
         // The velocity of an undamped zero mode: multiplier exactly 1.
-        if (std::abs(mu - 1.0) <= 64 * static_cast<double>(n) * std::numeric_limits<double>::epsilon()) {
+        if (std::abs(mu - 1.0) <=
+            64 * static_cast<double>(n) * std::numeric_limits<double>::epsilon()) {
             continue;
         }
         radius = std::max(radius, std::abs(mu));

@@ -4,6 +4,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "../core/types.hpp"
@@ -25,7 +26,9 @@ public:
     /// @returns whether the factorisation ran to completion
     bool factorize(const SparseMatrix<double>& A) {
         Base::factorize(A);
-        return Base::info() == Eigen::Success;
+        // A NaN passes Eigen's own test for a positive pivot.
+        return Base::info() == Eigen::Success && m_matrix.diagonal().sum() > 0 &&
+               std::isfinite(m_matrix.diagonal().sum());
     }
     /// The smallest squared pivot.
     double least_pivot() const {

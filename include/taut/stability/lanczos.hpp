@@ -20,10 +20,10 @@ struct LanczosOptions {
 
 /// An approximate eigenpair of M⁻¹S.
 struct RitzPair {
-    double value = 0;         ///< 1/s² for K, 1/s for D; never above the largest eigenvalue
-    double residual = 0;      ///< ‖M⁻½(S − value·M)u‖ for the vector of unit M-norm
-    Eigen::VectorXd vector;   ///< u, N, with uᵀM u = 1
-    int products = 0;         ///< multiplications by S spent
+    double value = 0;        ///< 1/s² for K, 1/s for D; never above the largest eigenvalue
+    double residual = 0;     ///< ‖M⁻½(S − value·M)u‖ for the vector of unit M-norm
+    Eigen::VectorXd vector;  ///< u, N, with uᵀM u = 1
+    int products = 0;        ///< multiplications by S spent
 };
 
 namespace detail {
@@ -43,9 +43,9 @@ inline Eigen::VectorXd scattered_vector(Index N, Index seed = 0) {
 
 }  // namespace detail
 
-/// The largest eigenvalue of M⁻¹S from below: Lanczos with full reorthogonalisation and thick restart
-/// (K. Wu and H. Simon, Thick-restart Lanczos method for large symmetric eigenvalue problems, 2000).
-/// Negate the factors of `c` for the smallest one.
+/// The largest eigenvalue of M⁻¹S from below: Lanczos with full reorthogonalisation and thick
+/// restart (K. Wu and H. Simon, Thick-restart Lanczos method for large symmetric eigenvalue
+/// problems, 2000). Negate the factors of `c` for the smallest one.
 /// @param start  an approximate eigenvector to begin with, N; empty: a fixed scattered vector
 inline RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
                                   const LanczosOptions& options = {},
@@ -53,13 +53,13 @@ inline RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
     const Index N = pencil.size();
     const Index m = std::min<Index>(options.basis, N);
     const Eigen::VectorXd root = pencil.mass().cwiseSqrt();
-    Eigen::MatrixXd Q(N, m);                            // orthonormal basis
-    Eigen::MatrixXd H = Eigen::MatrixXd::Zero(m, m);    // QᵀAQ with A = M⁻½SM⁻½
+    Eigen::MatrixXd Q(N, m);                          // orthonormal basis
+    Eigen::MatrixXd H = Eigen::MatrixXd::Zero(m, m);  // QᵀAQ with A = M⁻½SM⁻½
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> projected;
     Eigen::VectorXd w(N);
     Eigen::VectorXd h(m);
-    Eigen::VectorXd q = start.size() == N ? Eigen::VectorXd(root.cwiseProduct(start))
-                                          : detail::scattered_vector(N);
+    Eigen::VectorXd q =
+        start.size() == N ? Eigen::VectorXd(root.cwiseProduct(start)) : detail::scattered_vector(N);
     q.normalize();
     RitzPair pair;
     Index kept = 0;
@@ -81,7 +81,8 @@ inline RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
             w.noalias() -= Q.leftCols(used) * h.head(used);
             beta = w.norm();
             if (!(beta > 1e-14 * H.col(j).head(used).norm())) {
-                // An invariant subspace, not always that of the largest eigenvalue: go on elsewhere.
+                // An invariant subspace, not always that of the largest eigenvalue: go on
+                // elsewhere.
                 beta = 0;
                 w = detail::scattered_vector(N, used);
                 for (int pass = 0; pass < 2; ++pass) {
@@ -95,7 +96,8 @@ inline RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
         const double earlier = pair.value;
         pair.value = projected.eigenvalues()[used - 1];
         pair.residual = beta * std::abs(projected.eigenvectors()(used - 1, used - 1));
-        const bool settled = run > 0 && pair.value - earlier <= options.settled * std::abs(pair.value);
+        const bool settled =
+            run > 0 && pair.value - earlier <= options.settled * std::abs(pair.value);
         const bool last = run == options.restarts || m == N || settled ||
                           pair.residual <= options.tolerance * std::abs(pair.value);
         kept = last ? 1 : std::max<Index>(1, used / 3);

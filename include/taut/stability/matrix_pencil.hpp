@@ -18,7 +18,8 @@ public:
     template <class Scalar>
     explicit MatrixPencil(const LinearSystem<Scalar>& system);
 
-    void multiply(const Combination& c, const Eigen::VectorXd& u, Eigen::VectorXd& y) const override {
+    void multiply(const Combination& c, const Eigen::VectorXd& u,
+                  Eigen::VectorXd& y) const override {
         y = c.mass * mass_.cwiseProduct(u);
         if (c.stiffness != 0) y.noalias() += c.stiffness * (K_ * u);
         if (c.damping != 0) y.noalias() += c.damping * (D_ * u);
@@ -27,6 +28,9 @@ public:
     double upper_bound(const Combination& c, double enough = 0) const override;
     SparseMatrix<double> assemble(const Combination& c) const override;
     double assembly_error(const Combination& c, const Eigen::VectorXd& s) const override;
+    std::vector<SpringShare> spring_shares(const Eigen::VectorXd&) const override { return {}; }
+    std::vector<ParticleShare> particle_shares(const Eigen::VectorXd& u) const override;
+    std::shared_ptr<const Pencil> scaled(double stiffness, double mass) const override;
     bool projects() const override { return false; }
     bool stiffness_semidefinite() const override { return stiffness_semidefinite_; }
     bool damping_semidefinite() const override { return damping_semidefinite_; }
@@ -35,8 +39,8 @@ public:
 private:
     using Matrix = SparseMatrix<double>;
 
-    /// The sizes of what S is added up from, the mass term apart: its rounding errors are relative to
-    /// these.
+    /// The sizes of what S is added up from, the mass term apart: its rounding errors are relative
+    /// to these.
     Matrix magnitudes(const Combination& c) const {
         return std::abs(c.stiffness) * K_.cwiseAbs() + std::abs(c.damping) * D_.cwiseAbs();
     }
@@ -53,8 +57,7 @@ private:
 
 template <class Scalar>
 MatrixPencil::MatrixPencil(const LinearSystem<Scalar>& system)
-    : K_(system.stiffness().template cast<double>()),
-      D_(system.damping().template cast<double>()) {
+    : K_(system.stiffness().template cast<double>()), D_(system.damping().template cast<double>()) {
     mass_ = system.mass().template cast<double>();
     detect_rayleigh();
     stiffness_semidefinite_ = proves_semidefinite(K_);
@@ -65,8 +68,10 @@ MatrixPencil::MatrixPencil(const LinearSystem<Scalar>& system)
 /// rounding would hide it.
 inline void MatrixPencil::detect_rayleigh() {
     const double d0 = D_.coeff(0, 0) / mass_[0];
-    Matrix rest = D_;
-    rest.diagonal() -= d0 * mass_;  // exact zeros when D was made as d0·M
+    Matrix mass(size(), size());
+    mass.setIdentity();
+    mass.diagonal() = d0 * mass_;
+    const Matrix rest = D_ - mass;  // exact zeros when D was made as d0·M
     is_rayleigh_ = D_.nonZeros() == 0;
     if (!is_rayleigh_ && d0 >= 0) {
         double largest = 0;
@@ -144,7 +149,8 @@ inline double MatrixPencil::upper_bound(const Combination& c, double enough) con
     for (Index j = 0; j < size(); ++j) {
         widest = std::max<Index>(widest, S.outerIndexPtr()[j + 1] - S.outerIndexPtr()[j]);
     }
-    const double rounding = static_cast<double>(widest + 8) * std::numeric_limits<double>::epsilon();
+    const double rounding =
+        static_cast<double>(widest + 8) * std::numeric_limits<double>::epsilon();
     Eigen::VectorXd p = mass_.cwiseSqrt().cwiseInverse();
     Eigen::VectorXd others(size());
     double best = std::numeric_limits<double>::infinity();
@@ -183,6 +189,24 @@ inline SparseMatrix<double> MatrixPencil::assemble(const Combination& c) const {
 inline double MatrixPencil::assembly_error(const Combination& c, const Eigen::VectorXd& s) const {
     const Eigen::VectorXd row = magnitudes(c) * s + std::abs(c.mass) * mass_.cwiseProduct(s);
     return 4 * std::numeric_limits<double>::epsilon() * s.cwiseProduct(row).maxCoeff();
+}
+
+inline std::vector<ParticleShare> MatrixPencil::particle_shares(const Eigen::VectorXd& u) const {
+    std::vector<ParticleShare> shares;
+    const double total = mass_.dot(u.cwiseAbs2());
+    for (Index i = 0; i < size(); ++i) {
+        shares.push_back({i, total > 0 ? mass_[i] * u[i] * u[i] / total : 0});
+    }
+    return shares;
+}
+
+/// D has no known part that follows K; its part d0·M follows M where it was recognised.
+inline std::shared_ptr<const Pencil> MatrixPencil::scaled(double stiffness, double mass) const {
+    auto pencil = std::make_shared<MatrixPencil>(*this);
+    pencil->mass_ *= mass;
+    pencil->K_ *= stiffness;
+    if (is_rayleigh_) pencil->D_ *= mass;
+    return pencil;
 }
 
 }  // namespace taut

@@ -36,7 +36,8 @@ inline StepQuadratic step_quadratic(Method method, double k, double d, double h)
 }
 
 /// The two multipliers μ of one step.
-inline std::array<std::complex<double>, 2> multipliers(Method method, double k, double d, double h) {
+inline std::array<std::complex<double>, 2> multipliers(Method method, double k, double d,
+                                                       double h) {
     const auto [b, c] = step_quadratic(method, k, d, h);
     const double discriminant = b * b - 4 * c;
     if (discriminant < 0) {
@@ -70,7 +71,7 @@ inline double critical_step(Method method, double k, double d) {
             return 4 / (d + std::sqrt(d * d + 4 * k));
         case Method::implicit_euler:
             if (k >= 0) return infinity;
-            return 2 / (std::sqrt(d * d - 4 * k) - d);  // root of 1 + hd + h²k [T21]
+            return (d + std::sqrt(d * d - 4 * k)) / (-2 * k);  // root of 1 + hd + h²k [T21]
     }
     fail("critical_step: unknown method");
 }

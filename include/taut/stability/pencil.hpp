@@ -3,6 +3,8 @@
 #pragma once
 
 #include <limits>
+#include <memory>
+#include <vector>
 
 #include "../core/types.hpp"
 #include "../model/damping.hpp"
@@ -17,6 +19,20 @@ struct Enclosed {
 
     double lower() const { return value - error; }
     double upper() const { return value + error; }
+};
+
+/// How much of a mode's elastic energy one spring holds.
+struct SpringShare {
+    Index index = 0;  ///< of the spring, as SpringSystem counts them
+    Index a = 0;      ///< its particles
+    Index b = 0;
+    double share = 0;  ///< 0 … 1; the shares of all springs add up to 1
+};
+
+/// How much of a mode's kinetic energy one particle holds.
+struct ParticleShare {
+    Index index = 0;
+    double share = 0;  ///< 0 … 1
 };
 
 /// M, D, K of the free degrees of freedom, as the analysis needs them: in double, from springs or
@@ -36,14 +52,22 @@ public:
                           Eigen::VectorXd& y) const = 0;
     /// uᵀS u with its rounding error.
     virtual Enclosed quadratic(const Combination& c, const Eigen::VectorXd& u) const = 0;
-    /// A proved upper bound on the largest eigenvalue of M⁻¹S, rounding included [T26]. For springs it
-    /// is never below c.mass + c.damping·d0.
+    /// A proved upper bound on the largest eigenvalue of M⁻¹S, rounding included [T26]. For springs
+    /// it is never below c.mass + c.damping·d0.
     /// @param enough  stop improving the bound once it is at most this
     virtual double upper_bound(const Combination& c, double enough = 0) const = 0;
     /// S as a sparse matrix, both triangles.
     virtual SparseMatrix<double> assemble(const Combination& c) const = 0;
-    /// A bound on max_i Σ_j s_i |E_ij| s_j, E the rounding errors of assemble(c), tangents included.
+    /// A bound on max_i Σ_j s_i |E_ij| s_j, E the rounding errors of assemble(c), tangents
+    /// included.
     virtual double assembly_error(const Combination& c, const Eigen::VectorXd& s) const = 0;
+
+    /// Shares in the energy of mode u, in no order; empty without springs. Elastic energy by K⁺.
+    virtual std::vector<SpringShare> spring_shares(const Eigen::VectorXd& u) const = 0;
+    /// Without springs a "particle" is a degree of freedom.
+    virtual std::vector<ParticleShare> particle_shares(const Eigen::VectorXd& u) const = 0;
+    /// The same with K (and αK⁺) times `stiffness` and M (and d0·M) times `mass`; dampers stay.
+    virtual std::shared_ptr<const Pencil> scaled(double stiffness, double mass) const = 0;
 
     /// Whether K⁺ differs from K where K is indefinite: springs, not bare matrices.
     virtual bool projects() const = 0;
@@ -56,8 +80,8 @@ public:
     const RayleighDamping& rayleigh() const { return rayleigh_; }
 
 protected:
-    Eigen::VectorXd mass_;       // N, kg
-    RayleighDamping rayleigh_;   // the Rayleigh part of D
+    Eigen::VectorXd mass_;      // N, kg
+    RayleighDamping rayleigh_;  // the Rayleigh part of D
 };
 
 }  // namespace taut

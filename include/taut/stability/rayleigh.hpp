@@ -11,9 +11,9 @@ namespace taut {
 
 /// Why no stiffness-proportional damping α makes a step stable.
 enum class EmptyWindow {
-    none,                  ///< the window is not empty
-    step_too_large,        ///< h ≥ 2/√k_max: no Rayleigh damping helps [T12]
-    mass_damping_too_large ///< d0 alone is too much for this h
+    none,                   ///< the window is not empty
+    step_too_large,         ///< h ≥ 2/√k_max: no Rayleigh damping helps [T12]
+    mass_damping_too_large  ///< d0 alone is too much for this h
 };
 
 /// One sentence for people.
@@ -44,11 +44,13 @@ struct AlphaWindow {
 /// The feasible α of D' = d0 + αK' at step h, s, for eigenvalues of K' in [k_min, k_max] with
 /// 0 ≤ k_min, 1/s²: exact [T13]–[T16]. A mode with k = 0 and d0 = 0 is a zero mode and never
 /// counts against the window. With k_max = 0 or the implicit method the upper end is infinite.
-/// @param compression  a bound on M⁻¹(K⁺ − K), 1/s², 0 unless springs are compressed: explicit Euler
+/// @param compression  a bound on M⁻¹(K⁺ − K), 1/s², 0 unless springs are compressed: explicit
+/// Euler
 ///                     sees the true K, which weakens its second condition by that much [T17]
 inline AlphaWindow rayleigh_window(Method method, double h, double d0, double k_min, double k_max,
                                    double compression = 0) {
-    if (!(h > 0) || !std::isfinite(h)) fail("rayleigh_window: h is ", h, "; it must be finite and > 0");
+    if (!(h > 0) || !std::isfinite(h))
+        fail("rayleigh_window: h is ", h, "; it must be finite and > 0");
     require_non_negative("rayleigh_window", "d0", d0);
     require_non_negative("rayleigh_window", "k_min", k_min);
     if (!(k_max >= k_min) || !std::isfinite(k_max)) {
@@ -61,22 +63,28 @@ inline AlphaWindow rayleigh_window(Method method, double h, double d0, double k_
     const bool is_explicit = method == Method::explicit_euler;
     if (is_explicit) d0_above += h * compression / 2;
     // The mode k = 0 sees d0 alone; with d0 ≥ 2/h only k_min > 0 can leave a window [T15].
-    if (k_min == 0 && h * d0_above >= 2) return empty(EmptyWindow::mass_damping_too_large);
+    if (k_min == 0 && h * d0_above >= 2) {
+        return empty(is_explicit && h * h * compression >= 4 ? EmptyWindow::step_too_large
+                                                             : EmptyWindow::mass_damping_too_large);
+    }
     if (k_max == 0) return {0, infinity, EmptyWindow::none, true};
 
     const auto upper_at = [&](double k) {
-        return is_explicit ? h / 2 + (2 / h - d0_above) / k : (4 - 2 * h * d0 - h * h * k) / (2 * h * k);
+        return is_explicit ? h / 2 + (2 / h - d0_above) / k
+                           : (4 - 2 * h * d0 - h * h * k) / (2 * h * k);
     };
     AlphaWindow window;
     window.upper = upper_at(k_max);
     if (k_min > 0) window.upper = std::min(window.upper, upper_at(k_min));
     const double lower = is_explicit ? h - d0 / k_max : 0;
     window.lower = std::max(lower, 0.0);
-    // α = 0 is explicit Euler with d0 alone: stable when h k_max < d0. Symplectic: neutral at worst.
+    // α = 0 is explicit Euler with d0 alone: stable when h k_max < d0. Symplectic: neutral at
+    // worst.
     window.includes_zero = is_explicit ? lower < 0 : true;
     if (window.upper <= window.lower) {
-        return empty(h * h * k_max >= 4 ? EmptyWindow::step_too_large
-                                        : EmptyWindow::mass_damping_too_large);
+        return empty(h * h * (k_max + (is_explicit ? compression : 0)) >= 4
+                         ? EmptyWindow::step_too_large
+                         : EmptyWindow::mass_damping_too_large);
     }
     return window;
 }

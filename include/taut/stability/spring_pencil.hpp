@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -25,11 +26,23 @@ public:
     template <class System>
     static SpringPencil any_pose(const System& system);
 
-    void multiply(const Combination& c, const Eigen::VectorXd& u, Eigen::VectorXd& y) const override;
+    void multiply(const Combination& c, const Eigen::VectorXd& u,
+                  Eigen::VectorXd& y) const override;
     Enclosed quadratic(const Combination& c, const Eigen::VectorXd& u) const override;
     double upper_bound(const Combination& c, double enough = 0) const override;
     SparseMatrix<double> assemble(const Combination& c) const override;
     double assembly_error(const Combination& c, const Eigen::VectorXd& s) const override;
+    /// The bound of [T26] before the division by the masses: λ_max(Σ_b (1 + p_b/p_i) P_b) of each
+    /// free particle for the springs' part of S, weights p > 0, one for each free particle.
+    std::vector<double> particle_loads(const Combination& c, const std::vector<double>& p) const {
+        std::vector<double> load(degree_.size());
+        weighted_bound(c, p, load);
+        for (std::size_t i = 0; i < load.size(); ++i) load[i] *= mass_[static_cast<Index>(Dim * i)];
+        return load;
+    }
+    std::vector<SpringShare> spring_shares(const Eigen::VectorXd& u) const override;
+    std::vector<ParticleShare> particle_shares(const Eigen::VectorXd& u) const override;
+    std::shared_ptr<const Pencil> scaled(double stiffness, double mass) const override;
     bool projects() const override { return true; }
     bool stiffness_semidefinite() const override { return !compressed_; }
     bool damping_semidefinite() const override { return true; }
@@ -37,7 +50,7 @@ public:
 
 private:
     struct Link {
-        int a;              // free particle, or −1 when pinned
+        int a;  // free particle, or −1 when pinned
         int b;
         Vector d;           // unit vector, or zero
         double axial;       // T′, N/m
@@ -71,11 +84,13 @@ private:
         return i < 0 ? Vector(Vector::Zero()) : Vector(u.segment<Dim>(Dim * i));
     }
 
-    std::vector<int> free_;      // particle → free particle, or −1
-    std::vector<int> degree_;    // springs at each free particle
-    std::vector<Link> links_;    // springs with at least one free end
-    bool compressed_ = false;    // a spring has negative stiffness
-    bool damped_ = false;        // a spring has a damper
+    std::vector<int> free_;                  // particle → free particle, or −1
+    std::vector<int> degree_;                // springs at each free particle
+    std::vector<Link> links_;                // springs with at least one free end
+    std::vector<std::array<int, 3>> names_;  // of each link: spring, particle a, particle b
+    int springs_ = 0;                        // met so far, links or not
+    bool compressed_ = false;                // a spring has negative stiffness
+    bool damped_ = false;                    // a spring has a damper
 };
 
 template <int Dim>
@@ -91,7 +106,8 @@ void SpringPencil<Dim>::set_particles(const System& system) {
     degree_.assign(static_cast<std::size_t>(count), 0);
     for (Index i = 0; i < system.size(); ++i) {
         if (free_[i] >= 0) {
-            mass_.template segment<Dim>(Dim * free_[i]).setConstant(static_cast<double>(system.mass(i)));
+            mass_.template segment<Dim>(Dim * free_[i])
+                .setConstant(static_cast<double>(system.mass(i)));
         }
     }
     links_.reserve(static_cast<std::size_t>(system.spring_count()));
@@ -100,11 +116,14 @@ void SpringPencil<Dim>::set_particles(const System& system) {
 template <int Dim>
 void SpringPencil<Dim>::add_link(int a, int b, const Vector& d, double axial, double transverse,
                                  double damping, double bound) {
+    const int index = springs_++;
     if (free_[a] < 0 && free_[b] < 0) return;
+    names_.push_back({index, a, b});
     links_.push_back({free_[a], free_[b], d, axial, transverse, damping, bound});
     if (free_[a] >= 0) ++degree_[free_[a]];
     if (free_[b] >= 0) ++degree_[free_[b]];
-    // In one dimension there is no transverse direction; a few ulp below zero are rounding of l − L.
+    // In one dimension there is no transverse direction; a few ulp below zero are rounding of l −
+    // L.
     const double rounding = -16 * std::numeric_limits<double>::epsilon() * bound;
     compressed_ = compressed_ || axial < rounding || (Dim > 1 && transverse < rounding);
     damped_ = damped_ || damping > 0;
@@ -116,7 +135,8 @@ SpringPencil<Dim> SpringPencil<Dim>::at_pose(const System& system, const Points<
     SpringPencil pencil;
     pencil.set_particles(system);
     system.for_each_tangent(x, [&](const SpringTangent<double, Dim>& t) {
-        const double transverse = Dim == 1 ? 0 : t.transverse;
+        // At l = 0 there is no axis: the whole tangent is isotropic, in one dimension too.
+        const double transverse = Dim == 1 && t.d[0] != 0 ? 0 : t.transverse;
         pencil.add_link(static_cast<int>(t.a), static_cast<int>(t.b), t.d, t.axial, transverse,
                         t.damping, t.bound);
     });
@@ -147,8 +167,9 @@ auto SpringPencil<Dim>::coefficients(const Combination& c, const Link& link) con
     const double plus = c.damping * rayleigh_.stiffness_proportional;
     const double axial = std::max(link.axial, 0.0);
     const double transverse = std::max(link.transverse, 0.0);
-    return {c.stiffness * (c.project ? axial : link.axial) + plus * axial + c.damping * link.damping,
-            c.stiffness * (c.project ? transverse : link.transverse) + plus * transverse};
+    return {
+        c.stiffness * (c.project ? axial : link.axial) + plus * axial + c.damping * link.damping,
+        c.stiffness * (c.project ? transverse : link.transverse) + plus * transverse};
 }
 
 template <int Dim>
@@ -194,11 +215,20 @@ double SpringPencil<Dim>::weighted_bound(const Combination& c, const std::vector
                                          std::vector<double>& r) const {
     std::vector<Block, Eigen::aligned_allocator<Block>> sum(degree_.size(), Block::Zero());
     std::vector<double> size(degree_.size(), 0);  // Σ of the weighted magnitudes
+    // The factor of every K⁺: where it is not positive, neither is any transverse coefficient,
+    // whatever the rounding of the tangents.
+    const double factor = c.stiffness + c.damping * rayleigh_.stiffness_proportional;
+    const double eps = std::numeric_limits<double>::epsilon();
     for (const Link& link : links_) {
         auto [axial, transverse] = coefficients(c, link);
+        if (c.project && factor <= 0 &&
+            (c.damping <= 0 || axial < -64 * eps * magnitude(c, link))) {
+            continue;  // not positive for certain
+        }
         axial = std::max(axial, 0.0);
         transverse = std::max(transverse, 0.0);
-        Block P = (axial - transverse) * link.d * link.d.transpose();
+        const Block dd = link.d * link.d.transpose();
+        Block P = (axial - transverse) * dd;
         P.diagonal().array() += transverse;
         const auto add = [&](int i, int other) {
             if (i < 0) return;
@@ -211,10 +241,9 @@ double SpringPencil<Dim>::weighted_bound(const Combination& c, const std::vector
     }
     double largest = 0;
     for (std::size_t i = 0; i < sum.size(); ++i) {
-        const double rounding =
-            (degree_[i] + 64) * std::numeric_limits<double>::epsilon() * size[i];
+        const double rounding = (degree_[i] + 64) * eps * size[i];
         r[i] = (detail::eigenvalue_upper_bound<Dim>(sum[i]) + rounding) / mass_[Dim * i];
-        largest = std::max(largest, r[i]);
+        if (!(r[i] <= largest)) largest = r[i];  // NaN and infinity stay
     }
     return largest;
 }
@@ -227,11 +256,13 @@ double SpringPencil<Dim>::upper_bound(const Combination& c, double enough) const
     for (std::size_t i = 0; i < p.size(); ++i) p[i] = 1 / std::sqrt(mass_[Dim * i]);
     std::vector<double> r(p.size());
     double best = weighted_bound(c, p, r);
+    if (!std::isfinite(best)) return std::numeric_limits<double>::infinity();
     double earlier = best;
     for (int repeat = 1; repeat <= most_repeats && best > std::max(0.0, enough); ++repeat) {
         const double largest = *std::max_element(r.begin(), r.end());
         // A particle whose bound is far below the largest must not lose all its weight at once.
-        for (std::size_t i = 0; i < p.size(); ++i) p[i] *= std::sqrt(std::max(r[i] / largest, 1e-4));
+        for (std::size_t i = 0; i < p.size(); ++i)
+            p[i] *= std::sqrt(std::max(r[i] / largest, 1e-4));
         best = std::min(best, weighted_bound(c, p, r));
         if (repeat % 5 == 0) {
             if (best > earlier * (1 - worth_repeating)) break;
@@ -239,7 +270,8 @@ double SpringPencil<Dim>::upper_bound(const Combination& c, double enough) const
         }
     }
     const double rounding = 1 + 16 * std::numeric_limits<double>::epsilon();
-    return best * rounding + mass_coefficient(c) * (mass_coefficient(c) > 0 ? rounding : 1 / rounding);
+    return best * rounding +
+           mass_coefficient(c) * (mass_coefficient(c) > 0 ? rounding : 1 / rounding);
 }
 
 template <int Dim>
@@ -255,7 +287,8 @@ SparseMatrix<double> SpringPencil<Dim>::assemble(const Combination& c) const {
     };
     for (const Link& link : links_) {
         const auto [axial, transverse] = coefficients(c, link);
-        Block P = (axial - transverse) * link.d * link.d.transpose();
+        const Block dd = link.d * link.d.transpose();
+        Block P = (axial - transverse) * dd;
         P.diagonal().array() += transverse;
         if (link.a >= 0) add(link.a, link.a, P);
         if (link.b >= 0) add(link.b, link.b, P);
@@ -293,6 +326,49 @@ double SpringPencil<Dim>::assembly_error(const Combination& c, const Eigen::Vect
         largest = std::max(largest, (degree_[i] + 32) * row[i]);
     }
     return largest * std::numeric_limits<double>::epsilon();
+}
+
+template <int Dim>
+std::vector<SpringShare> SpringPencil<Dim>::spring_shares(const Eigen::VectorXd& u) const {
+    std::vector<SpringShare> shares;
+    double total = 0;
+    for (std::size_t s = 0; s < links_.size(); ++s) {
+        const auto [axial, transverse] = coefficients({0, 1, 0}, links_[s]);
+        const Vector du = segment(u, links_[s].a) - segment(u, links_[s].b);
+        const double along = links_[s].d.dot(du);
+        const double energy =
+            axial * along * along + transverse * (du - along * links_[s].d).squaredNorm();
+        const auto [index, a, b] = names_[s];
+        shares.push_back({index, a, b, energy});
+        total += energy;
+    }
+    for (auto& share : shares) share.share = total > 0 ? share.share / total : 0;
+    return shares;
+}
+
+template <int Dim>
+std::vector<ParticleShare> SpringPencil<Dim>::particle_shares(const Eigen::VectorXd& u) const {
+    std::vector<ParticleShare> shares;
+    const double total = mass_.dot(u.cwiseAbs2());
+    for (std::size_t i = 0; i < free_.size(); ++i) {
+        if (free_[i] < 0) continue;
+        const Index first = Dim * free_[i];
+        const double energy = mass_[first] * u.segment<Dim>(first).squaredNorm();
+        shares.push_back({static_cast<Index>(i), total > 0 ? energy / total : 0});
+    }
+    return shares;
+}
+
+template <int Dim>
+std::shared_ptr<const Pencil> SpringPencil<Dim>::scaled(double stiffness, double mass) const {
+    auto pencil = std::make_shared<SpringPencil>(*this);
+    pencil->mass_ *= mass;
+    for (Link& link : pencil->links_) {
+        link.axial *= stiffness;
+        link.transverse *= stiffness;
+        link.bound *= stiffness;
+    }
+    return pencil;
 }
 
 }  // namespace taut

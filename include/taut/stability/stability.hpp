@@ -23,9 +23,10 @@ struct EigenvalueBracket {
 
 /// The extremes of the spectrum of K'⁺ = M⁻¹K⁺.
 struct StiffnessSpectrum {
-    EigenvalueBracket k_min;           ///< zero modes included
-    EigenvalueBracket k_max;           ///< upper: proved; lower: refuted by a vector
-    std::optional<Index> zero_modes;   ///< rigid motions and mechanisms; only if asked for; numerical
+    EigenvalueBracket k_min;  ///< zero modes included
+    EigenvalueBracket k_max;  ///< upper: proved; lower: refuted by a vector
+    std::optional<Index>
+        zero_modes;  ///< rigid motions and mechanisms; only if asked for; numerical
 };
 
 /// Answer of Stability::certify.
@@ -37,9 +38,9 @@ struct Certificate {
 
 /// The mode that limits explicit steps: K'⁺u ≈ ku, uᵀMu = 1.
 struct LimitingMode {
-    double k = 0;            ///< its Rayleigh quotient, 1/s²
-    double d = 0;            ///< uᵀDu/uᵀMu, 1/s
-    Eigen::VectorXd shape;   ///< u, one entry for each free degree of freedom
+    double k = 0;           ///< its Rayleigh quotient, 1/s²
+    double d = 0;           ///< uᵀDu/uᵀMu, 1/s
+    Eigen::VectorXd shape;  ///< u, one entry for each free degree of freedom
 };
 
 /// How large may the step be, and how do you know? Analysis of one pose of a SpringSystem, or of a
@@ -59,14 +60,16 @@ public:
     static constexpr Index dense_size = 120;
 
     explicit Stability(const LinearSystem<Scalar>& system)
-        : pencil_(std::make_shared<MatrixPencil>(system)) {}
+        : pencil_(std::make_shared<MatrixPencil>(system)),
+          stiffest_(largest_ritz_pair(*pencil_, {0, 1, 0})) {}
 
     /// @param state  the pose; its velocity is taken as zero. Fails unless it is finite and fits.
     template <int Dim, class... Laws>
     Stability(const SpringSystem<Scalar, Dim, Laws...>& system, const State<Scalar, Dim>& state);
 
     /// The bracket of the largest stable step, s.
-    /// @param tightness  0: by bounds alone, O(springs) for each of a fixed number of passes [T26], and
+    /// @param tightness  0: by bounds alone, O(springs) for each of a fixed number of passes [T26],
+    /// and
     ///                   a Ritz vector. Above 0: narrowed by sparse factorisations until
     ///                   refuted/certified ≤ 1 + tightness where the method's conditions allow it
     ///                   (1e-6 is reachable; a factorisation or two) [T22].
@@ -87,17 +90,31 @@ public:
     /// sparse factorisation
     StiffnessSpectrum stiffness_spectrum(bool count_zero_modes = false) const;
     /// Largest |μ| of one step of size h, s, apart from zero modes. Exact to rounding up to
-    /// dense_size; above, an estimate from below by the extreme Ritz values (D taken as Rayleigh, or
-    /// by its quotients on those two vectors).
+    /// dense_size; above, an estimate from below by the extreme Ritz values (D taken as Rayleigh,
+    /// or by its quotients on those two vectors).
     double spectral_radius(Method method, double h) const;
     LimitingMode limiting_mode() const;
+    /// The springs that hold most of the limiting mode's elastic energy, the first one most.
+    std::vector<SpringShare> limiting_springs(Index count) const;
+    /// The particles that hold most of its kinetic energy, the first one most.
+    std::vector<ParticleShare> limiting_particles(Index count) const;
+
+    /// The largest factor on all stiffness (αK⁺ included) for which step h, s, is still certified
+    /// by the bound; 0 if none is, infinity if every one is.
+    double max_stiffness_scale(Method method, double h) const;
+    /// The least factor on all masses (d0·M included) for which step h, s, is certified by the
+    /// bound; infinity if none is.
+    double min_mass_scale(Method method, double h) const;
+    /// The number of equal steps of a frame, s, that the bound certifies; nothing if no step is.
+    std::optional<Index> substeps(Method method, double frame) const;
 
     /// Free degrees of freedom.
     Index size() const { return pencil_->size(); }
     const Pencil& pencil() const { return *pencil_; }
 
 private:
-    RitzPair stiffest() const;
+    void admit_negative_damping(StepLimit<Scalar>& limit) const;
+    double certified_when_scaled(Method method, double stiffness, double mass) const;
     void add_growth(StepLimit<Scalar>& limit, double tightness) const;
     StepLimit<Scalar> explicit_limit(double tightness) const;
     StepLimit<Scalar> symplectic_limit(double tightness) const;
@@ -113,13 +130,13 @@ private:
 
     std::shared_ptr<const Pencil> pencil_;  // immutable, so copies may share it
     std::uint64_t revision_ = 0;
-    mutable Eigen::VectorXd stiffest_;      // the last Ritz vector of k_max, where the next one starts
+    RitzPair stiffest_;  // of K⁺: where every search begins
 };
 
 template <class Scalar, class Cholesky>
 template <int Dim, class... Laws>
 Stability<Scalar, Cholesky>::Stability(const SpringSystem<Scalar, Dim, Laws...>& system,
-                             const State<Scalar, Dim>& state)
+                                       const State<Scalar, Dim>& state)
     : revision_(system.revision()) {
     if (state.x.cols() != system.size()) {
         fail("Stability: the state has ", state.x.cols(), " positions; the system has ",
@@ -130,20 +147,13 @@ Stability<Scalar, Cholesky>::Stability(const SpringSystem<Scalar, Dim, Laws...>&
     }
     const Points<double, Dim> x = state.x.template cast<double>();
     pencil_ = std::make_shared<SpringPencil<Dim>>(SpringPencil<Dim>::at_pose(system, x));
-}
-
-template <class Scalar, class Cholesky>
-RitzPair Stability<Scalar, Cholesky>::stiffest() const {
-    RitzPair pair = largest_ritz_pair(*pencil_, {0, 1, 0}, {}, stiffest_);
-    stiffest_ = pair.vector;
-    return pair;
+    if (size() > 0) stiffest_ = largest_ritz_pair(*pencil_, {0, 1, 0});
 }
 
 template <class Scalar, class Cholesky>
 StepLimit<Scalar> Stability<Scalar, Cholesky>::max_step(Method method, double tightness) const {
     require_non_negative("Stability::max_step", "tightness", tightness);
     if (size() == 0) return limit(detail::infinity, detail::infinity, Cause::nothing_to_limit);
-    if (!pencil_->damping_semidefinite()) return limit(0, detail::infinity, Cause::damping_unproved);
     StepLimit<Scalar> answer;
     switch (method) {
         case Method::explicit_euler: answer = explicit_limit(tightness); break;
@@ -151,6 +161,7 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::max_step(Method method, double ti
         case Method::velocity_verlet: answer = symplectic_limit(tightness); break;
         case Method::implicit_euler: answer = implicit_limit(); break;
     }
+    if (method != Method::explicit_euler) admit_negative_damping(answer);
     add_growth(answer, tightness);
     return answer;
 }
@@ -175,21 +186,27 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::explicit_limit(double tightness) 
     if (!(k > 0) && !(d > 0)) {
         return limit(detail::infinity, detail::infinity, Cause::nothing_to_limit);
     }
-    if (!(d > 0)) return limit(0, 0, Cause::undamped);
+    if (!(d > 0)) {
+        // One mode with k > 0 refutes every step; buckled modes alone do not.
+        const bool vibrates = detail::quotients(pencil, stiffest_.vector, false).k.lower() > 0;
+        return limit(0, vibrates ? 0 : detail::infinity, Cause::undamped);
+    }
     // α K⁺ is not a function of an indefinite K, so only d0·M commutes with it.
     const bool commutes = pencil.is_rayleigh() && (pencil.stiffness_semidefinite() ||
                                                    pencil.rayleigh().stiffness_proportional == 0);
     detail::Bracket bracket{detail::certified_explicit(pencil, k), detail::infinity, {}};
-    RitzPair mode = stiffest();
+    RitzPair mode = stiffest_;
     Prover<Cholesky> prover;
     if (tightness > 0 && pencil.is_rayleigh() && pencil.stiffness_semidefinite()) {
         auto proved = detail::narrow_maximum(pencil, prover, tightness);
-        bracket.certified = std::max(bracket.certified, detail::certified_explicit(pencil, proved.upper));
+        bracket.certified =
+            std::max(bracket.certified, detail::certified_explicit(pencil, proved.upper));
         if (proved.vector.size() > 0) mode.vector = std::move(proved.vector);
     }
     bracket.refuted = detail::refuted_explicit(pencil, mode, commutes);
     if (!commutes && size() <= dense_size) {
-        bracket.refuted = std::min(bracket.refuted, DenseAnalysis(pencil).explicit_limit_above());
+        bracket.refuted =
+            std::min(bracket.refuted, DenseAnalysis(pencil, false).explicit_limit_above());
     }
     double up_to = 0;
     double delta = 0;
@@ -200,9 +217,10 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::explicit_limit(double tightness) 
     }
     const double certified = bracket.certified;
     const bool by_damping = k <= 0 || certified * certified * k < 4 * (1 - 1e-3);
-    StepLimit<Scalar> answer =
-        limit(certified, std::max(bracket.refuted, certified),
-              certified == 0 ? Cause::undamped_modes : by_damping ? Cause::damping : Cause::stiffness);
+    StepLimit<Scalar> answer = limit(certified, std::max(bracket.refuted, certified),
+                                     certified == 0 ? Cause::undamped_modes
+                                     : by_damping   ? Cause::damping
+                                                    : Cause::stiffness);
     if (up_to > certified) {
         answer.certified_up_to = detail::round_down<Scalar>(up_to);
         answer.admitted_growth = delta;
@@ -215,12 +233,13 @@ template <class Scalar, class Cholesky>
 StepLimit<Scalar> Stability<Scalar, Cholesky>::symplectic_limit(double tightness) const {
     const Pencil& pencil = *pencil_;
     // A bound within 3 % of the Ritz value's step needs no improvement.
-    RitzPair mode = stiffest();
+    RitzPair mode = stiffest_;
     detail::Bracket bracket;
     bracket.certified = detail::certified_symplectic(pencil, 1.05 * mode.value);
     if (!std::isfinite(bracket.certified)) {
         return limit(detail::infinity, detail::infinity, Cause::nothing_to_limit);
     }
+    if (!(bracket.certified > 0)) return limit(0, detail::infinity, Cause::stiffness);
     bracket.refuted = detail::refuted_symplectic(pencil, mode);
     bracket.vector = std::move(mode.vector);
     if (tightness > 0 && !bracket.within(tightness)) {
@@ -238,7 +257,7 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::implicit_limit() const {
     const Pencil& pencil = *pencil_;
     // K⁺ ⪰ 0 for springs: solvable and stable at every step [T20], [T27].
     const double kappa = std::max(0.0, pencil.upper_bound({0, -1, 0}));
-    if (pencil.stiffness_semidefinite() || kappa == 0) {
+    if (pencil.projects() || pencil.stiffness_semidefinite() || kappa == 0) {
         return limit(detail::infinity, detail::infinity, Cause::unconditional);
     }
     // Bare matrices: the step matrix stays definite while 1 − h²κ > 0, and turns singular where a
@@ -255,28 +274,58 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::implicit_limit() const {
     return limit(1 / std::sqrt(std::min(epsilon, kappa)), detail::infinity, Cause::stiffness);
 }
 
-/// What the physics adds where K is not known to be positive semi-definite [T27]: √κ of the undamped
-/// motion (damping slows the growth but does not remove it), or what could not be excluded.
+/// D ⪰ −δM is enough for a limit whose multipliers stay below 1 + hδ [T17]; an answer with its own
+/// name.
+template <class Scalar, class Cholesky>
+void Stability<Scalar, Cholesky>::admit_negative_damping(StepLimit<Scalar>& limit) const {
+    const Pencil& pencil = *pencil_;
+    if (pencil.damping_semidefinite()) return;
+    const double negative = std::max(0.0, pencil.upper_bound({0, 0, -1}));
+    Prover<Cholesky> prover;
+    const double delta = detail::semidefinite_deficit(pencil, prover, {0, 0, 1}, negative);
+    // A δ that is no rounding is negative damping, which feeds energy in at every step.
+    const bool rounding = delta <= 1e-6 * std::max(0.0, pencil.upper_bound({0, 0, 1}));
+    if (rounding) {
+        limit.certified_up_to =
+            std::min(limit.certified, detail::round_down<Scalar>(1 / std::max(delta, 1e-300)));
+        limit.admitted_growth = delta;
+    } else {
+        limit.refuted = std::numeric_limits<Scalar>::infinity();
+    }
+    limit.certified = 0;
+    limit.cause = rounding ? Cause::rounding : Cause::damping_unproved;
+}
+
+/// What the physics adds where K is not known to be positive semi-definite [T27]: √κ of the
+/// undamped motion (damping slows the growth but does not remove it), or what could not be
+/// excluded.
 template <class Scalar, class Cholesky>
 void Stability<Scalar, Cholesky>::add_growth(StepLimit<Scalar>& limit, double tightness) const {
     const Pencil& pencil = *pencil_;
-    if (pencil.stiffness_semidefinite() || limit.cause == Cause::undamped) return;
+    if (pencil.stiffness_semidefinite()) return;
     LanczosOptions options;
     options.basis = 48;
     options.tolerance = 1e-4;
     const RitzPair softest = largest_ritz_pair(pencil, {0, -1, 0, false}, options);
     const Enclosed k = detail::quotients(pencil, softest.vector, false).k;
-    if (k.upper() < 0) {
+    // Rest lengths and poses are rounded to Scalar: so much compression is no statement about
+    // physics.
+    const double resolution =
+        pencil.projects() ? 16 * static_cast<double>(std::numeric_limits<Scalar>::epsilon()) *
+                                std::max(0.0, pencil.upper_bound({0, 1, 0}))
+                          : 0;
+    if (k.upper() < -resolution) {
         limit.growth_rate = std::sqrt(-k.value);
-        limit.cause = Cause::buckling;
+        if (limit.certified > 0) limit.cause = Cause::buckling;
         return;
     }
+    if (limit.cause == Cause::undamped) return;
     // Not refuted, not proved: K ⪰ −εM is what can be said.
     double epsilon = std::max(0.0, pencil.upper_bound({0, -1, 0, false}));
     if (epsilon > 0 && (tightness > 0 || !pencil.projects())) {
         Prover<Cholesky> prover;
-        epsilon = std::min(epsilon, detail::semidefinite_deficit(pencil, prover, {0, 1, 0, false},
-                                                                 epsilon));
+        epsilon = std::min(epsilon,
+                           detail::semidefinite_deficit(pencil, prover, {0, 1, 0, false}, epsilon));
     }
     limit.admitted_growth = std::max(limit.admitted_growth, std::sqrt(epsilon));
     if (pencil.projects()) return;
@@ -291,14 +340,21 @@ StiffnessSpectrum Stability<Scalar, Cholesky>::stiffness_spectrum(bool count_zer
     if (size() == 0) return spectrum;
     const Pencil& pencil = *pencil_;
     spectrum.k_max.upper = std::max(0.0, pencil.upper_bound({0, 1, 0}));
-    spectrum.k_max.lower = std::max(0.0, detail::quotients(pencil, stiffest().vector, true).k.lower());
-    const RitzPair softest = largest_ritz_pair(pencil, {0, -1, 0});
+    spectrum.k_max.lower =
+        std::max(0.0, detail::quotients(pencil, stiffest_.vector, true).k.lower());
+    // The softest modes are smooth: a translation among the start's parts helps.
+    LanczosOptions options;
+    options.basis = 48;
+    const RitzPair softest =
+        largest_ritz_pair(pencil, {0, -1, 0}, options,
+                          Eigen::VectorXd::Ones(size()) + detail::scattered_vector(size()));
     spectrum.k_min.upper = detail::quotients(pencil, softest.vector, true).k.upper();
     // Springs: K⁺ ⪰ 0 by construction. Bare matrices: proved so, or bounded.
     spectrum.k_min.lower = -std::max(0.0, pencil.upper_bound({0, -1, 0}));
-    if (pencil.stiffness_semidefinite()) spectrum.k_min.lower = 0;
+    if (pencil.projects() || pencil.stiffness_semidefinite()) spectrum.k_min.lower = 0;
     spectrum.k_min.upper = std::max(spectrum.k_min.upper, spectrum.k_min.lower);
-    if (count_zero_modes) spectrum.zero_modes = detail::count_zero_modes(pencil, spectrum.k_max.upper);
+    if (count_zero_modes)
+        spectrum.zero_modes = detail::count_zero_modes(pencil, spectrum.k_max.upper);
     return spectrum;
 }
 
@@ -332,3 +388,5 @@ LimitingMode Stability<Scalar, Cholesky>::limiting_mode() const {
 }
 
 }  // namespace taut
+
+#include "detail/stability_blame.ipp"

@@ -13,15 +13,15 @@ namespace taut {
 
 /// What sets a step limit, or removes it.
 enum class Cause {
-    stiffness,        ///< the stiffest mode
-    damping,          ///< damping too strong for the step
-    undamped,         ///< explicit Euler without damping
-    undamped_modes,   ///< explicit Euler: some stiffness has no damping beside it
-    unconditional,    ///< implicit Euler: every step is stable
-    nothing_to_limit, ///< no free particle, or neither stiffness nor damping
-    buckling,         ///< K is indefinite: the physics itself grows, at growth_rate
-    damping_unproved, ///< D could not be shown to be positive semi-definite
-    rounding          ///< semi-definiteness was shown up to rounding only: see certified_up_to
+    stiffness,         ///< the stiffest mode
+    damping,           ///< damping too strong for the step
+    undamped,          ///< explicit Euler without damping
+    undamped_modes,    ///< explicit Euler: some stiffness has no damping beside it
+    unconditional,     ///< implicit Euler: every step is stable
+    nothing_to_limit,  ///< no free particle, or neither stiffness nor damping
+    buckling,          ///< K is indefinite: the physics itself grows, at growth_rate
+    damping_unproved,  ///< D could not be shown to be positive semi-definite
+    rounding           ///< semi-definiteness was shown up to rounding only: see certified_up_to
 };
 
 /// The name as the programs and their JSON spell it.
@@ -46,23 +46,28 @@ constexpr const char* describe(Cause cause) {
         case Cause::stiffness: return "the stiffest mode sets the limit";
         case Cause::damping: return "the damping sets the limit: less of it allows a larger step";
         case Cause::undamped:
-            return "explicit Euler is unstable at every step without damping: add Rayleigh damping, or "
+            return "explicit Euler is unstable at every step without damping: add Rayleigh "
+                   "damping, or "
                    "use symplectic or implicit Euler";
         case Cause::undamped_modes:
             return "some stiffness has no damping beside it, so no explicit Euler step can be "
-                   "certified: add mass-proportional damping d0, or use symplectic or implicit Euler";
+                   "certified: add mass-proportional damping d0, or use symplectic or implicit "
+                   "Euler";
         case Cause::unconditional: return "stable at every step";
         case Cause::nothing_to_limit:
             return "nothing limits the step: no particle is free, or none is pulled or damped";
         case Cause::buckling:
-            return "compressed springs make the physics itself unstable: the limit is the step's own, "
+            return "compressed springs make the physics itself unstable: the limit is the step's "
+                   "own, "
                    "and growth_rate is what no step size removes; relax the compression, or pin";
         case Cause::damping_unproved:
             return "the damping matrix could not be shown to be positive semi-definite: no step is "
                    "certified; check its sign, or give dampers as springs";
         case Cause::rounding:
-            return "a matrix could be shown to be positive semi-definite only up to rounding, so slow "
-                   "growth is not excluded: certified_up_to is safe but for admitted_growth; give the "
+            return "a matrix could be shown to be positive semi-definite only up to rounding, so "
+                   "slow "
+                   "growth is not excluded: certified_up_to is safe but for admitted_growth; give "
+                   "the "
                    "scene as springs to have it exact";
     }
     return "unknown cause";
@@ -75,7 +80,7 @@ struct StepLimit {
                            ///< infinity: every step is)
     Scalar refuted = 0;    ///< s; a vector proves that this step fails (infinity: none is known to)
     Cause cause = Cause::stiffness;
-    double growth_rate = 0;      ///< 1/s; √κ of the physics when K has the eigenvalue −κ, else 0
+    double growth_rate = 0;  ///< 1/s; √κ of the physics when K has the eigenvalue −κ, else 0
     Scalar certified_up_to = 0;  ///< s; where semi-definiteness could be shown only up to rounding:
                                  ///< up to this step nothing grows faster than admitted_growth
     double admitted_growth = 0;  ///< 1/s

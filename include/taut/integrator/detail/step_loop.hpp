@@ -27,13 +27,14 @@ public:
         Report report;
         while (report && report.iterations < count) {
             const int steps = report.iterations;
+            const Scalar time = state.time;
             report = advance();
             if (report && !state.finite()) {
                 report.status = Status::diverged;
                 report.where = state.first_not_finite();
             }
             report.iterations = steps + (report ? 1 : 0);
-            state.time += h;
+            state.time = time + h;
         }
         if (!report) state = backup_;
         return report;

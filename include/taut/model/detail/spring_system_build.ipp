@@ -79,6 +79,7 @@ template <class Scalar, int Dim, class... Laws>
 void SpringSystem<Scalar, Dim, Laws...>::set_gravity(const Vector& gravity) {
     if (!gravity.allFinite()) fail("SpringSystem::set_gravity: gravity is not finite");
     gravity_ = gravity;
+    ++force_revision_;
 }
 
 template <class Scalar, int Dim, class... Laws>

@@ -39,6 +39,7 @@ inline double certified_symplectic(const Pencil& pencil, double enough = 0) {
     if (pencil.is_rayleigh()) {
         const double k = std::max(0.0, pencil.upper_bound({0, 1, 0}, enough));
         const auto& rayleigh = pencil.rayleigh();
+        if (!std::isfinite(k)) return 0;  // overflow: nothing is proved
         return critical_step(Method::symplectic_euler, k,
                              rayleigh.mass_proportional + rayleigh.stiffness_proportional * k);
     }
@@ -47,6 +48,7 @@ inline double certified_symplectic(const Pencil& pencil, double enough = 0) {
     const auto g = [&](double h) { return pencil.upper_bound({0, h * h, 2 * h}) / 4; };
     const double k = std::max(0.0, pencil.upper_bound({0, 1, 0}));
     const double d = std::max(0.0, pencil.upper_bound({0, 0, 1}));
+    if (!std::isfinite(k) || !std::isfinite(d)) return 0;
     double h = critical_step(Method::symplectic_euler, k, d);
     for (int repeat = 0; repeat < 8 && std::isfinite(h); ++repeat) {
         const double larger = h / std::sqrt(g(h));
@@ -85,12 +87,14 @@ inline bool certifies_explicit(const Pencil& pencil, double h) {
            pencil.upper_bound({0, -h * h, 2 * h, false}) < 4;
 }
 
-/// The largest step that a proved bound k on k_max, or else the bound, certifies for explicit Euler;
-/// 0: none.
+/// The largest step that a proved bound k on k_max, or else the bound, certifies for explicit
+/// Euler; 0: none.
 inline double certified_explicit(const Pencil& pencil, double k) {
+    if (!std::isfinite(k)) return 0;
     const auto [d0, alpha] = pencil.rayleigh();
     if (pencil.is_rayleigh() && pencil.stiffness_semidefinite()) {
-        // k may be anything in (0, k_max]: as k → 0 the limit is 2/d0, or α when d0 = 0 [T9], [T13].
+        // k may be anything in (0, k_max]: as k → 0 the limit is 2/d0, or α when d0 = 0 [T9],
+        // [T13].
         const double at_zero = d0 > 0 ? 2 / d0 : alpha;
         return k > 0 ? std::min(at_zero, critical_step(Method::explicit_euler, k, d0 + alpha * k))
                      : critical_step(Method::explicit_euler, 0, d0);

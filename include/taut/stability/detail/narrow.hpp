@@ -8,7 +8,8 @@
 #include "../certificate.hpp"
 #include "limits.hpp"
 
-// Brackets narrowed by factorisations: sharpen the vector that refutes, then prove a step just below.
+// Brackets narrowed by factorisations: sharpen the vector that refutes, then prove a step just
+// below.
 
 namespace taut::detail {
 
@@ -70,7 +71,10 @@ void narrow_symplectic(const Pencil& pencil, Prover<Cholesky>& prover, double ti
         }
     };
     narrow(bracket, tightness, sharpen, [&](double h) {
-        return prove(prover, pencil, {4, -h * h, -2 * h, false}).proved;
+        // Where K is indefinite the condition at h alone says nothing of smaller steps; hD ≺ 4M
+        // does.
+        return prove(prover, pencil, {4, -h * h, -2 * h, false}).proved &&
+               (pencil.stiffness_semidefinite() || prove(prover, pencil, {4, 0, -h}).proved);
     });
 }
 
@@ -93,16 +97,18 @@ ProvedMaximum narrow_maximum(const Pencil& pencil, Prover<Cholesky>& prover, dou
         if (value > 0) b.refuted = std::min(b.refuted, 1 / value);
         b.vector = std::move(pair.vector);
     };
-    narrow(inverse, tightness, sharpen,
-           [&](double share) { return prove(prover, pencil, {1 / share, -1, 0}).proved; });
+    narrow(inverse, tightness, sharpen, [&](double share) {
+        return prove(prover, pencil, {1 / share, -1, 0}).proved;
+    });
     k.upper = std::min(k.upper, 1 / inverse.certified * (1 + 4e-16));
     k.lower = std::isfinite(inverse.refuted) ? 1 / inverse.refuted : 0;
     k.vector = std::move(inverse.vector);
     return k;
 }
 
-/// An ε ≥ 0, 1/s², with K ⪰ −εM proved by factorisation of K + εM: the smallest that rounding allows,
-/// within a factor of 16; infinity when none up to k_max is. For K with factor `stiffness` or D.
+/// An ε ≥ 0, 1/s², with K ⪰ −εM proved by factorisation of K + εM: the smallest that rounding
+/// allows, within a factor of 16; infinity when none up to k_max is. For K with factor `stiffness`
+/// or D.
 template <class Cholesky>
 double semidefinite_deficit(const Pencil& pencil, Prover<Cholesky>& prover, const Combination& c,
                             double norm) {
@@ -127,7 +133,8 @@ void narrow_explicit(const Pencil& pencil, Prover<Cholesky>& prover, double tigh
     double low = bracket.certified;
     double top = std::min(high, bracket.refuted);
     double shown = 0;
-    for (int repeat = 0; repeat < 60 && top > (low > 0 ? low : top * 1e-12) * (1 + tightness); ++repeat) {
+    for (int repeat = 0; repeat < 60 && top > (low > 0 ? low : top * 1e-12) * (1 + tightness);
+         ++repeat) {
         const double h = low > 0 ? std::sqrt(low * top) : top / 16;
         const double tiny = 1e-9 * h * k;
         const bool strict = prove(prover, pencil, {0, -h, 1}).proved;

@@ -8,8 +8,8 @@
 
 namespace taut::detail {
 
-/// Whether σI − A is positive definite for certain: a Cholesky factorisation whose pivots stay above
-/// the rounding it can have committed [T22].
+/// Whether σI − A is positive definite for certain: a Cholesky factorisation whose pivots stay
+/// above the rounding it can have committed [T22].
 template <int Dim>
 bool proved_above(const Eigen::Matrix<double, Dim, Dim>& A, double sigma) {
     const double room = 64 * std::numeric_limits<double>::epsilon() * sigma;
@@ -37,7 +37,8 @@ inline double cosine_eigenvalue(const Eigen::Matrix3d& A) {
     const double c = A(2, 2) - mean;
     const double p = std::sqrt((a * a + b * b + c * c + 2 * off) / 6);
     if (p == 0) return mean;
-    const double det = a * (b * c - A(2, 1) * A(2, 1)) - A(1, 0) * (A(1, 0) * c - A(2, 1) * A(2, 0)) +
+    const double det = a * (b * c - A(2, 1) * A(2, 1)) -
+                       A(1, 0) * (A(1, 0) * c - A(2, 1) * A(2, 0)) +
                        A(2, 0) * (A(1, 0) * A(2, 1) - b * A(2, 0));
     const double r = std::clamp(det / (2 * p * p * p), -1.0, 1.0);
     return mean + 2 * p * std::cos(std::acos(r) / 3);

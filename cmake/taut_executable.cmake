@@ -1,0 +1,23 @@
+# SPDX-FileCopyrightText: 2026 Taut contributors
+# SPDX-License-Identifier: MIT
+
+# Warnings and sanitizers stay private to Taut's own programs: a user's build is the user's affair.
+function(taut_private_flags target)
+    if(MSVC)
+        target_compile_options(${target} PRIVATE /W4 $<$<BOOL:${TAUT_WERROR}>:/WX>)
+    else()
+        target_compile_options(${target} PRIVATE
+            -Wall -Wextra -Wpedantic -Wconversion -Wshadow $<$<BOOL:${TAUT_WERROR}>:-Werror>)
+    endif()
+    if(TAUT_SANITIZE)
+        set(flags -fsanitize=${TAUT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+        target_compile_options(${target} PRIVATE ${flags})
+        target_link_options(${target} PRIVATE ${flags})
+    endif()
+endfunction()
+
+function(taut_executable target)
+    add_executable(${target} ${ARGN})
+    target_link_libraries(${target} PRIVATE Taut::Taut)
+    taut_private_flags(${target})
+endfunction()

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "../model/spring_system.hpp"
+#include "dense.hpp"
+#include "spring_pencil.hpp"
+
+namespace taut {
+
+/// Answer of added_mass.
+struct AddedMass {
+    bool reached = false;      ///< false: d0 alone forbids this step, whatever the masses
+    std::vector<double> mass;  ///< kg to add to each particle; 0 for pinned ones
+    double total = 0;          ///< kg
+    /// Relative change of the lowest frequencies, up to ten, zero modes apart; empty above
+    /// dense_frequencies degrees of freedom.
+    std::vector<double> frequency_change;
+
+    static constexpr Index dense_frequencies = 600;
+};
+
+namespace detail {
+
+/// The lowest ten √k of M⁻¹K⁺ above the zero modes, rad/s.
+inline std::vector<double> lowest_frequencies(const Pencil& pencil) {
+    const DenseAnalysis dense(pencil);
+    std::vector<double> omega;
+    for (Index j = 0; j < pencil.size() && omega.size() < 10; ++j) {
+        const double k = dense.stiffness_eigenvalues()[j];
+        if (k > dense.zero_tolerance()) omega.push_back(std::sqrt(k));
+    }
+    return omega;
+}
+
+}  // namespace detail
+
+/// Selective mass scaling: masses to add so that symplectic Euler is certified at step h, s, in
+/// this pose, few and small: particle i needs m_i(4 − 2h·d0) ≥ λ_max(Σ_b (1 + p_b/p_i)(2hD_b +
+/// h²P_b)) [T26], and the weights p are improved to ask for little in all. Added mass slows the
+/// motion: see frequency_change.
+template <class Scalar, int Dim, class... Laws>
+AddedMass added_mass(const SpringSystem<Scalar, Dim, Laws...>& system,
+                     const State<Scalar, Dim>& state, double h) {
+    if (!(h > 0) || !std::isfinite(h)) fail("added_mass: h is ", h, "; it must be finite and > 0");
+    if (state.x.cols() != system.size()) {
+        fail("added_mass: the state has ", state.x.cols(), " positions; the system has ",
+             system.size(), " particles");
+    }
+    constexpr int repeats = 60;
+    constexpr double margin = 1 + 1e-9;  // for the rounding of the masses themselves
+    AddedMass added;
+    added.mass.assign(static_cast<std::size_t>(system.size()), 0);
+    const double budget = 4 - 2 * h * system.rayleigh().mass_proportional;
+    if (!(budget > 0)) return added;
+    added.reached = true;
+    auto pencil = SpringPencil<Dim>::at_pose(system, state.x.template cast<double>());
+    const auto before = pencil.size() <= AddedMass::dense_frequencies && pencil.size() > 0
+                            ? detail::lowest_frequencies(pencil)
+                            : std::vector<double>();
+    std::vector<Index> free;
+    for (Index i = 0; i < system.size(); ++i) {
+        if (!system.is_pinned(i)) free.push_back(i);
+    }
+    std::vector<double> mass(free.size());
+    std::vector<double> p(free.size());
+    for (std::size_t i = 0; i < free.size(); ++i) {
+        mass[i] = static_cast<double>(system.mass(free[i]));
+        p[i] = 1 / std::sqrt(mass[i]);
+    }
+    double best = std::numeric_limits<double>::infinity();
+    for (int repeat = 0; repeat < repeats; ++repeat) {
+        const auto needed = pencil.particle_loads({0, h * h, 2 * h}, p);  // N s²/m, kg
+        double total = 0;
+        for (std::size_t i = 0; i < free.size(); ++i) {
+            total += std::max(0.0, needed[i] / budget * margin - mass[i]);
+        }
+        if (total < best) {
+            best = total;
+            for (std::size_t i = 0; i < free.size(); ++i) {
+                added.mass[free[i]] = std::max(0.0, needed[i] / budget * margin - mass[i]);
+            }
+        }
+        // A particle with mass to spare takes over from its neighbours by a smaller weight.
+        for (std::size_t i = 0; i < free.size(); ++i) {
+            const double use = needed[i] / (budget * mass[i]);
+            p[i] *= std::sqrt(std::clamp(use, 1e-4, 1.0));
+        }
+    }
+    added.total = best == std::numeric_limits<double>::infinity() ? 0 : best;
+    if (!before.empty()) {
+        auto heavier = system;
+        for (const Index i : free) {
+            heavier.set_mass(
+                i, static_cast<Scalar>(static_cast<double>(system.mass(i)) + added.mass[i]));
+        }
+        const auto after = detail::lowest_frequencies(
+            SpringPencil<Dim>::at_pose(heavier, state.x.template cast<double>()));
+        for (std::size_t j = 0; j < before.size() && j < after.size(); ++j) {
+            added.frequency_change.push_back(after[j] / before[j] - 1);
+        }
+    }
+    return added;
+}
+
+}  // namespace taut

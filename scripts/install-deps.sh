@@ -1,0 +1,53 @@
+#!/bin/sh
+# SPDX-FileCopyrightText: 2026 Taut contributors
+# SPDX-License-Identifier: MIT
+
+# Installs what the build, the tests and the examples need. `--ci` adds what only .ci/run needs.
+set -eu
+
+# libopenblas-dev comes with SuiteSparse: on the reference BLAS, CHOLMOD is slower than Eigen.
+packages="cmake ninja-build g++ libeigen3-dev libsuitesparse-dev libopenblas-dev catch2
+libcli11-dev libtinyobjloader-dev nlohmann-json3-dev"
+
+case "${1-}" in
+    '') ;;
+    --ci) packages="$packages git clang-format-14" ;;
+    *) echo "install-deps: unknown option '$1'; the only one is --ci" >&2; exit 1 ;;
+esac
+
+if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+    cat >&2 <<'END'
+install-deps: there is no apt-get here. Install these yourself, then run the cmake command:
+  brew install cmake ninja eigen suite-sparse openblas catch2 cli11 tinyobjloader nlohmann-json
+  vcpkg install eigen3 suitesparse openblas catch2 cli11 tinyobjloader nlohmann-json
+END
+    exit 1
+fi
+
+missing=
+for package in $packages; do
+    status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null) || status=
+    [ "$status" = installed ] || missing="$missing $package"
+done
+if [ -z "$missing" ]; then
+    echo "install-deps: nothing is missing"
+    exit 0
+fi
+
+as_root=
+if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || {
+        echo "install-deps: run it as root, there is no sudo here. Missing:$missing" >&2
+        exit 1
+    }
+    as_root=sudo
+fi
+
+echo "install-deps: installing$missing"
+# shellcheck disable=SC2086  # lists of words
+$as_root apt-get update -qq </dev/null &&
+    $as_root env DEBIAN_FRONTEND=noninteractive \
+        apt-get install -y -qq --no-install-recommends $missing </dev/null || {
+    echo "install-deps: apt-get could not install:$missing" >&2
+    exit 1
+}

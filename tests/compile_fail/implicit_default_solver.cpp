@@ -1,0 +1,7 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+// EXPECT: taut::ImplicitEuler: a GeneralLinearSystem needs an unsymmetric solver
+
+#include <taut/integrator/implicit_euler.hpp>
+
+void step(const taut::GeneralLinearSystem<double>& system) { taut::ImplicitEuler stepper(system); }

@@ -1,0 +1,12 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+// EXPECT: taut::ImplicitEuler: a GeneralLinearSystem needs an unsymmetric solver
+
+#include <Eigen/SparseCholesky>
+#include <taut/integrator/implicit_euler.hpp>
+
+using System = taut::GeneralLinearSystem<double>;
+
+void step(const System& system) {
+    taut::ImplicitEuler<System, Eigen::SimplicialLLT<taut::SparseMatrix<double>>> stepper(system);
+}

@@ -1,0 +1,7 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+// EXPECT: taut::SpringSystem<Scalar, Dim>: Scalar must be float, double or long double
+
+#include <taut/model/spring_system.hpp>
+
+taut::SpringSystem<int, 3> system_of_integers;

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+
+#include <taut/taut.hpp>
+
+#if defined(__cpp_exceptions) || defined(__cpp_rtti)
+#error "this unit must be compiled without exceptions and RTTI: the flags were lost"
+#endif
+
+// Members of a template are compiled only when asked for: ask for all of them.
+template class taut::SpringSystem<double, 3>;
+template class taut::SpringSystem<float, 2>;
+template class taut::LinearSystem<double>;
+template class taut::ExplicitEuler<taut::SpringSystem<double, 3>>;
+template class taut::SymplecticEuler<taut::SpringSystem<double, 3>>;
+template class taut::VelocityVerlet<taut::SpringSystem<double, 3>>;
+template class taut::ImplicitEuler<taut::SpringSystem<double, 3>>;
+template class taut::Stability<double>;
+
+int main() {
+    taut::SpringSystem<double, 3> cloth = taut::hanging_cloth<double>({4, 4});
+    auto state = cloth.initial_state();
+    taut::SymplecticEuler stepper(cloth);
+    return stepper.step(state, 0.95 * taut::any_pose_limit(cloth).certified) ? 0 : 1;
+}

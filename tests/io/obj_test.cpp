@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <taut/io/obj.hpp>
+#include <taut/scene/cloth.hpp>
+#include <vector>
+
+#include "../support/catch.hpp"
+#include "../support/random.hpp"
+#include "../support/tolerance.hpp"
+
+using namespace taut_test;
+
+namespace {
+
+using Faces = std::vector<std::vector<Index>>;
+
+/// A file in the working directory that is removed at the end of the test.
+struct TemporaryFile {
+    explicit TemporaryFile(std::string name) : path("taut_obj_test_" + std::move(name)) {}
+    ~TemporaryFile() { std::remove(path.c_str()); }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    std::string path;
+};
+
+struct Mesh {
+    std::vector<Eigen::Vector3d> vertices;
+    Faces faces;
+    bool understood = true;
+};
+
+/// The `v` and `f` lines of an OBJ file, corners counted from 0.
+Mesh read(const std::string& path) {
+    Mesh mesh;
+    std::ifstream file(path);
+    for (std::string line; std::getline(file, line);) {
+        std::istringstream words(line);
+        std::string kind;
+        words >> kind;
+        if (kind == "v") {
+            Eigen::Vector3d x;
+            words >> x[0] >> x[1] >> x[2];
+            mesh.vertices.push_back(x);
+            mesh.understood = mesh.understood && words && (words >> std::ws).eof();
+        } else if (kind == "f") {
+            mesh.faces.emplace_back();
+            for (Index corner = 0; words >> corner;) mesh.faces.back().push_back(corner - 1);
+            mesh.understood = mesh.understood && words.eof();
+        } else {
+            mesh.understood = false;
+        }
+    }
+    return mesh;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("obj: vertices and faces are read back as written", "[io]", (Case<float, 1>),
+                   (Case<float, 3>), (Case<double, 2>), (Case<double, 3>)) {
+    using Scalar = typename TestType::Scalar;
+    constexpr int Dim = TestType::Dim;
+    const TemporaryFile file("round_trip_" + std::to_string(sizeof(Scalar)) + "_" +
+                             std::to_string(Dim) + ".obj");
+    Random random(1);
+    const auto x = random.points<Scalar, Dim>(9, -100, 100);
+    const Faces faces{{0, 1, 2}, {5, 4, 3, 8}, {0, 2, 4, 6, 7}};
+    REQUIRE(taut::write_obj(file.path, x, faces));
+    const auto mesh = read(file.path);
+    CHECK(mesh.understood);
+    CHECK(mesh.faces == faces);
+    REQUIRE(mesh.vertices.size() == 9);
+    for (Index i = 0; i < 9; ++i) {
+        for (int d = 0; d < 3; ++d) {
+            const double expected = d < Dim ? static_cast<double>(x(d < Dim ? d : 0, i)) : 0;
+            // Numbers of float precision: they come back to the bit.
+            CHECK(static_cast<float>(mesh.vertices[static_cast<std::size_t>(i)][d]) ==
+                  static_cast<float>(expected));
+        }
+    }
+}
+
+TEST_CASE("obj: a state without faces is a cloud of points", "[io]") {
+    const TemporaryFile file("cloud.obj");
+    const auto cloth = taut::hanging_cloth<double>({3, 3});
+    REQUIRE(taut::write_obj(file.path, cloth.initial_state().x, {}));
+    const auto mesh = read(file.path);
+    CHECK(mesh.understood);
+    CHECK(mesh.vertices.size() == 9);
+    CHECK(mesh.faces.empty());
+}
+
+TEST_CASE("obj: a file is replaced as a whole", "[io]") {
+    const TemporaryFile file("replaced.obj");
+    Random random(2);
+    REQUIRE(taut::write_obj(file.path, random.points<double, 3>(20, -1, 1), {{0, 1, 2}}));
+    REQUIRE(taut::write_obj(file.path, random.points<double, 3>(4, -1, 1), {}));
+    CHECK(read(file.path).vertices.size() == 4);
+}
+
+TEST_CASE("obj: bad input: a path that cannot be written gives false", "[io][bad_input]") {
+    const taut::Points<double, 3> x = taut::Points<double, 3>::Zero(3, 2);
+    CHECK_FALSE(taut::write_obj("no_such_directory/mesh.obj", x, {}));
+    CHECK_FALSE(taut::write_obj("", x, {}));
+}
+
+#ifdef __linux__
+TEST_CASE("obj: bad input: a full disk gives false", "[io][bad_input]") {
+    const taut::Points<double, 3> x = taut::Points<double, 3>::Zero(3, 2);
+    if (std::ifstream("/dev/full")) CHECK_FALSE(taut::write_obj("/dev/full", x, {}));
+}
+#endif

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#include <taut/model/hookean.hpp>
+#include <taut/model/spring_set.hpp>
+
+#include "../support/catch.hpp"
+#include "../support/tolerance.hpp"
+
+using namespace taut_test;
+using taut::Hookean;
+using taut::SpringSet;
+using Set = SpringSet<double, Hookean>;
+
+TEST_CASE(
+    "spring_set: damping takes no memory until a damped spring comes, and counts from then on",
+    "[model]") {
+    Set set;
+    set.add({0, 1, {10}, 1});
+    set.add({1, 2, {10}, 1});
+    CHECK(set.damping.empty());
+    CHECK(set.damping_of(1) == 0);
+    set.add({2, 3, {10}, 1, 5});
+    set.add({3, 4, {10}, 1});
+    CHECK(set.damping == std::vector<double>{0, 0, 5, 0});
+    CHECK(set.damping_of(2) == 5);
+    CHECK(set.size() == 4);
+}
+
+TEST_CASE("spring_set: the tangent of a stretched, a compressed and a flat spring by hand",
+          "[model]") {
+    Set set;
+    set.add({0, 1, {100}, 4, 7});
+    taut::Points<double, 2> x(2, 2);
+    x << 0, 0, 0, 5;
+    const auto long_one = set.tangent(0, x);
+    CHECK((long_one.d == Eigen::Vector2d(0, 1)));
+    CHECK(long_one.axial == 100);
+    CHECK_THAT(long_one.transverse, Catch::Matchers::WithinRel(20.0, Tolerance<double>::rounding));
+    CHECK(long_one.bound == 100);
+    CHECK(long_one.damping == 7);
+
+    x(1, 1) = -2;
+    const auto short_one = set.tangent(0, x);
+    CHECK((short_one.d == Eigen::Vector2d(0, -1)));
+    CHECK_THAT(short_one.transverse,
+               Catch::Matchers::WithinRel(-100.0, Tolerance<double>::rounding));
+    CHECK(short_one.projected().transverse == 0);
+    CHECK(short_one.projected().axial == 100);
+
+    x(1, 1) = 0;
+    const auto flat = set.tangent(0, x);
+    CHECK((flat.d == Eigen::Vector2d(0, 0)));
+    CHECK(flat.axial == 100);
+    CHECK(flat.transverse == 100);
+}
+
+TEST_CASE("spring_set: a float spring has a tangent in double", "[model]") {
+    SpringSet<float, Hookean> set;
+    set.add({0, 1, {0.1F}, 0.3F});
+    taut::Points<double, 1> x(1, 2);
+    x << 0, 0.7;
+    const auto t = set.tangent(0, x);
+    CHECK(t.axial == static_cast<double>(0.1F));
+    const double expected = static_cast<double>(0.1F) * (1 - static_cast<double>(0.3F) / 0.7);
+    CHECK_THAT(t.transverse, Catch::Matchers::WithinRel(expected, Tolerance<double>::rounding));
+}

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <taut/model/hookean.hpp>
+
+#include "random.hpp"
+
+namespace taut_test {
+
+/// A string: T = k·max(l − L, 0). Its energy is convex in the positions.
+struct TensionOnly {
+    static constexpr bool convex = true;
+
+    template <class Scalar>
+    struct Parameters {
+        Scalar stiffness;  // N/m
+
+        void require_valid() const {
+            taut::require_non_negative("TensionOnly", "stiffness", stiffness);
+        }
+        template <class Other>
+        Parameters<Other> cast() const {
+            return {static_cast<Other>(stiffness)};
+        }
+    };
+    template <class Scalar>
+    static Scalar tension(const Parameters<Scalar>& p, Scalar L, Scalar l) {
+        return l > L ? p.stiffness * (l - L) : Scalar(0);
+    }
+    template <class Scalar>
+    static Scalar tension_slope(const Parameters<Scalar>& p, Scalar L, Scalar l) {
+        return l > L ? p.stiffness : Scalar(0);
+    }
+    template <class Scalar>
+    static Scalar energy(const Parameters<Scalar>& p, Scalar L, Scalar l) {
+        return l > L ? Scalar(0.5) * p.stiffness * (l - L) * (l - L) : Scalar(0);
+    }
+    template <class Scalar>
+    static Scalar stiffness_bound(const Parameters<Scalar>& p, Scalar) {
+        return p.stiffness;
+    }
+};
+
+/// Glue: T = k·u·exp(−u²/w²), u = l − L. Pulled far, it lets go: T′ < 0 beyond u = w/√2.
+struct Glue {
+    static constexpr bool convex = false;
+
+    template <class Scalar>
+    struct Parameters {
+        Scalar stiffness;  // N/m
+        Scalar width;      // m
+
+        void require_valid() const {
+            taut::require_non_negative("Glue", "stiffness", stiffness);
+            taut::require_non_negative("Glue", "width", width);
+        }
+        template <class Other>
+        Parameters<Other> cast() const {
+            return {static_cast<Other>(stiffness), static_cast<Other>(width)};
+        }
+    };
+    template <class Scalar>
+    static Scalar tension(const Parameters<Scalar>& p, Scalar L, Scalar l) {
+        return p.stiffness * (l - L) * decay(p, L, l);
+    }
+    template <class Scalar>
+    static Scalar tension_slope(const Parameters<Scalar>& p, Scalar L, Scalar l) {
+        const Scalar r = (l - L) / p.width;
+        return p.stiffness * (1 - 2 * r * r) * decay(p, L, l);
+    }
+    template <class Scalar>
+    static Scalar energy(const Parameters<Scalar>& p, Scalar L, Scalar l) {
+        return Scalar(0.5) * p.stiffness * p.width * p.width * (1 - decay(p, L, l));
+    }
+    template <class Scalar>
+    static Scalar stiffness_bound(const Parameters<Scalar>& p, Scalar) {
+        return p.stiffness;
+    }
+
+private:
+    template <class Scalar>
+    static Scalar decay(const Parameters<Scalar>& p, Scalar L, Scalar l) {
+        const Scalar r = (l - L) / p.width;
+        return std::exp(-r * r);
+    }
+};
+
+template <class Scalar>
+taut::Hookean::Parameters<Scalar> draw_parameters(Random& random, taut::Hookean) {
+    return {static_cast<Scalar>(random.uniform(20, 200))};
+}
+template <class Scalar>
+TensionOnly::Parameters<Scalar> draw_parameters(Random& random, TensionOnly) {
+    return {static_cast<Scalar>(random.uniform(20, 200))};
+}
+template <class Scalar>
+Glue::Parameters<Scalar> draw_parameters(Random& random, Glue) {
+    const auto stiffness = static_cast<Scalar>(random.uniform(20, 200));
+    return {stiffness, static_cast<Scalar>(random.uniform(0.3, 1))};
+}
+
+}  // namespace taut_test
