@@ -15,66 +15,71 @@ namespace taut {
 /// Full eigenvalue computations for small systems: O(N³), good to rounding, numerical (no proof).
 /// K⁺ is used throughout; modes of K whose eigenvalue is zero to rounding are zero modes and are
 /// left out of limits and radii.
+/// @tparam Real  the precision: double, or long double for a referee
+template <class Real = double>
 class DenseAnalysis {
 public:
+    using Vector = VectorX<Real>;
+    using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+
     /// @param project  take K⁺ for K
     explicit DenseAnalysis(const Pencil& pencil, bool project = true);
 
     /// Eigenvalues of K'⁺, ascending, 1/s².
-    const Eigen::VectorXd& stiffness_eigenvalues() const { return modes_.eigenvalues(); }
+    const Vector& stiffness_eigenvalues() const { return modes_.eigenvalues(); }
     /// Eigenvectors in the coordinates u: column j has uᵀMu = 1.
-    Eigen::VectorXd mode(Index j) const {
-        return modes_.eigenvectors().col(j).cwiseQuotient(root_);
-    }
+    Vector mode(Index j) const { return modes_.eigenvectors().col(j).cwiseQuotient(root_); }
     /// Eigenvalues with |k| ≤ this are zero modes.
-    double zero_tolerance() const { return zero_; }
+    Real zero_tolerance() const { return zero_; }
     Index zero_modes() const { return (modes_.eigenvalues().array().abs() <= zero_).count(); }
 
     /// min over λ(C) of −2 Re λ/|λ|², the exact limit of explicit Euler for any D [T18]; 0 when an
     /// undamped mode allows none, infinity when there is nothing but zero modes.
-    double explicit_limit() const { return limits().estimate; }
+    Real explicit_limit() const { return limits().estimate; }
     /// The same from above: each λ may err by its condition number times the rounding of C, to
     /// first order; eigenvalues that this leaves undecided are passed over.
-    double explicit_limit_above() const { return limits().above; }
+    Real explicit_limit_above() const { return limits().above; }
     /// Largest |μ| of one step over all modes but the zero modes.
-    double spectral_radius(Method method, double h) const;
+    Real spectral_radius(Method method, Real h) const;
 
 private:
     struct Limits {
-        double estimate = std::numeric_limits<double>::infinity();
-        double above = std::numeric_limits<double>::infinity();
+        Real estimate = std::numeric_limits<Real>::infinity();
+        Real above = std::numeric_limits<Real>::infinity();
     };
     Limits limits() const;
-    Eigen::MatrixXd generator() const;
+    Matrix generator() const;
 
-    Eigen::VectorXd root_;  // √M
-    Eigen::MatrixXd D_;     // M^-½ D M^-½
-    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes_;
-    double zero_ = 0;
+    Vector root_;  // √M
+    Matrix D_;     // M^-½ D M^-½
+    Eigen::SelfAdjointEigenSolver<Matrix> modes_;
+    Real zero_ = 0;
 };
 
-inline DenseAnalysis::DenseAnalysis(const Pencil& pencil, bool project)
-    : root_(pencil.mass().cwiseSqrt()) {
+template <class Real>
+DenseAnalysis<Real>::DenseAnalysis(const Pencil& pencil, bool project)
+    : root_(pencil.mass().template cast<Real>().cwiseSqrt()) {
     const auto scaled = [&](const Combination& c) {
-        const Eigen::VectorXd inverse = root_.cwiseInverse();
-        const Eigen::MatrixXd S = Eigen::MatrixXd(pencil.assemble(c));
-        return Eigen::MatrixXd(inverse.asDiagonal() * S * inverse.asDiagonal());
+        const Vector inverse = root_.cwiseInverse();
+        const Matrix S = pencil.assemble(c).toDense().template cast<Real>();
+        return Matrix(inverse.asDiagonal() * S * inverse.asDiagonal());
     };
     D_ = scaled({0, 0, 1});
     modes_.compute(scaled({0, 1, 0, project}));
-    const double norm = modes_.eigenvalues().cwiseAbs().maxCoeff();
-    zero_ = 64 * static_cast<double>(pencil.size()) * std::numeric_limits<double>::epsilon() * norm;
+    const Real norm = modes_.eigenvalues().cwiseAbs().maxCoeff();
+    zero_ = 64 * static_cast<Real>(pencil.size()) * std::numeric_limits<Real>::epsilon() * norm;
 }
 
 /// C [T1] in energy coordinates y = √k x of the modes, [[0, S], [−S, −D]] with S = √k:
 /// skew-symmetric but for D, so its eigenvalues are well conditioned under light damping. Zero
 /// modes have no y, for no force depends on it; what is left of λ = 0 is simple.
-inline Eigen::MatrixXd DenseAnalysis::generator() const {
+template <class Real>
+auto DenseAnalysis<Real>::generator() const -> Matrix {
     const Index N = root_.size();
     const Index r = N - zero_modes();
     // A permutation brings the zero modes last.
-    Eigen::MatrixXd V(N, N);
-    Eigen::VectorXd k(N);
+    Matrix V(N, N);
+    Vector k(N);
     Index front = 0;
     Index back = r;
     for (Index j = 0; j < N; ++j) {
@@ -82,7 +87,7 @@ inline Eigen::MatrixXd DenseAnalysis::generator() const {
         V.col(to) = modes_.eigenvectors().col(j);
         k[to] = modes_.eigenvalues()[j];
     }
-    Eigen::MatrixXd C = Eigen::MatrixXd::Zero(r + N, r + N);
+    Matrix C = Matrix::Zero(r + N, r + N);
     C.block(0, r, r, r).diagonal() = k.head(r).cwiseAbs().cwiseSqrt();
     C.block(r, 0, r, r).diagonal() =
         -k.head(r).cwiseSign().cwiseProduct(C.block(0, r, r, r).diagonal());
@@ -90,39 +95,44 @@ inline Eigen::MatrixXd DenseAnalysis::generator() const {
     return C;
 }
 
-inline DenseAnalysis::Limits DenseAnalysis::limits() const {
-    const Eigen::MatrixXd C = generator();
-    const Eigen::EigenSolver<Eigen::MatrixXd> solver(C);
-    const Eigen::MatrixXcd V = solver.eigenvectors();
-    const Eigen::MatrixXcd W = V.partialPivLu().inverse();
-    const double rounding =
-        4 * static_cast<double>(C.rows()) * std::numeric_limits<double>::epsilon() * C.norm();
+template <class Real>
+auto DenseAnalysis<Real>::limits() const -> Limits {
+    using ComplexMatrix = Eigen::Matrix<std::complex<Real>, Eigen::Dynamic, Eigen::Dynamic>;
+    const Matrix C = generator();
+    const Eigen::EigenSolver<Matrix> solver(C);
+    const ComplexMatrix V = solver.eigenvectors();
+    const ComplexMatrix W = V.partialPivLu().inverse();
+    const Real rounding =
+        4 * static_cast<Real>(C.rows()) * std::numeric_limits<Real>::epsilon() * C.norm();
     const bool buckled = modes_.eigenvalues()[0] < -zero_;
     Limits limits;
     for (Index i = 0; i < C.rows(); ++i) {
-        const std::complex<double> lambda = solver.eigenvalues()[i];
+        const std::complex<Real> lambda = solver.eigenvalues()[i];
         if (std::abs(lambda) <= rounding) continue;  // a zero mode's velocity
         // The growth of a buckled system is not the step's [T27].
-        if (buckled && lambda.real() > 0 && std::abs(lambda.imag()) <= 1e-6 * std::abs(lambda))
+        if (buckled && lambda.real() > 0 &&
+            std::abs(lambda.imag()) <= Real(1e-6) * std::abs(lambda))
             continue;
-        const double size = std::norm(lambda);
-        limits.estimate = std::min(limits.estimate, std::max(0.0, -2 * lambda.real() / size));
-        const double error = rounding * V.col(i).norm() * W.row(i).norm();
-        const double least = std::abs(lambda) - error;
+        const Real size = std::norm(lambda);
+        limits.estimate = std::min(limits.estimate, std::max(Real(0), -2 * lambda.real() / size));
+        const Real error = rounding * V.col(i).norm() * W.row(i).norm();
+        const Real least = std::abs(lambda) - error;
         if (!(least > std::abs(lambda) / 2)) continue;
         limits.above =
-            std::min(limits.above, 2 * std::max(0.0, error - lambda.real()) / (least * least));
+            std::min(limits.above, 2 * std::max(Real(0), error - lambda.real()) / (least * least));
     }
     return limits;
 }
 
-inline double DenseAnalysis::spectral_radius(Method method, double h) const {
-    const Eigen::MatrixXd C = generator();
+template <class Real>
+Real DenseAnalysis<Real>::spectral_radius(Method method, Real h) const {
+    using ComplexVector = Eigen::Matrix<std::complex<Real>, Eigen::Dynamic, 1>;
+    const Matrix C = generator();
     const Index n = C.rows();
     const Index N = root_.size();
     const Index r = n - N;
-    const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(n, n);
-    Eigen::MatrixXd step;
+    const Matrix I = Matrix::Identity(n, n);
+    Matrix step;
     switch (method) {
         case Method::explicit_euler: step = I + h * C; break;
         case Method::symplectic_euler:
@@ -136,11 +146,11 @@ inline double DenseAnalysis::spectral_radius(Method method, double h) const {
         }
         case Method::implicit_euler: step = (I - h * C).partialPivLu().inverse(); break;
     }
-    double radius = 0;
-    for (const auto& mu : Eigen::VectorXcd(step.eigenvalues())) {
+    Real radius = 0;
+    for (const auto& mu : ComplexVector(step.eigenvalues())) {
         // The velocity of an undamped zero mode: multiplier exactly 1.
-        if (std::abs(mu - 1.0) <=
-            64 * static_cast<double>(n) * std::numeric_limits<double>::epsilon()) {
+        if (std::abs(mu - Real(1)) <=
+            64 * static_cast<Real>(n) * std::numeric_limits<Real>::epsilon()) {
             continue;
         }
         radius = std::max(radius, std::abs(mu));

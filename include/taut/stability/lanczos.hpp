@@ -46,10 +46,12 @@ inline Eigen::VectorXd scattered_vector(Index N, Index seed = 0) {
 /// The largest eigenvalue of M⁻¹S from below: Lanczos with full reorthogonalisation and thick
 /// restart (K. Wu and H. Simon, Thick-restart Lanczos method for large symmetric eigenvalue
 /// problems, 2000). Negate the factors of `c` for the smallest one.
+/// @tparam Operator  Pencil, or anything with its size(), mass() and multiply()
+/// @tparam Operator  Pencil, or anything with its size(), mass() and multiply()
 /// @param start  an approximate eigenvector to begin with, N; empty: a fixed scattered vector
-inline RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
-                                  const LanczosOptions& options = {},
-                                  const Eigen::VectorXd& start = {}) {
+template <class Operator>
+RitzPair largest_ritz_pair(const Operator& pencil, const Combination& c,
+                           const LanczosOptions& options = {}, const Eigen::VectorXd& start = {}) {
     const Index N = pencil.size();
     const Index m = std::min<Index>(options.basis, N);
     const Eigen::VectorXd root = pencil.mass().cwiseSqrt();

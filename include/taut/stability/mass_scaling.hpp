@@ -27,8 +27,9 @@ struct AddedMass {
 namespace detail {
 
 /// The lowest ten √k of M⁻¹K⁺ above the zero modes, rad/s.
-inline std::vector<double> lowest_frequencies(const Pencil& pencil) {
-    const DenseAnalysis dense(pencil);
+template <class AnyPencil>
+std::vector<double> lowest_frequencies(const AnyPencil& pencil) {
+    const DenseAnalysis<> dense(pencil);
     std::vector<double> omega;
     for (Index j = 0; j < pencil.size() && omega.size() < 10; ++j) {
         const double k = dense.stiffness_eigenvalues()[j];

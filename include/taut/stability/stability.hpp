@@ -206,7 +206,7 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::explicit_limit(double tightness) 
     bracket.refuted = detail::refuted_explicit(pencil, mode, commutes);
     if (!commutes && size() <= dense_size) {
         bracket.refuted =
-            std::min(bracket.refuted, DenseAnalysis(pencil, false).explicit_limit_above());
+            std::min(bracket.refuted, DenseAnalysis<>(pencil, false).explicit_limit_above());
     }
     double up_to = 0;
     double delta = 0;
@@ -364,7 +364,7 @@ double Stability<Scalar, Cholesky>::spectral_radius(Method method, double h) con
         fail("Stability::spectral_radius: h is ", h, "; it must be finite and > 0");
     }
     if (size() == 0) return 0;
-    if (size() <= dense_size) return DenseAnalysis(*pencil_).spectral_radius(method, h);
+    if (size() <= dense_size) return DenseAnalysis<>(*pencil_).spectral_radius(method, h);
     // For fixed h the radius is quasi-convex in k, so the ends of the spectrum decide.
     double radius = 0;
     for (const double sign : {1.0, -1.0}) {

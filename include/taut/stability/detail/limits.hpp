@@ -60,7 +60,8 @@ inline double certified_symplectic(const Pencil& pencil, double enough = 0) {
 
 /// A step that a vector refutes: uᵀ(4M − 2hD − h²K)u ≤ 0, improved by [T19]'s iteration.
 /// Holds for an indefinite K too: a real multiplier ≤ −1 follows from the vector alone.
-inline double refuted_symplectic(const Pencil& pencil, RitzPair& mode) {
+template <class Operator>
+double refuted_symplectic(const Operator& pencil, RitzPair& mode) {
     const auto step = [&](const Eigen::VectorXd& u) {
         const auto [k, d] = quotients(pencil, u, false);
         return critical_step(Method::symplectic_euler, k.lower(), std::max(0.0, d.lower()));
@@ -123,7 +124,8 @@ inline double refuted_by_damping(const Pencil& pencil, const Eigen::VectorXd& u)
 }
 
 /// @param commutes  whether M, D and the stepper's K share their eigenvectors
-inline double refuted_explicit(const Pencil& pencil, const RitzPair& stiffest, bool commutes) {
+template <class Operator>
+double refuted_explicit(const Operator& pencil, const RitzPair& stiffest, bool commutes) {
     const RitzPair most_damped = largest_ritz_pair(pencil, {0, 0, 1});
     double h = std::min(refuted_by_damping(pencil, stiffest.vector),
                         refuted_by_damping(pencil, most_damped.vector));
