@@ -13,7 +13,7 @@ namespace taut {
 
 struct EquilibriumOptions {
     int max_iterations = 500;
-    /// On the norm of the free forces, relative to that of the largest forces met or the weight.
+    /// On the norm of the free forces, relative to the first ones or the weight.
     double tolerance = 1e-8;
 };
 
@@ -31,7 +31,7 @@ public:
 
     EquilibriumSearch(const System& system, const State& start);
 
-    /// ‖free forces‖ relative to the largest met, or to the weight.
+    /// ‖free forces‖ relative to the first ones, or to the weight.
     double relative_force() const {
         return scale_ > 0 ? static_cast<double>(residual_.norm() / scale_) : 0;
     }
@@ -63,8 +63,8 @@ EquilibriumSearch<System>::EquilibriumSearch(const System& system, const State& 
     trial_.v.setZero();
     Scalar mass = 0;
     for (const Index i : tangent_.free()) mass += system.mass(i);
-    scale_ = mass * system.gravity().norm();
     update_forces();
+    scale_ = std::max(mass * system.gravity().norm(), residual_.norm());
     // The first step moves a mechanism by about a hundredth of the scene.
     const Scalar extent = (state_.x.rowwise().maxCoeff() - state_.x.rowwise().minCoeff()).norm();
     const Scalar step = extent > 0 ? extent / 100 : Scalar(1) / 100;
@@ -80,7 +80,6 @@ void EquilibriumSearch<System>::update_forces() {
     for (std::size_t j = 0; j < free.size(); ++j) {
         residual_.template segment<Dim>(Dim * static_cast<Index>(j)) = f_.col(free[j]);
     }
-    scale_ = std::max(scale_, residual_.norm());
 }
 
 /// Halves the step until the energy falls or the forces do; moves state_ if one of them does.

@@ -18,6 +18,7 @@ public:
     template <class Scalar>
     explicit MatrixPencil(const LinearSystem<Scalar>& system);
 
+    int dim() const override { return 1; }
     void multiply(const Combination& c, const Eigen::VectorXd& u,
                   Eigen::VectorXd& y) const override {
         y = c.mass * mass_.cwiseProduct(u);

@@ -46,6 +46,8 @@ public:
     Index size() const { return mass_.size(); }
     /// N, kg: the diagonal of M.
     const Eigen::VectorXd& mass() const { return mass_; }
+    /// Degrees of freedom of one particle; 1 where there are no particles.
+    virtual int dim() const = 0;
 
     /// y ← S u.
     virtual void multiply(const Combination& c, const Eigen::VectorXd& u,

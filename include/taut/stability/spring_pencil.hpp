@@ -26,6 +26,7 @@ public:
     template <class System>
     static SpringPencil any_pose(const System& system);
 
+    int dim() const override { return Dim; }
     void multiply(const Combination& c, const Eigen::VectorXd& u,
                   Eigen::VectorXd& y) const override;
     Enclosed quadratic(const Combination& c, const Eigen::VectorXd& u) const override;

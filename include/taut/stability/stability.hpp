@@ -161,7 +161,8 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::max_step(Method method, double ti
         case Method::velocity_verlet: answer = symplectic_limit(tightness); break;
         case Method::implicit_euler: answer = implicit_limit(); break;
     }
-    if (method != Method::explicit_euler) admit_negative_damping(answer);
+    // An explicit step that is certified is so by D − hK ≻ 0, which needs no D ⪰ 0 beside it.
+    if (method != Method::explicit_euler || !(answer.certified > 0)) admit_negative_damping(answer);
     add_growth(answer, tightness);
     return answer;
 }
@@ -285,6 +286,7 @@ void Stability<Scalar, Cholesky>::admit_negative_damping(StepLimit<Scalar>& limi
     const double delta = detail::semidefinite_deficit(pencil, prover, {0, 0, 1}, negative);
     // A δ that is no rounding is negative damping, which feeds energy in at every step.
     const bool rounding = delta <= 1e-6 * std::max(0.0, pencil.upper_bound({0, 0, 1}));
+    if (rounding && !(limit.certified > 0)) return;
     if (rounding) {
         limit.certified_up_to =
             std::min(limit.certified, detail::round_down<Scalar>(1 / std::max(delta, 1e-300)));
@@ -342,12 +344,7 @@ StiffnessSpectrum Stability<Scalar, Cholesky>::stiffness_spectrum(bool count_zer
     spectrum.k_max.upper = std::max(0.0, pencil.upper_bound({0, 1, 0}));
     spectrum.k_max.lower =
         std::max(0.0, detail::quotients(pencil, stiffest_.vector, true).k.lower());
-    // The softest modes are smooth: a translation among the start's parts helps.
-    LanczosOptions options;
-    options.basis = 48;
-    const RitzPair softest =
-        largest_ritz_pair(pencil, {0, -1, 0}, options,
-                          Eigen::VectorXd::Ones(size()) + detail::scattered_vector(size()));
+    const RitzPair softest = detail::softest(pencil);
     spectrum.k_min.upper = detail::quotients(pencil, softest.vector, true).k.upper();
     // Springs: K⁺ ⪰ 0 by construction. Bare matrices: proved so, or bounded.
     spectrum.k_min.lower = -std::max(0.0, pencil.upper_bound({0, -1, 0}));

@@ -33,6 +33,26 @@ inline Quotients quotients(const Pencil& pencil, const Eigen::VectorXd& u, bool 
             over_m(pencil.quadratic({0, 0, 1}, u))};
 }
 
+/// The smallest eigenvalue of K'⁺ from above. The softest modes are smooth, so the search begins
+/// with the translation along an axis that costs least (none at all on a mechanism).
+template <class Operator>
+RitzPair softest(const Operator& pencil) {
+    LanczosOptions options;
+    options.basis = 48;
+    Eigen::VectorXd start;
+    double least = infinity;
+    for (Index axis = 0; axis < pencil.dim(); ++axis) {
+        Eigen::VectorXd u = Eigen::VectorXd::Zero(pencil.size());
+        for (Index i = axis; i < u.size(); i += pencil.dim()) u[i] = 1;
+        const double k = quotients(pencil, u, true).k.value;
+        if (k < least) {
+            least = k;
+            start = std::move(u);
+        }
+    }
+    return largest_ritz_pair(pencil, {0, -1, 0}, options, start);
+}
+
 /// The largest step of which 4M − 2hD − h²K⁺ ≻ 0 is proved by the bound [T19], [T23].
 /// @param enough  a bound on k_max, 1/s², that need not be improved
 inline double certified_symplectic(const Pencil& pencil, double enough = 0) {
