@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: 2026 Taut contributors
 # SPDX-License-Identifier: MIT
 
-# Installs what the build, the tests and the examples need. `--ci` adds what only .ci/run needs.
+# Installs what the build, the tests and the examples need. `--ci` adds what only .ci/run needs,
+# `--bench` what only the benchmarks need.
 set -eu
 
 # libopenblas-dev comes with SuiteSparse: on the reference BLAS, CHOLMOD is slower than Eigen.
@@ -12,7 +13,8 @@ libcli11-dev libtinyobjloader-dev nlohmann-json3-dev"
 case "${1-}" in
     '') ;;
     --ci) packages="$packages git clang-format-14" ;;
-    *) echo "install-deps: unknown option '$1'; the only one is --ci" >&2; exit 1 ;;
+    --bench) packages="$packages libspectra-dev" ;;
+    *) echo "install-deps: unknown option '$1'; there are --ci and --bench" >&2; exit 1 ;;
 esac
 
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then

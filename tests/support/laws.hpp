@@ -17,8 +17,8 @@ struct TensionOnly {
     struct Parameters {
         Scalar stiffness;  // N/m
 
-        void require_valid() const {
-            taut::require_non_negative("TensionOnly", "stiffness", stiffness);
+        void require_valid(const char* where) const {
+            taut::require_non_negative(where, "stiffness", stiffness);
         }
         template <class Other>
         Parameters<Other> cast() const {
@@ -52,9 +52,9 @@ struct Glue {
         Scalar stiffness;  // N/m
         Scalar width;      // m
 
-        void require_valid() const {
-            taut::require_non_negative("Glue", "stiffness", stiffness);
-            taut::require_non_negative("Glue", "width", width);
+        void require_valid(const char* where) const {
+            taut::require_non_negative(where, "stiffness", stiffness);
+            taut::require_non_negative(where, "width", width);
         }
         template <class Other>
         Parameters<Other> cast() const {

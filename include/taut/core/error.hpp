@@ -46,4 +46,12 @@ void require_non_negative(const char* function, const char* argument, Scalar val
     }
 }
 
+/// Fails unless `value` is finite and > 0.
+template <class Scalar>
+void require_positive(const char* function, const char* argument, Scalar value) {
+    if (!(value > Scalar(0)) || !std::isfinite(value)) {
+        fail(function, ": ", argument, " is ", value, "; it must be finite and > 0");
+    }
+}
+
 }  // namespace taut

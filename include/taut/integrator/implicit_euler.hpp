@@ -67,7 +67,9 @@ Report ImplicitEuler<System, Solver>::advance(State& state, Scalar h) {
     if (equation_.update_values(*system_, state, h) || !factorized_) {
         solver_.factorize(equation_.matrix());
         factorized_ = solver_.info() == Eigen::Success;
-        if (!factorized_) return {Status::not_positive_definite};
+        if (!factorized_) {
+            return {symmetric ? Status::not_positive_definite : Status::solver_failed};
+        }
     }
     equation_.load(*system_, state, h, b_);
     dv_ = solver_.solve(b_);

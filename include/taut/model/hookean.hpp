@@ -18,7 +18,10 @@ struct Hookean {
     struct Parameters {
         Scalar stiffness;  ///< k, N/m, ≥ 0
 
-        void require_valid() const { require_non_negative("Hookean", "stiffness", stiffness); }
+        /// Fails with a message that begins with `where` unless the parameters are in range.
+        void require_valid(const char* where) const {
+            require_non_negative(where, "stiffness", stiffness);
+        }
         template <class Other>
         Parameters<Other> cast() const {
             return {static_cast<Other>(stiffness)};

@@ -30,6 +30,9 @@ SpringSystem<Scalar, Dim> chain(const ChainOptions& options = {}) {
     const Index least = ring ? 3 : options.ends == ChainEnds::free_free ? 2 : 1;
     if (n < least) fail("chain: masses is ", n, "; these ends need at least ", least);
 
+    require_positive("chain", "mass", options.mass);
+    require_non_negative("chain", "stiffness", options.stiffness);
+    require_non_negative("chain", "spacing", options.spacing);
     using Vector = Eigen::Matrix<Scalar, Dim, 1>;
     const auto place = [&](Index i) {
         Vector x = Vector::Zero();

@@ -32,7 +32,11 @@ SpringSystem<Scalar, 3> hanging_cloth(const ClothOptions& options = {}) {
         fail("hanging_cloth: ", rows, " rows and ", columns,
              " columns; at least 2 of each are needed");
     }
+    require_non_negative("hanging_cloth", "stretch", options.stretch);
     require_non_negative("hanging_cloth", "bend", options.bend);
+    require_non_negative("hanging_cloth", "height", options.height);
+    require_non_negative("hanging_cloth", "width", options.width);
+    require_positive("hanging_cloth", "mass", options.mass);
     SpringSystem<Scalar, 3> system;
     const auto count = static_cast<double>(rows * columns);
     const double dx = options.width / static_cast<double>(columns - 1);

@@ -98,6 +98,7 @@ MeshSprings<Scalar> springs_from_mesh(const Points<Scalar, 3>& vertices,
     detail::require_faces(faces, vertices.cols());
     require_non_negative("springs_from_mesh", "stretch", options.stretch);
     require_non_negative("springs_from_mesh", "bend", options.bend);
+    require_positive("springs_from_mesh", "mass", options.mass);
     MeshSprings<Scalar> mesh;
     auto& particle = mesh.particle_of_vertex;
     particle.assign(static_cast<std::size_t>(vertices.cols()), Index(-1));

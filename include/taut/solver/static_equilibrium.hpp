@@ -5,6 +5,7 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "../core/status.hpp"
 #include "../model/spring_system.hpp"
@@ -14,6 +15,7 @@ namespace taut {
 struct EquilibriumOptions {
     int max_iterations = 500;
     /// On the norm of the free forces, relative to the first ones or the weight.
+    /// What the rounding of x leaves passes in any case.
     double tolerance = 1e-8;
 };
 
@@ -31,6 +33,11 @@ public:
 
     EquilibriumSearch(const System& system, const State& start);
 
+    /// Whether what is left is below `tolerance`, or is the rounding of x and no step lowers it.
+    bool converged(double tolerance) const {
+        const bool stuck = failures_ >= 4 && residual_.norm() <= rounding_;
+        return relative_force() <= tolerance || stuck;
+    }
     /// ‖free forces‖ relative to the first ones, or to the weight.
     double relative_force() const {
         return scale_ > 0 ? static_cast<double>(residual_.norm() / scale_) : 0;
@@ -52,6 +59,9 @@ private:
     Points<Scalar, Dim> external_;  // its part without an energy, N
     VectorX<Scalar> residual_;      // free forces, N
     Scalar scale_ = 0;              // what forces are relative to, N
+    Scalar stiffness_ = 0;          // √Σ bound² over both ends of all springs, N/m
+    Scalar rounding_ = 0;           // what the rounding of x makes of the forces, N
+    int failures_ = 0;              // iterations in a row without a step
     Scalar sigma_ = 0;              // 1/s²
 };
 
@@ -63,6 +73,10 @@ EquilibriumSearch<System>::EquilibriumSearch(const System& system, const State& 
     trial_.v.setZero();
     Scalar mass = 0;
     for (const Index i : tangent_.free()) mass += system.mass(i);
+    system.for_each_tangent(state_.x, [&](const SpringTangent<Scalar, Dim>& t) {
+        stiffness_ += 2 * t.bound * t.bound;
+    });
+    stiffness_ = std::sqrt(stiffness_);
     update_forces();
     scale_ = std::max(mass * system.gravity().norm(), residual_.norm());
     // The first step moves a mechanism by about a hundredth of the scene.
@@ -75,6 +89,8 @@ template <class System>
 void EquilibriumSearch<System>::update_forces() {
     system_.force(state_, f_);
     system_.external_force(state_, external_);
+    rounding_ =
+        4 * std::numeric_limits<Scalar>::epsilon() * stiffness_ * state_.x.cwiseAbs().maxCoeff();
     const auto& free = tangent_.free();
     residual_.resize(tangent_.size());
     for (std::size_t j = 0; j < free.size(); ++j) {
@@ -126,9 +142,11 @@ Status EquilibriumSearch<System>::iterate() {
         llt_.info() == Eigen::Success ? VectorX<Scalar>(llt_.solve(residual_)) : VectorX<Scalar>();
     if (dx.size() > 0 && dx.allFinite() && line_search(dx)) {
         update_forces();
+        failures_ = 0;
     } else {
+        ++failures_;
         sigma_ = 16 * std::max(sigma_, std::numeric_limits<Scalar>::min() * 1000);
-        if (!std::isfinite(sigma_)) return Status::not_positive_definite;
+        if (!std::isfinite(sigma_)) return Status::not_converged;
     }
     return Status::ok;
 }
@@ -155,7 +173,7 @@ Report static_equilibrium(const SpringSystem<Scalar, Dim, Laws...>& system,
     detail::EquilibriumSearch<SpringSystem<Scalar, Dim, Laws...>> search(system, state);
     Report report;
     report.residual = search.relative_force();
-    while (report && !(report.residual <= options.tolerance)) {
+    while (report && !search.converged(options.tolerance)) {
         if (report.iterations >= options.max_iterations || !std::isfinite(report.residual)) {
             report.status =
                 std::isfinite(report.residual) ? Status::not_converged : Status::diverged;

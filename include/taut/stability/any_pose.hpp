@@ -34,6 +34,7 @@ StepLimit<Scalar> any_pose_limit(const SpringSystem<Scalar, Dim, Laws...>& syste
     }
     if (!(bracket.certified > 0)) {  // overflow: nothing is proved
         limit.refuted = std::numeric_limits<Scalar>::infinity();
+        limit.cause = Cause::overflow;
         return limit;
     }
     const double h = bracket.certified;

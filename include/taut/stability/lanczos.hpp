@@ -12,9 +12,9 @@
 namespace taut {
 
 struct LanczosOptions {
-    int basis = 24;           ///< vectors kept at most: the memory is basis × N doubles
-    int restarts = 4;         ///< at most; each keeps the best third of the basis
-    double tolerance = 1e-3;  ///< stop when residual ≤ tolerance·|value| …
+    int basis = 16;           ///< vectors kept at most: the memory is basis × N doubles
+    int restarts = 8;         ///< at most; each keeps the best third of the basis
+    double tolerance = 2e-2;  ///< stop when residual ≤ tolerance·|value| …
     double settled = 0;       ///< … or when a restart raised the value by less than this share
 };
 

@@ -14,7 +14,8 @@ namespace taut {
 
 /// Answer of added_mass.
 struct AddedMass {
-    bool reached = false;      ///< false: d0 alone forbids this step, whatever the masses
+    bool reached =
+        false;  ///< false: d0 alone forbids this step whatever the masses, or they overflow
     std::vector<double> mass;  ///< kg to add to each particle; 0 for pinned ones
     double total = 0;          ///< kg
     /// Relative change of the lowest frequencies, up to ten, zero modes apart; empty above
@@ -40,25 +41,26 @@ std::vector<double> lowest_frequencies(const AnyPencil& pencil) {
 
 }  // namespace detail
 
-/// Selective mass scaling: masses to add so that symplectic Euler is certified at step h, s, in
+/// Selective mass scaling: masses to add so that step h of symplectic Euler can be proved, s, in
 /// this pose, few and small: particle i needs m_i(4 − 2h·d0) ≥ λ_max(Σ_b (1 + p_b/p_i)(2hD_b +
 /// h²P_b)) [T26], and the weights p are improved to ask for little in all. Added mass slows the
 /// motion: see frequency_change.
 template <class Scalar, int Dim, class... Laws>
 AddedMass added_mass(const SpringSystem<Scalar, Dim, Laws...>& system,
                      const State<Scalar, Dim>& state, double h) {
-    if (!(h > 0) || !std::isfinite(h)) fail("added_mass: h is ", h, "; it must be finite and > 0");
-    if (state.x.cols() != system.size()) {
+    require_positive("added_mass", "h", h);
+    if (state.x.cols() != system.size() || !state.x.allFinite()) {
         fail("added_mass: the state has ", state.x.cols(), " positions; the system has ",
-             system.size(), " particles");
+             system.size(), " particles, and each position must be finite");
     }
     constexpr int repeats = 60;
-    constexpr double margin = 1 + 1e-9;  // for the rounding of the masses themselves
+    // For the rounding of the masses themselves, which the caller sets as Scalars.
+    const double margin =
+        1 + 1e-9 + 4 * static_cast<double>(std::numeric_limits<Scalar>::epsilon());
     AddedMass added;
     added.mass.assign(static_cast<std::size_t>(system.size()), 0);
     const double budget = 4 - 2 * h * system.rayleigh().mass_proportional;
     if (!(budget > 0)) return added;
-    added.reached = true;
     auto pencil = SpringPencil<Dim>::at_pose(system, state.x.template cast<double>());
     const auto before = pencil.size() <= AddedMass::dense_frequencies && pencil.size() > 0
                             ? detail::lowest_frequencies(pencil)
@@ -92,7 +94,9 @@ AddedMass added_mass(const SpringSystem<Scalar, Dim, Laws...>& system,
             p[i] *= std::sqrt(std::clamp(use, 1e-4, 1.0));
         }
     }
-    added.total = best == std::numeric_limits<double>::infinity() ? 0 : best;
+    added.reached = std::isfinite(best);
+    if (!added.reached) return added;
+    added.total = best;
     if (!before.empty()) {
         auto heavier = system;
         for (const Index i : free) {

@@ -49,8 +49,7 @@ struct AlphaWindow {
 ///                     sees the true K, which weakens its second condition by that much [T17]
 inline AlphaWindow rayleigh_window(Method method, double h, double d0, double k_min, double k_max,
                                    double compression = 0) {
-    if (!(h > 0) || !std::isfinite(h))
-        fail("rayleigh_window: h is ", h, "; it must be finite and > 0");
+    require_positive("rayleigh_window", "h", h);
     require_non_negative("rayleigh_window", "d0", d0);
     require_non_negative("rayleigh_window", "k_min", k_min);
     if (!(k_max >= k_min) || !std::isfinite(k_max)) {

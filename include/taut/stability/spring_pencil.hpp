@@ -11,7 +11,7 @@
 
 namespace taut {
 
-/// The pencil of springs at one pose: no matrix, 64 bytes a spring in three dimensions.
+/// The pencil of springs at one pose: no matrix, 76 bytes a spring in three dimensions.
 template <int Dim>
 class SpringPencil final : public Pencil {
 public:

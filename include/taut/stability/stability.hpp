@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "../model/spring_system.hpp"
 #include "detail/limits.hpp"
@@ -138,12 +142,13 @@ template <int Dim, class... Laws>
 Stability<Scalar, Cholesky>::Stability(const SpringSystem<Scalar, Dim, Laws...>& system,
                                        const State<Scalar, Dim>& state)
     : revision_(system.revision()) {
-    if (state.x.cols() != system.size()) {
-        fail("Stability: the state has ", state.x.cols(), " positions; the system has ",
-             system.size(), " particles");
+    if (state.x.cols() != system.size() || state.v.cols() != system.size()) {
+        fail("Stability: the state has ", state.x.cols(), " positions and ", state.v.cols(),
+             " velocities; the system has ", system.size(), " particles");
     }
     if (!state.x.allFinite()) {
-        fail("Stability: the position of particle ", state.first_not_finite(), " is not finite");
+        const State<Scalar, Dim> still{state.x, State<Scalar, Dim>::zero(system.size()), 0};
+        fail("Stability: the position of particle ", still.first_not_finite(), " is not finite");
     }
     const Points<double, Dim> x = state.x.template cast<double>();
     pencil_ = std::make_shared<SpringPencil<Dim>>(SpringPencil<Dim>::at_pose(system, x));
@@ -170,7 +175,7 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::max_step(Method method, double ti
 template <class Scalar, class Cholesky>
 Certificate Stability<Scalar, Cholesky>::certify(Method method, double h) const {
     Certificate certificate{method, h, false};
-    if (!(h > 0) || !std::isfinite(h)) return certificate;
+    require_positive("Stability::certify", "h", h);
     const StepLimit<Scalar> bound = max_step(method);
     certificate.proved = h <= static_cast<double>(bound.certified);
     if (certificate.proved || !(h < static_cast<double>(bound.refuted))) return certificate;
@@ -186,6 +191,9 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::explicit_limit(double tightness) 
     const double d = pencil.upper_bound({0, 0, 1});
     if (!(k > 0) && !(d > 0)) {
         return limit(detail::infinity, detail::infinity, Cause::nothing_to_limit);
+    }
+    if (!std::isfinite(k) || !std::isfinite(d)) {
+        return limit(0, detail::infinity, Cause::overflow);
     }
     if (!(d > 0)) {
         // One mode with k > 0 refutes every step; buckled modes alone do not.
@@ -236,11 +244,11 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::symplectic_limit(double tightness
     // A bound within 3 % of the Ritz value's step needs no improvement.
     RitzPair mode = stiffest_;
     detail::Bracket bracket;
-    bracket.certified = detail::certified_symplectic(pencil, 1.05 * mode.value);
+    bracket.certified = detail::certified_symplectic(pencil, 1.06 * mode.value);
     if (!std::isfinite(bracket.certified)) {
         return limit(detail::infinity, detail::infinity, Cause::nothing_to_limit);
     }
-    if (!(bracket.certified > 0)) return limit(0, detail::infinity, Cause::stiffness);
+    if (!(bracket.certified > 0)) return limit(0, detail::infinity, Cause::overflow);
     bracket.refuted = detail::refuted_symplectic(pencil, mode);
     bracket.vector = std::move(mode.vector);
     if (tightness > 0 && !bracket.within(tightness)) {
@@ -357,9 +365,7 @@ StiffnessSpectrum Stability<Scalar, Cholesky>::stiffness_spectrum(bool count_zer
 
 template <class Scalar, class Cholesky>
 double Stability<Scalar, Cholesky>::spectral_radius(Method method, double h) const {
-    if (!(h > 0) || !std::isfinite(h)) {
-        fail("Stability::spectral_radius: h is ", h, "; it must be finite and > 0");
-    }
+    require_positive("Stability::spectral_radius", "h", h);
     if (size() == 0) return 0;
     if (size() <= dense_size) return DenseAnalysis<>(*pencil_).spectral_radius(method, h);
     // For fixed h the radius is quasi-convex in k, so the ends of the spectrum decide.

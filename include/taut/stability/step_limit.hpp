@@ -21,7 +21,8 @@ enum class Cause {
     nothing_to_limit,  ///< no free particle, or neither stiffness nor damping
     buckling,          ///< K is indefinite: the physics itself grows, at growth_rate
     damping_unproved,  ///< D could not be shown to be positive semi-definite
-    rounding           ///< semi-definiteness was shown up to rounding only: see certified_up_to
+    rounding,          ///< semi-definiteness was shown up to rounding only: see certified_up_to
+    overflow           ///< values too large for double: nothing is proved
 };
 
 /// The name as the programs and their JSON spell it.
@@ -36,6 +37,7 @@ constexpr const char* name(Cause cause) {
         case Cause::buckling: return "buckling";
         case Cause::damping_unproved: return "damping_unproved";
         case Cause::rounding: return "rounding";
+        case Cause::overflow: return "overflow";
     }
     return "unknown";
 }
@@ -46,13 +48,11 @@ constexpr const char* describe(Cause cause) {
         case Cause::stiffness: return "the stiffest mode sets the limit";
         case Cause::damping: return "the damping sets the limit: less of it allows a larger step";
         case Cause::undamped:
-            return "explicit Euler is unstable at every step without damping: add Rayleigh "
-                   "damping, or "
-                   "use symplectic or implicit Euler";
+            return "no step is stable without damping: add Rayleigh damping, or use symplectic or "
+                   "implicit Euler";
         case Cause::undamped_modes:
-            return "some stiffness has no damping beside it, so no explicit Euler step can be "
-                   "certified: add mass-proportional damping d0, or use symplectic or implicit "
-                   "Euler";
+            return "some stiffness has no damping beside it, so no step can be certified: add "
+                   "mass-proportional damping d0, or use symplectic or implicit Euler";
         case Cause::unconditional: return "stable at every step";
         case Cause::nothing_to_limit:
             return "nothing limits the step: no particle is free, or none is pulled or damped";
@@ -63,6 +63,9 @@ constexpr const char* describe(Cause cause) {
         case Cause::damping_unproved:
             return "the damping matrix could not be shown to be positive semi-definite: no step is "
                    "certified; check its sign, or give dampers as springs";
+        case Cause::overflow:
+            return "the numbers of this scene overflow in double, so nothing is proved: check the "
+                   "units of its stiffness, masses and damping";
         case Cause::rounding:
             return "a matrix could be shown to be positive semi-definite only up to rounding, so "
                    "slow "

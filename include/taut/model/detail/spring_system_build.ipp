@@ -47,9 +47,12 @@ Index SpringSystem<Scalar, Dim, Laws...>::add_spring(const Spring<Scalar, Law>& 
         fail("SpringSystem::add_spring: a and b are both ", spring.a,
              "; a spring joins two different particles");
     }
-    require_non_negative("SpringSystem::add_spring", "rest_length", spring.rest_length);
-    require_non_negative("SpringSystem::add_spring", "damping", spring.damping);
-    spring.parameters.require_valid();
+    char where[96];
+    std::snprintf(where, sizeof where, "SpringSystem::add_spring(%lld, %lld)",
+                  static_cast<long long>(spring.a), static_cast<long long>(spring.b));
+    require_non_negative(where, "rest_length", spring.rest_length);
+    require_non_negative(where, "damping", spring.damping);
+    spring.parameters.require_valid(where);
     auto& set = std::get<SpringSet<Scalar, Law>>(sets_);
     set.add(spring);
     ++revision_;

@@ -70,6 +70,7 @@ double Stability<Scalar, Cholesky>::certified_when_scaled(Method method, double 
 
 template <class Scalar, class Cholesky>
 double Stability<Scalar, Cholesky>::max_stiffness_scale(Method method, double h) const {
+    require_positive("Stability::max_stiffness_scale", "h", h);
     if (size() == 0) return detail::infinity;
     if (!pencil_->damping_semidefinite()) return 0;
     const auto holds = [&](double scale) { return certified_when_scaled(method, scale, 1) >= h; };
@@ -80,6 +81,7 @@ double Stability<Scalar, Cholesky>::max_stiffness_scale(Method method, double h)
 
 template <class Scalar, class Cholesky>
 double Stability<Scalar, Cholesky>::min_mass_scale(Method method, double h) const {
+    require_positive("Stability::min_mass_scale", "h", h);
     if (size() == 0) return 0;
     if (!pencil_->damping_semidefinite()) return detail::infinity;
     const auto holds = [&](double scale) { return certified_when_scaled(method, 1, scale) >= h; };
@@ -90,9 +92,7 @@ double Stability<Scalar, Cholesky>::min_mass_scale(Method method, double h) cons
 
 template <class Scalar, class Cholesky>
 std::optional<Index> Stability<Scalar, Cholesky>::substeps(Method method, double frame) const {
-    if (!(frame > 0) || !std::isfinite(frame)) {
-        fail("Stability::substeps: frame is ", frame, "; it must be finite and > 0");
-    }
+    require_positive("Stability::substeps", "frame", frame);
     const double certified = static_cast<double>(max_step(method).certified);
     if (!(certified > 0)) return std::nullopt;
     return std::max<Index>(1, static_cast<Index>(std::ceil(frame / certified)));

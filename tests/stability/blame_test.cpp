@@ -1,0 +1,248 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#include <set>
+#include <taut/stability/stability.hpp>
+
+#include "../support/catch.hpp"
+#include "../support/tolerance.hpp"
+#include "wild_system.hpp"
+
+using namespace taut_test;
+using taut::Method;
+using taut::Stability;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Method stepping[] = {Method::explicit_euler, Method::symplectic_euler,
+                               Method::velocity_verlet};
+
+taut::SpringSystem<double, 3> cloth_of(Index size) {
+    taut::ClothOptions options;
+    options.rows = options.columns = size;
+    return taut::hanging_cloth<double>(options);
+}
+
+/// The same with its stiffnesses and masses multiplied; dampers stay.
+template <int Dim>
+taut::SpringSystem<double, Dim> scaled(const taut::SpringSystem<double, Dim>& system,
+                                       double stiffness, double mass) {
+    taut::SpringSystem<double, Dim> copy;
+    const auto state = system.initial_state();
+    for (Index i = 0; i < system.size(); ++i)
+        copy.add_particle(state.x.col(i), mass * system.mass(i));
+    const auto& set = system.springs();
+    for (std::size_t s = 0; s < set.a.size(); ++s) {
+        copy.add_spring(
+            taut::Spring<double, taut::Hookean>{set.a[s],
+                                                set.b[s],
+                                                {stiffness * set.parameters[s].stiffness},
+                                                set.rest_length[s],
+                                                set.damping_of(s)});
+    }
+    for (Index i = 0; i < system.size(); ++i) {
+        if (system.is_pinned(i)) copy.pin(i);
+    }
+    copy.set_rayleigh(system.rayleigh());
+    return copy;
+}
+
+/// visit(system) undamped and with each kind of damping that explicit Euler can use as well.
+template <class Visit>
+void for_each_damped(Visit&& visit) {
+    auto cloth = cloth_of(4);
+    visit("undamped", cloth);
+    visit("dampers", with_dampers(cloth, 1e-3));
+    cloth.set_rayleigh({3, 0});
+    visit("d0", cloth);
+    cloth.set_rayleigh({3, 2e-4});
+    visit("d0 and alpha", cloth);
+    auto both = with_dampers(cloth, 1e-3);
+    both.set_rayleigh({5, 1e-4});
+    visit("all", both);
+}
+
+}  // namespace
+
+TEST_CASE("blame: a planted stiff spring is named", "[stability]") {
+    Random random(1300);
+    for (int repeat = 0; repeat < 20; ++repeat) {
+        auto cloth = cloth_of(6);
+        const Index a = 6 + random.below(24);
+        const Index b = a + 6;
+        const Index planted = cloth.add_spring(a, b, 1e6);
+        cloth.add_spring(0, 35, 1);  // not the last one
+        const Stability<double> stability(cloth, deformed(cloth, 1.02, 0.005, 5));
+        const auto blamed = stability.limiting_springs(3);
+        REQUIRE(blamed.size() == 3);
+        CHECK(blamed[0].index == planted);
+        CHECK(blamed[0].a == a);
+        CHECK(blamed[0].b == b);
+        CHECK(blamed[0].share > 0.95);
+        CHECK(blamed[0].share <= 1 + 1e-12);
+        CHECK(blamed[0].share >= blamed[1].share);
+        CHECK(blamed[1].share >= blamed[2].share);
+        // Its ends move most.
+        const auto moving = stability.limiting_particles(2);
+        REQUIRE(moving.size() == 2);
+        CHECK(std::set<Index>{moving[0].index, moving[1].index} == std::set<Index>{a, b});
+    }
+}
+
+TEST_CASE("blame: a planted light particle is named", "[stability]") {
+    Random random(1301);
+    for (int repeat = 0; repeat < 20; ++repeat) {
+        auto cloth = cloth_of(6);
+        const Index light = 6 + random.below(30);
+        cloth.set_mass(light, 1e-3 * cloth.mass(light));
+        const Stability<double> stability(cloth, deformed(cloth, 1.02, 0.005, 6));
+        const auto moving = stability.limiting_particles(1);
+        REQUIRE(moving.size() == 1);
+        CHECK(moving[0].index == light);
+        CHECK(moving[0].share > 0.95);
+        for (const auto& spring : stability.limiting_springs(1)) {
+            CHECK((spring.a == light || spring.b == light));
+        }
+        // Undoing the plant moves the limit.
+        const double with = stability.max_step(Method::symplectic_euler).certified;
+        cloth.set_mass(light, cloth.mass(6 + (light + 1) % 30));
+        const double without = Stability<double>(cloth, deformed(cloth, 1.02, 0.005, 6))
+                                   .max_step(Method::symplectic_euler)
+                                   .certified;
+        CHECK(without > 10 * with);
+    }
+}
+
+TEST_CASE("blame: counts, and shares of all of them", "[stability]") {
+    const auto cloth = cloth_of(5);
+    const Stability<double> stability(cloth, cloth.initial_state());
+    CHECK(stability.limiting_springs(0).empty());
+    CHECK(stability.limiting_springs(-3).empty());
+    CHECK(stability.limiting_particles(0).empty());
+    double sum = 0;
+    for (const auto& spring : stability.limiting_springs(100000)) sum += spring.share;
+    CHECK_THAT(sum, WithinAbs(1.0, Tolerance<double>::rounding));
+    CHECK(static_cast<Index>(stability.limiting_particles(100000).size()) == 23);
+    auto held = cloth;
+    for (Index i = 0; i < held.size(); ++i) held.pin(i);
+    const Stability<double> nothing(held, held.initial_state());
+    CHECK(nothing.limiting_springs(5).empty());
+    CHECK(nothing.limiting_particles(5).empty());
+    CHECK(nothing.max_stiffness_scale(Method::symplectic_euler, 1) == infinity);
+    CHECK(nothing.min_mass_scale(Method::symplectic_euler, 1) == 0);
+}
+
+TEST_CASE("blame: max_stiffness_scale is certified, and little more is", "[stability][slow]") {
+    for_each_damped([](const char* text, const auto& system) {
+        const auto state = system.initial_state();
+        const Stability<double> stability(system, state);
+        for (const Method method : stepping) {
+            const auto limit = stability.max_step(method);
+            for (const double part : {0.05, 0.5, 0.99, 1.5}) {
+                const double base =
+                    limit.certified > 0 && std::isfinite(limit.certified) ? limit.certified : 1e-4;
+                const double h = part * base;
+                const double scale = stability.max_stiffness_scale(method, h);
+                INFO(text << ", " << name(method) << ", h = " << h << ", scale = " << scale);
+                CHECK(scale >= 0);
+                if (scale == 0) {
+                    CHECK((limit.certified == 0 || part > 1));
+                    continue;
+                }
+                REQUIRE(std::isfinite(scale));
+                const auto softer = scaled(system, 0.999 * scale, 1);
+                CHECK(Stability<double>(softer, state).certify(method, h).proved);
+                const auto stiffer = scaled(system, 1.05 * scale, 1);
+                CHECK(Stability<double>(stiffer, state).max_step(method).certified < h);
+                if (part < 1) CHECK(scale >= 1 - 1e-6);
+                if (part > 1) CHECK(scale < 1);
+            }
+        }
+    });
+}
+
+TEST_CASE("blame: min_mass_scale is certified, and little less is", "[stability][slow]") {
+    for_each_damped([](const char* text, const auto& system) {
+        const auto state = system.initial_state();
+        const Stability<double> stability(system, state);
+        for (const Method method : {Method::symplectic_euler, Method::velocity_verlet}) {
+            const double certified = stability.max_step(method).certified;
+            for (const double part : {0.05, 0.5, 0.99, 1.5}) {
+                const double h = part * certified;
+                const double scale = stability.min_mass_scale(method, h);
+                INFO(text << ", " << name(method) << ", h = " << h << ", scale = " << scale);
+                if (std::isinf(scale)) {
+                    CHECK(2 * h * system.rayleigh().mass_proportional >= 4 * (1 - 1e-6));
+                    continue;
+                }
+                REQUIRE(scale > 0);
+                CHECK(Stability<double>(scaled(system, 1, 1.001 * scale), state)
+                          .certify(method, h)
+                          .proved);
+                CHECK(Stability<double>(scaled(system, 1, scale / 1.05), state)
+                          .max_step(method)
+                          .certified < h);
+                CHECK((part < 1 ? scale <= 1 + 1e-6 : scale > 1));
+            }
+        }
+    });
+}
+
+TEST_CASE("blame: beyond the refuted ratio no scale is certified", "[stability]") {
+    // Undamped, h² k/m is all there is.
+    const auto cloth = cloth_of(5);
+    const auto state = deformed(cloth, 1.1, 0.01, 7);
+    const Stability<double> stability(cloth, state);
+    const auto limit = stability.max_step(Method::symplectic_euler);
+    const double ratio = std::pow(limit.refuted / limit.certified, 2);
+    const double h = 0.8 * limit.certified;
+    const double stiffer = stability.max_stiffness_scale(Method::symplectic_euler, h);
+    CHECK_THAT(stiffer, WithinRel(1 / 0.64, 1e-3));
+    CHECK_FALSE(Stability<double>(scaled(cloth, 1.01 * ratio * stiffer, 1), state)
+                    .certify(Method::symplectic_euler, h)
+                    .proved);
+    const double lighter = stability.min_mass_scale(Method::symplectic_euler, h);
+    CHECK_THAT(lighter, WithinRel(0.64, 1e-3));
+    CHECK_FALSE(Stability<double>(scaled(cloth, 1, lighter / ratio / 1.01), state)
+                    .certify(Method::symplectic_euler, h)
+                    .proved);
+}
+
+TEST_CASE("blame: scales where every step is safe, and where none is", "[stability]") {
+    const auto cloth = cloth_of(4);
+    const Stability<double> stability(cloth, cloth.initial_state());
+    CHECK(stability.max_stiffness_scale(Method::implicit_euler, 1e6) == infinity);
+    CHECK(stability.min_mass_scale(Method::implicit_euler, 1e6) == 0);
+    CHECK(stability.max_stiffness_scale(Method::explicit_euler, 1e-6) == 0);  // undamped
+    CHECK(stability.min_mass_scale(Method::explicit_euler, 1e-6) == infinity);
+    // A damping matrix that is not positive semi-definite.
+    const Eigen::Vector2d mass(1, 1);
+    Eigen::Matrix2d D, K;
+    D << 1, 2, 2, 1;
+    K << 2, -1, -1, 2;
+    const Stability<double> active(taut::LinearSystem<double>(mass, sparse(D), sparse(K)));
+    CHECK(active.max_stiffness_scale(Method::symplectic_euler, 1e-3) == 0);
+    CHECK(active.min_mass_scale(Method::symplectic_euler, 1e-3) == infinity);
+}
+
+TEST_CASE("blame: substeps", "[stability]") {
+    const auto cloth = cloth_of(5);
+    const Stability<double> stability(cloth, cloth.initial_state());
+    const double certified = stability.max_step(Method::symplectic_euler).certified;
+    for (const double frame : {1.0 / 60, 0.5, 3.7 * certified, certified, 0.3 * certified, 1e-12}) {
+        const auto count = stability.substeps(Method::symplectic_euler, frame);
+        REQUIRE(count.has_value());
+        CHECK(*count >= 1);
+        CHECK(frame / static_cast<double>(*count) <= certified * (1 + 1e-15));
+        if (*count > 1) CHECK(frame / static_cast<double>(*count - 1) > certified * (1 - 1e-12));
+        CHECK(stability
+                  .certify(Method::symplectic_euler,
+                           frame / static_cast<double>(*count) * (1 - 1e-15))
+                  .proved);
+    }
+    CHECK(*stability.substeps(Method::implicit_euler, 10) == 1);
+    CHECK_FALSE(stability.substeps(Method::explicit_euler, 0.01).has_value());
+    for (const double bad : {0.0, -1.0, infinity, std::nan("")}) {
+        CHECK_THROWS_AS(stability.substeps(Method::symplectic_euler, bad), std::invalid_argument);
+    }
+}

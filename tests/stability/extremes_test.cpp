@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#include <taut/stability/any_pose.hpp>
+#include <taut/stability/stability.hpp>
+
+#include "../support/catch.hpp"
+#include "wild_system.hpp"
+
+// Masses, stiffnesses and dampings further apart than any scene's: an answer may be useless, but it
+// is a number, and never a false certificate.
+
+using namespace taut_test;
+using taut::Method;
+using taut::Stability;
+
+namespace {
+
+constexpr Method all_methods[] = {Method::explicit_euler, Method::symplectic_euler,
+                                  Method::velocity_verlet, Method::implicit_euler};
+
+template <class Scalar>
+void check_numbers(const taut::StepLimit<Scalar>& limit) {
+    CHECK_FALSE(std::isnan(limit.certified));
+    CHECK_FALSE(std::isnan(limit.refuted));
+    CHECK_FALSE(std::isnan(limit.certified_up_to));
+    CHECK_FALSE(std::isnan(limit.admitted_growth));
+    CHECK_FALSE(std::isnan(limit.growth_rate));
+    CHECK(limit.certified >= 0);
+    CHECK(limit.refuted >= limit.certified);
+}
+
+/// Whether 4M − 2hD − h²K is definite at every part of h, in long double.
+bool safe(const Exact& e, double h) {
+    for (const double part : {1.0, 0.5, 0.01}) {
+        const Real t = static_cast<Real>(part) * static_cast<Real>(h);
+        const RealMatrix S = e.scaled(4, -t * t, -2 * t, false);
+        if (!(eigenvalues(S)[0] >= -1e-15L * S.cwiseAbs().maxCoeff())) return false;
+    }
+    return true;
+}
+
+/// Log-uniform masses 1e-9 … 1e9 and stiffnesses 1e-12 … 1e15 in one system.
+template <int Dim>
+taut::SpringSystem<double, Dim> extreme_system(Random& random, bool damped) {
+    taut::SpringSystem<double, Dim> system;
+    const Index n = 3 + random.below(5);
+    for (Index i = 0; i < n; ++i)
+        system.add_particle(random.vector<double, Dim>(-1, 1), log_uniform(random, 1e-9, 1e9));
+    for (Index s = 0; s < 3 * n; ++s) {
+        const Index a = random.below(n);
+        const Index b = (a + 1 + random.below(n - 1)) % n;
+        const double damping =
+            damped && random.below(2) == 0 ? log_uniform(random, 1e-12, 1e12) : 0;
+        system.add_spring(taut::Spring<double, taut::Hookean>{
+            a, b, {log_uniform(random, 1e-12, 1e15)}, random.uniform(0, 1.5), damping});
+    }
+    if (random.below(2) == 0) system.pin(random.below(n));
+    if (damped && random.below(2) == 0)
+        system.set_rayleigh({log_uniform(random, 1e-9, 1e9), log_uniform(random, 1e-12, 1e3)});
+    return system;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("extremes: masses and stiffnesses over 27 decades in one system", "[stability]",
+                   (std::integral_constant<int, 1>), (std::integral_constant<int, 2>),
+                   (std::integral_constant<int, 3>)) {
+    constexpr int Dim = TestType::value;
+    Random random(1500 + Dim);
+    for (int repeat = 0; repeat < 60; ++repeat) {
+        const auto system = extreme_system<Dim>(random, repeat % 2 == 1);
+        const auto state = system.initial_state();
+        const Exact e = exact_matrices(system, state.x);
+        const Stability<double> stability(system, state);
+        for (const double tightness : {0.0, 1e-6}) {
+            INFO("system " << repeat << ", tightness " << tightness);
+            for (const Method method : all_methods) {
+                const auto limit = stability.max_step(method, tightness);
+                INFO(name(method) << ": " << limit.certified << ", " << limit.refuted);
+                check_numbers(limit);
+                if (method == Method::explicit_euler) {
+                    // Both conditions of [T17], its second with the true K.
+                    const Real h = static_cast<Real>(limit.certified);
+                    if (h > 0 && std::isfinite(limit.certified)) {
+                        const RealMatrix first = e.scaled(0, -h, 1, true);
+                        const RealMatrix second = e.scaled(4, h * h, -2 * h, false);
+                        CHECK(eigenvalues(first)[0] >= -1e-14L * first.cwiseAbs().maxCoeff());
+                        CHECK(eigenvalues(second)[0] >= -1e-14L * second.cwiseAbs().maxCoeff());
+                    }
+                } else if (method != Method::implicit_euler && std::isfinite(limit.certified)) {
+                    CHECK(limit.certified > 0);
+                    CHECK(safe(e, limit.certified));
+                }
+            }
+            const auto any = taut::any_pose_limit(system, tightness);
+            check_numbers(any);
+            CHECK(any.certified > 0);
+            if (std::isfinite(any.certified)) CHECK(safe(e, any.certified));
+        }
+        const auto spectrum = stability.stiffness_spectrum(true);
+        CHECK(spectrum.k_max.upper >= spectrum.k_max.lower);
+        CHECK(static_cast<Real>(spectrum.k_max.upper) >=
+              exact_eigenvalues(e, {0, 1, 0})[e.size() - 1] * (1 - 1e-17L));
+        for (const double h : {1e-12, 1e-3, 1e6}) {
+            CHECK_FALSE(std::isnan(stability.max_stiffness_scale(Method::symplectic_euler, h)));
+            CHECK_FALSE(std::isnan(stability.min_mass_scale(Method::symplectic_euler, h)));
+        }
+    }
+}
+
+TEST_CASE("extremes: numbers near the ends of double", "[stability]") {
+    for (const double k : {1e-300, 1e-200, 1.0, 1e200, 1e300}) {
+        for (const double m : {1e-300, 1e-150, 1.0, 1e150, 1e300}) {
+            for (const double c : {0.0, 1e-300, 1.0, 1e300}) {
+                taut::SpringSystem<double, 3> system;
+                system.add_particle({0, 0, 0}, m);
+                system.add_particle({1, 0, 0}, m);
+                system.add_particle({1, 2, 0}, 1);
+                system.add_spring(0, 1, k, c);
+                system.add_spring(1, 2, 1);
+                const auto state = system.initial_state();
+                INFO("k = " << k << ", m = " << m << ", c = " << c);
+                const Stability<double> stability(system, state);
+                // An axis of the stiff spring: h² 2k/m + 2h 2c/m ≤ 4 is necessary.
+                const auto excess = [&](double h) {
+                    const Real t = static_cast<Real>(h);
+                    return (t * t * 2 * static_cast<Real>(k) + 4 * t * static_cast<Real>(c)) /
+                           static_cast<Real>(m);
+                };
+                for (const double tightness : {0.0, 1e-6}) {
+                    for (const Method method : all_methods) {
+                        INFO(name(method) << ", tightness " << tightness);
+                        const auto limit = stability.max_step(method, tightness);
+                        check_numbers(limit);
+                        if (method != Method::implicit_euler)
+                            CHECK((limit.certified == 0 ||
+                                   excess(limit.certified) <= 4 * (1 + 1e-12L)));
+                    }
+                    const auto any = taut::any_pose_limit(system, tightness);
+                    check_numbers(any);
+                    CHECK((any.certified == 0 || excess(any.certified) <= 4 * (1 + 1e-12L)));
+                }
+                for (const double h : {1e-200, 1e-3, 1e100}) {
+                    if (stability.certify(Method::symplectic_euler, h).proved)
+                        CHECK(excess(h) <= 4 * (1 + 1e-12L));
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("extremes: bare matrices near the ends of double", "[stability]") {
+    for (const double k : {1e-300, 1e-150, 1.0, 1e150, 1e300}) {
+        for (const double m : {1e-300, 1e-150, 1.0, 1e150, 1e300}) {
+            Eigen::Matrix2d K;
+            K << 2 * k, -k, -k, 2 * k;
+            const Eigen::Vector2d mass(m, m);
+            const Stability<double> stability(taut::LinearSystem<double>(mass, {}, sparse(K)));
+            INFO("k = " << k << ", m = " << m);
+            for (const double tightness : {0.0, 1e-6}) {
+                for (const Method method : all_methods) {
+                    const auto limit = stability.max_step(method, tightness);
+                    check_numbers(limit);
+                    if (method == Method::implicit_euler) continue;
+                    const Real h = static_cast<Real>(limit.certified);
+                    CHECK((h == 0 || h * h * 3 * static_cast<Real>(k) / static_cast<Real>(m) <=
+                                         4 * (1 + 1e-12L)));
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("extremes: one particle, one spring, exact to the last digit but a few", "[stability]") {
+    Random random(1510);
+    for (int repeat = 0; repeat < 300; ++repeat) {
+        const double k = log_uniform(random, 1e-12, 1e15);
+        const double m = log_uniform(random, 1e-9, 1e9);
+        taut::SpringSystem<double, 1> system;
+        system.add_particle(Eigen::Matrix<double, 1, 1>(0.0), 1);
+        system.add_particle(Eigen::Matrix<double, 1, 1>(1.0), m);
+        system.add_spring(0, 1, k);
+        system.pin(0);
+        const auto limit =
+            Stability<double>(system, system.initial_state()).max_step(Method::symplectic_euler);
+        const Real truth = 2 / std::sqrt(static_cast<Real>(k) / static_cast<Real>(m));
+        CHECK(static_cast<Real>(limit.certified) <= truth);
+        CHECK(static_cast<Real>(limit.refuted) >= truth);
+        CHECK(limit.refuted <= limit.certified * (1 + 1e-12));
+    }
+}

@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#include <taut/stability/lanczos.hpp>
+#include <taut/stability/matrix_pencil.hpp>
+#include <taut/stability/spring_pencil.hpp>
+
+#include "../support/catch.hpp"
+#include "../support/tolerance.hpp"
+#include "wild_system.hpp"
+
+using namespace taut_test;
+using taut::Combination;
+using taut::LanczosOptions;
+using taut::largest_ritz_pair;
+using taut::MatrixPencil;
+
+namespace {
+
+constexpr double rounding = 100 * Tolerance<double>::rounding;
+
+/// M⁻¹K with the given eigenvalues, M random.
+MatrixPencil with_modes(Random& random, const Eigen::VectorXd& k) {
+    Eigen::VectorXd mass(k.size());
+    for (Index i = 0; i < k.size(); ++i) mass[i] = log_uniform(random, 0.1, 10);
+    const Eigen::VectorXd root = mass.cwiseSqrt();
+    const Eigen::MatrixXd K = root.asDiagonal() * with_spectrum(random, k) * root.asDiagonal();
+    const Eigen::MatrixXd symmetric = 0.5 * (K + K.transpose());
+    return MatrixPencil(taut::LinearSystem<double>(mass, {}, sparse(symmetric)));
+}
+
+MatrixPencil diagonal(const Eigen::VectorXd& k) {
+    const Eigen::MatrixXd K = k.asDiagonal();
+    return MatrixPencil(taut::LinearSystem<double>(Eigen::VectorXd::Ones(k.size()), {}, sparse(K)));
+}
+
+void check_consistent(const taut::Pencil& pencil, const Combination& c,
+                      const taut::RitzPair& pair) {
+    const Eigen::VectorXd& u = pair.vector;
+    REQUIRE(u.size() == pencil.size());
+    CHECK_THAT(u.dot(pencil.mass().cwiseProduct(u)), WithinRel(1.0, rounding));
+    Eigen::VectorXd y;
+    pencil.multiply(c, u, y);
+    const Eigen::VectorXd root = pencil.mass().cwiseSqrt();
+    const double size = std::max(std::abs(pencil.upper_bound(c)), std::abs(pair.value)) +
+                        y.cwiseQuotient(root).norm();
+    CHECK_THAT(u.dot(y), WithinAbs(pair.value, rounding * size));
+    const Eigen::VectorXd r = (y - pair.value * pencil.mass().cwiseProduct(u)).cwiseQuotient(root);
+    CHECK_THAT(pair.residual, WithinAbs(r.norm(), rounding * size));
+    CHECK(pair.products > 0);
+}
+
+}  // namespace
+
+TEST_CASE("lanczos: never above the largest eigenvalue, and there when the basis is whole",
+          "[stability]") {
+    Random random(800);
+    for (int repeat = 0; repeat < 300; ++repeat) {
+        const Index n = 1 + random.below(24);
+        Eigen::VectorXd k(n);
+        for (Index i = 0; i < n; ++i)
+            k[i] = (random.below(4) == 0 ? -1 : 1) * log_uniform(random, 1e-6, 1);
+        if (repeat % 3 == 0) k.setConstant(k[0]);  // one eigenvalue, n times
+        if (repeat % 3 == 1 && n > 3)
+            k.head(n / 2).setConstant(k.maxCoeff());  // the largest, often
+        const auto pencil = with_modes(random, k);
+        LanczosOptions whole;
+        whole.basis = 24;
+        const auto pair = largest_ritz_pair(pencil, {0, 1, 0}, whole);
+        INFO("system " << repeat << ", " << n << " unknowns");
+        CHECK_THAT(pair.value, WithinAbs(k.maxCoeff(), rounding * k.cwiseAbs().maxCoeff()));
+        check_consistent(pencil, {0, 1, 0}, pair);
+        const auto smallest = largest_ritz_pair(pencil, {0, -1, 0}, whole);
+        CHECK_THAT(-smallest.value, WithinAbs(k.minCoeff(), rounding * k.cwiseAbs().maxCoeff()));
+    }
+}
+
+TEST_CASE("lanczos: from below, and it converges", "[stability]") {
+    Random random(801);
+    for (int repeat = 0; repeat < 20; ++repeat) {
+        const Index n = 60 + random.below(60);
+        Eigen::VectorXd k(n);
+        for (Index i = 0; i < n; ++i) k[i] = random.uniform(0, 1);
+        const auto pencil = with_modes(random, k);
+        const double truth = k.maxCoeff();
+        double earlier = 0;
+        for (const int basis : {2, 5, 12, 24, 48}) {
+            LanczosOptions options;
+            options.basis = basis;
+            options.restarts = 0;
+            const auto pair = largest_ritz_pair(pencil, {0, 1, 0}, options);
+            check_consistent(pencil, {0, 1, 0}, pair);
+            CHECK(pair.value <= truth * (1 + rounding));
+            CHECK(pair.value >= earlier * (1 - rounding));
+            CHECK(pair.products == basis);
+            earlier = pair.value;
+        }
+        LanczosOptions sharp;
+        sharp.restarts = 300;
+        sharp.tolerance = 1e-9;
+        const auto pair = largest_ritz_pair(pencil, {0, 1, 0}, sharp);
+        CHECK_THAT(pair.value, WithinRel(truth, 1e-9));
+        CHECK(pair.residual <= 1e-9 * pair.value);
+        // An eigenvalue lies within the residual of the Ritz value, whatever the options.
+        const auto rough = largest_ritz_pair(pencil, {0, 1, 0});
+        CHECK((k.array() - rough.value).abs().minCoeff() <= rough.residual + rounding);
+        // A good start is as good as many restarts.
+        LanczosOptions one;
+        one.restarts = 0;
+        const auto warm = largest_ritz_pair(pencil, {0, 1, 0}, one, pair.vector);
+        CHECK(warm.value >= pair.value * (1 - rounding));
+    }
+}
+
+TEST_CASE("lanczos: an exact eigenvector of a lower mode does not trap it", "[stability]") {
+    Random random(802);
+    for (const Index n : {2, 3, 10, 24, 40, 80}) {
+        Eigen::VectorXd k(n);
+        for (Index i = 0; i < n; ++i) k[i] = 1 + static_cast<double>(i);
+        const auto pencil = diagonal(k);
+        for (const Index mode : {Index(0), n / 2, n - 1}) {
+            INFO("mode " << mode << " of " << n);
+            LanczosOptions options;
+            options.restarts = 100;
+            options.tolerance = 1e-10;
+            const Eigen::VectorXd start = Eigen::VectorXd::Unit(n, mode);
+            const auto pair = largest_ritz_pair(pencil, {0, 1, 0}, options, start);
+            CHECK_THAT(pair.value, WithinRel(k[n - 1], 1e-9));
+            check_consistent(pencil, {0, 1, 0}, pair);
+        }
+    }
+    // Nor does a subspace: two chains that know nothing of each other.
+    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(40, 40);
+    for (Index i = 0; i < 40; ++i) {
+        const double k = i < 20 ? 1 : 3;
+        K(i, i) = 2 * k;
+        if (i + 1 < 40 && i != 19) K(i, i + 1) = K(i + 1, i) = -k;
+    }
+    const MatrixPencil pencil(taut::LinearSystem<double>(Eigen::VectorXd::Ones(40), {}, sparse(K)));
+    Eigen::VectorXd start = Eigen::VectorXd::Zero(40);
+    start.head(20).setOnes();
+    LanczosOptions options;
+    options.restarts = 100;
+    options.tolerance = 1e-10;
+    CHECK_THAT(largest_ritz_pair(pencil, {0, 1, 0}, options, start).value,
+               WithinRel(static_cast<double>(eigenvalues(K.cast<Real>())[39]), 1e-9));
+}
+
+TEST_CASE("lanczos: one unknown, zero matrices, repeated and isolated eigenvalues", "[stability]") {
+    const auto one = diagonal(Eigen::VectorXd::Constant(1, 7));
+    CHECK_THAT(largest_ritz_pair(one, {0, 1, 0}).value, WithinRel(7.0, rounding));
+    CHECK_THAT(largest_ritz_pair(one, {2, -1, 0}).value, WithinRel(-5.0, rounding));
+    for (const Index n : {1, 2, 24, 25, 100}) {
+        const auto zero = diagonal(Eigen::VectorXd::Zero(n));
+        const auto pair = largest_ritz_pair(zero, {0, 1, 0});
+        CHECK(pair.value == 0);
+        CHECK(pair.residual == 0);
+        CHECK(pair.vector.allFinite());
+        CHECK_THAT(pair.vector.norm(), WithinRel(1.0, rounding));
+        // A multiple of the identity, whose first Krylov space has one dimension.
+        const auto same = largest_ritz_pair(diagonal(Eigen::VectorXd::Constant(n, 3)), {0, 1, 0});
+        CHECK_THAT(same.value, WithinRel(3.0, rounding));
+        CHECK(same.vector.allFinite());
+        // One stiff mode among many equal ones.
+        Eigen::VectorXd k = Eigen::VectorXd::Ones(n);
+        k[n / 2] = 1e12;
+        CHECK_THAT(largest_ritz_pair(diagonal(k), {0, 1, 0}).value, WithinRel(1e12, rounding));
+        // All negative.
+        CHECK_THAT(largest_ritz_pair(diagonal(-k), {0, 1, 0}).value,
+                   WithinAbs(n == 1 ? -1e12 : -1.0, rounding * 1e12));
+    }
+}
+
+TEST_CASE("lanczos: springs over many decades, never above the truth", "[stability]") {
+    Random random(803);
+    for (int repeat = 0; repeat < 300; ++repeat) {
+        const auto system = wild_system<double, 2>(random);
+        const auto x = system.initial_state().x;
+        const auto pencil = taut::SpringPencil<2>::at_pose(system, x);
+        const auto c = wild_combination(random);
+        const RealVector all = exact_eigenvalues(exact_matrices(system, x), c);
+        LanczosOptions whole;
+        whole.basis = 24;
+        const auto pair = largest_ritz_pair(pencil, c, whole);
+        const Real size = all.cwiseAbs().maxCoeff();
+        CHECK(static_cast<Real>(pair.value) <= all[all.size() - 1] + rounding * size);
+        CHECK(static_cast<Real>(pair.value) >= all[all.size() - 1] - rounding * size);
+        CHECK(pair.value <= pencil.upper_bound(c) + static_cast<double>(rounding * size));
+    }
+}

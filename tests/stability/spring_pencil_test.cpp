@@ -1,0 +1,285 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#include <taut/stability/lanczos.hpp>
+#include <taut/stability/spring_pencil.hpp>
+
+#include "../support/catch.hpp"
+#include "../support/tolerance.hpp"
+#include "wild_system.hpp"
+
+using namespace taut_test;
+using taut::Combination;
+using taut::SpringPencil;
+
+namespace {
+
+template <int Dim>
+using Dimension = std::integral_constant<int, Dim>;
+
+/// visit(system, pencil, exact) for random systems, poses as their particles were placed.
+template <int Dim, class Visit>
+void for_each_wild(int count, std::uint32_t seed, const WildOptions& options, Visit&& visit) {
+    Random random(seed);
+    for (int i = 0; i < count; ++i) {
+        const auto system = wild_system<double, Dim>(random, options);
+        const auto x = system.initial_state().x;
+        INFO("system " << i << " of seed " << seed);
+        visit(random, system, SpringPencil<Dim>::at_pose(system, x), exact_matrices(system, x));
+    }
+}
+
+/// How much of the true step 2/√k the bound certifies; the truth from above by a sharp Ritz value.
+double tightness(const taut::SpringSystem<double, 3>& cloth, const taut::State<double, 3>& state) {
+    const auto pencil = SpringPencil<3>::at_pose(cloth, state.x);
+    taut::LanczosOptions options;
+    options.basis = 40;
+    options.restarts = 50;
+    options.tolerance = 1e-4;
+    const double k = taut::largest_ritz_pair(pencil, {0, 1, 0}, options).value;
+    return std::sqrt(k / pencil.upper_bound({0, 1, 0}));
+}
+
+taut::SpringSystem<double, 3> cloth_of(Index size) {
+    taut::ClothOptions options;
+    options.rows = options.columns = size;
+    return taut::hanging_cloth<double>(options);
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("spring_pencil: upper_bound is never below the largest eigenvalue",
+                   "[stability]", Dimension<1>, Dimension<2>, Dimension<3>) {
+    for (const double decades : {0.5, 3.0, 6.0}) {
+        WildOptions options;
+        options.decades = decades;
+        for_each_wild<TestType::value>(
+            1000, 100, options, [](Random& random, const auto&, const auto& pencil, const auto& e) {
+                for (int repeat = 0; repeat < 4; ++repeat) {
+                    const Combination c =
+                        repeat == 0 ? Combination{0, 1, 0} : wild_combination(random);
+                    const RealVector all = exact_eigenvalues(e, c);
+                    const Real noise = 64 * real_epsilon * all.cwiseAbs().maxCoeff();
+                    const double bound = pencil.upper_bound(c);
+                    INFO("mass " << c.mass << ", stiffness " << c.stiffness << ", damping "
+                                 << c.damping << ", project " << c.project);
+                    CHECK(static_cast<Real>(bound) >= all[all.size() - 1] - noise);
+                    CHECK(bound >= c.mass + c.damping * pencil.rayleigh().mass_proportional);
+                    // A bound that may stop early is still a bound.
+                    CHECK(static_cast<Real>(pencil.upper_bound(c, 2 * bound)) >=
+                          all[all.size() - 1] - noise);
+                }
+            });
+    }
+}
+
+TEMPLATE_TEST_CASE("spring_pencil: the bound holds for any weights of the particles", "[stability]",
+                   Dimension<1>, Dimension<2>, Dimension<3>) {
+    constexpr int Dim = TestType::value;
+    for_each_wild<Dim>(
+        300, 101, {}, [](Random& random, const auto&, const auto& pencil, const auto& e) {
+            const Index n = pencil.size() / Dim;
+            std::vector<double> p;
+            for (Index i = 0; i < n; ++i) p.push_back(over_decades(random, 3));
+            const RealVector all = exact_eigenvalues(e, {0, 1, 0});
+            const auto loads = pencil.particle_loads({0, 1, 0}, p);
+            double largest = 0;
+            for (Index i = 0; i < n; ++i) {
+                largest =
+                    std::max(largest, loads[static_cast<std::size_t>(i)] / pencil.mass()[Dim * i]);
+            }
+            CHECK(static_cast<Real>(largest) * (1 + 1e-15L) >= all[all.size() - 1]);
+        });
+}
+
+TEST_CASE("spring_pencil: the bound keeps 0.92 of the true step of a cloth", "[stability][slow]") {
+    for (const Index size : {8, 12, 20, 32}) {
+        const auto cloth = cloth_of(size);
+        const double noise = 0.1 / static_cast<double>(size);
+        INFO(size << " x " << size);
+        CHECK(tightness(cloth, cloth.initial_state()) >= 0.92);
+        CHECK(tightness(cloth, deformed(cloth, 1.1, 0, 1)) >= 0.92);
+        CHECK(tightness(cloth, deformed(cloth, 1.1, noise, 2)) >= 0.92);
+        CHECK(tightness(cloth, deformed(cloth, 0.95, noise, 3)) >= 0.92);
+    }
+}
+
+TEMPLATE_TEST_CASE("spring_pencil: multiply, quadratic, assemble and linearize() tell the same",
+                   "[stability]", Dimension<1>, Dimension<2>, Dimension<3>) {
+    constexpr double rounding = Tolerance<double>::rounding;
+    for_each_wild<TestType::value>(
+        200, 102, {}, [](Random& random, const auto& system, const auto& pencil, const auto& e) {
+            const Combination c = wild_combination(random);
+            const Eigen::MatrixXd S(pencil.assemble(c));
+            CHECK((S == S.transpose()));
+            const RealMatrix exact = exact_sum(e, c);
+            Combination sizes{std::abs(c.mass), std::abs(c.stiffness), std::abs(c.damping), true};
+            // A compressed spring may be far stiffer across than its stiffness.
+            const double norm = largest(exact_sum(e, sizes)) + largest(exact);
+            CHECK(distance(S, exact) <= rounding * norm);
+
+            const Eigen::VectorXd u = random_vector(random, pencil.size());
+            Eigen::VectorXd y;
+            pencil.multiply(c, u, y);
+            CHECK(distance(y, S * u) <= rounding * norm);
+            const auto q = pencil.quadratic(c, u);
+            const RealVector v = u.cast<Real>();
+            CHECK(static_cast<Real>(q.error) >=
+                  std::abs(v.dot(exact * v) - static_cast<Real>(q.value)));
+            CHECK(q.lower() <= q.upper());
+
+            const auto linear = system.linearize(system.initial_state());
+            CHECK((linear.mass() == pencil.mass()));
+            const Eigen::MatrixXd K(linear.stiffness());
+            const Eigen::MatrixXd D(linear.damping());
+            CHECK(distance(K, Eigen::MatrixXd(pencil.assemble({0, 1, 0, false}))) <=
+                  rounding * largest(K));
+            CHECK(distance(D, Eigen::MatrixXd(pencil.assemble({0, 0, 1}))) <=
+                  rounding * largest(D));
+        });
+}
+
+TEMPLATE_TEST_CASE(
+    "spring_pencil: assembly_error and quadratic errors cover a long double assembly",
+    "[stability]", Dimension<1>, Dimension<2>, Dimension<3>) {
+    WildOptions options;
+    options.decades = 5;
+    for_each_wild<TestType::value>(
+        500, 103, options, [](Random& random, const auto&, const auto& pencil, const auto& e) {
+            const Combination c = wild_combination(random);
+            Eigen::VectorXd s(pencil.size());
+            for (Index i = 0; i < s.size(); ++i) s[i] = over_decades(random, 4);
+            const RealMatrix exact = exact_sum(e, c);
+            const RealMatrix E =
+                (Eigen::MatrixXd(pencil.assemble(c)).template cast<Real>() - exact).cwiseAbs();
+            const RealVector row = s.cast<Real>().cwiseProduct(E * s.cast<Real>());
+            CHECK(row.maxCoeff() <= static_cast<Real>(pencil.assembly_error(c, s)));
+
+            const Eigen::VectorXd u = s.cwiseProduct(random_vector(random, pencil.size()));
+            const auto q = pencil.quadratic(c, u);
+            const RealVector v = u.cast<Real>();
+            // The long double sum has rounding of its own, a thousandth of what is allowed.
+            CHECK(std::abs(v.dot(exact * v) - static_cast<Real>(q.value)) <=
+                  static_cast<Real>(q.error) +
+                      real_epsilon * 64 * v.cwiseAbs().dot(exact.cwiseAbs() * v.cwiseAbs()));
+        });
+}
+
+TEMPLATE_TEST_CASE("spring_pencil: scaled() is the pencil of the scaled system", "[stability]",
+                   Dimension<1>, Dimension<2>, Dimension<3>) {
+    constexpr int Dim = TestType::value;
+    for_each_wild<Dim>(
+        100, 104, {}, [](Random& random, const auto& system, const auto& pencil, const auto& e) {
+            const double stiffness = over_decades(random, 2);
+            const double mass = over_decades(random, 2);
+            const auto scaled = pencil.scaled(stiffness, mass);
+            Exact expected = e;
+            expected.K *= static_cast<Real>(stiffness);
+            expected.K_plus *= static_cast<Real>(stiffness);
+            expected.mass *= static_cast<Real>(mass);
+            // Rayleigh damping follows M and K, dampers stay.
+            const auto rayleigh = system.rayleigh();
+            const auto alpha = static_cast<Real>(rayleigh.stiffness_proportional);
+            const auto d0 = static_cast<Real>(rayleigh.mass_proportional);
+            expected.D += alpha * (expected.K_plus - e.K_plus);
+            expected.D.diagonal() += d0 * (expected.mass - e.mass);
+            const Eigen::VectorXd s = pencil.mass().cwiseSqrt().cwiseInverse();
+            for (const Combination& c : {Combination{1, 0, 0}, Combination{0, 1, 0},
+                                         Combination{0, 1, 0, false}, Combination{0, 0, 1}}) {
+                const RealMatrix exact = exact_sum(expected, c);
+                const RealMatrix E =
+                    (Eigen::MatrixXd(scaled->assemble(c)).template cast<Real>() - exact).cwiseAbs();
+                CHECK(s.cast<Real>().cwiseProduct(E * s.cast<Real>()).maxCoeff() <=
+                      2 * static_cast<Real>(scaled->assembly_error(c, s)) +
+                          1e-14L * s.cast<Real>()
+                                       .cwiseProduct(e.D.cwiseAbs() * s.cast<Real>())
+                                       .maxCoeff());
+                const RealVector all = exact_eigenvalues(expected, c);
+                CHECK(static_cast<Real>(scaled->upper_bound(c)) * (1 + 1e-15L) >=
+                      all[all.size() - 1]);
+            }
+            CHECK(scaled->stiffness_semidefinite() == pencil.stiffness_semidefinite());
+            CHECK(scaled->is_rayleigh() == pencil.is_rayleigh());
+            // The original is untouched.
+            CHECK((pencil.mass() ==
+                   SpringPencil<Dim>::at_pose(system, system.initial_state().x).mass()));
+        });
+}
+
+TEMPLATE_TEST_CASE("spring_pencil: shares are those of the energies and add up to 1", "[stability]",
+                   Dimension<1>, Dimension<2>, Dimension<3>) {
+    constexpr int Dim = TestType::value;
+    for_each_wild<Dim>(
+        200, 105, {}, [](Random& random, const auto& system, const auto& pencil, const auto& e) {
+            const Eigen::VectorXd u = random_vector(random, pencil.size());
+            const RealVector v = u.cast<Real>();
+            const auto energy = static_cast<double>(v.dot(e.K_plus * v));
+            double sum = 0;
+            const auto& set = system.springs();
+            for (const auto& spring : pencil.spring_shares(u)) {
+                sum += spring.share;
+                REQUIRE(spring.index >= 0);
+                REQUIRE(spring.index < system.spring_count());
+                const auto s = static_cast<std::size_t>(spring.index);
+                CHECK(spring.a == set.a[s]);
+                CHECK(spring.b == set.b[s]);
+                CHECK(!(system.is_pinned(spring.a) && system.is_pinned(spring.b)));
+                // Alone in a system of the same particles it has that energy.
+                taut::SpringSystem<double, Dim> alone;
+                for (Index i = 0; i < system.size(); ++i) {
+                    alone.add_particle(system.initial_state().x.col(i), system.mass(i));
+                    if (system.is_pinned(i)) alone.pin(i);
+                }
+                alone.add_spring(taut::Spring<double, taut::Hookean>{
+                    spring.a, spring.b, set.parameters[s], set.rest_length[s]});
+                const Exact one = exact_matrices(alone, alone.initial_state().x);
+                CHECK_THAT(spring.share * energy,
+                           WithinAbs(static_cast<double>(v.dot(one.K_plus * v)),
+                                     Tolerance<double>::rounding * energy));
+            }
+            CHECK_THAT(sum, WithinAbs(energy > 0 ? 1.0 : 0.0, Tolerance<double>::rounding));
+
+            sum = 0;
+            for (const auto& particle : pencil.particle_shares(u)) {
+                sum += particle.share;
+                CHECK(particle.share >= 0);
+                CHECK_FALSE(system.is_pinned(particle.index));
+            }
+            CHECK_THAT(sum, WithinAbs(1.0, Tolerance<double>::rounding));
+            for (const auto& particle :
+                 pencil.particle_shares(Eigen::VectorXd::Zero(pencil.size()))) {
+                CHECK(particle.share == 0);
+            }
+        });
+}
+
+TEMPLATE_TEST_CASE("spring_pencil: what is called semi-definite is so", "[stability]", Dimension<1>,
+                   Dimension<2>, Dimension<3>) {
+    int semidefinite = 0;
+    int indefinite = 0;
+    for_each_wild<TestType::value>(
+        400, 106, {}, [&](Random&, const auto& system, const auto& pencil, const auto& e) {
+            const RealVector k = exact_eigenvalues(e, {0, 1, 0, false});
+            const RealVector k_plus = exact_eigenvalues(e, {0, 1, 0});
+            const RealVector d = exact_eigenvalues(e, {0, 0, 1});
+            const Real noise = 1e-13L * k.cwiseAbs().maxCoeff();
+            if (pencil.stiffness_semidefinite()) CHECK(k[0] >= -noise);
+            CHECK(k_plus[0] >= -noise);
+            CHECK(pencil.damping_semidefinite());
+            CHECK(d[0] >= -1e-13L * d.cwiseAbs().maxCoeff());
+            ++(pencil.stiffness_semidefinite() ? semidefinite : indefinite);
+            CHECK(pencil.projects());
+            const auto& damping = system.springs().damping;
+            const bool damped =
+                std::any_of(damping.begin(), damping.end(), [](double c) { return c > 0; });
+            if (pencil.is_rayleigh()) {
+                const auto rayleigh = system.rayleigh();
+                RealMatrix D = static_cast<Real>(rayleigh.stiffness_proportional) * e.K_plus;
+                D.diagonal() += static_cast<Real>(rayleigh.mass_proportional) * e.mass;
+                CHECK((D - e.D).cwiseAbs().maxCoeff() <= 1e-15L * e.D.cwiseAbs().maxCoeff());
+            } else {
+                CHECK(damped);
+            }
+        });
+    CHECK(semidefinite > 50);
+    CHECK((indefinite > 50 || TestType::value == 1));
+}
