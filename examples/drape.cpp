@@ -10,6 +10,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
 
 #include "common/main.hpp"
 #include "common/scene.hpp"
@@ -49,8 +52,15 @@ Step make_stepper(const std::string& method, const example::System& system) {
 
 double default_step(const Options& options, const example::System& system) {
     if (options.method == "implicit") return 1 / options.frame_rate;
+    if (options.method == "explicit" && options.scene.d0 == 0 && options.scene.alpha == 0) {
+        throw std::runtime_error("--method explicit: " +
+                                 std::string(describe(taut::Cause::undamped)));
+    }
     const auto limit = taut::any_pose_limit(system);
     if (limit.unbounded()) return 1 / options.frame_rate;
+    if (!(limit.certified > 0)) {
+        throw std::runtime_error("no step is certified: " + std::string(describe(limit.cause)));
+    }
     return 0.95 * limit.certified;
 }
 
@@ -68,6 +78,15 @@ std::string frame_path(const std::string& folder, int frame) {
     return folder + name;
 }
 
+/// A longer run before this one would be taken for the end of it.
+void warn_of_old_frames(const std::string& folder, int first) {
+    std::error_code failed;
+    const std::string path = frame_path(folder, first);
+    if (!std::filesystem::exists(path, failed)) return;
+    std::fprintf(stderr, "drape: --output: %s and any after it are of an earlier run\n",
+                 path.c_str());
+}
+
 int simulate(const Options& options, const example::Scene& scene) {
     const auto& system = scene.system;
     State state = system.initial_state();
@@ -79,6 +98,9 @@ int simulate(const Options& options, const example::Scene& scene) {
     const int frames = std::max(1, static_cast<int>(wanted_frames));
     const double wanted = options.step > 0 ? options.step : default_step(options, system);
     const double frame_time = options.duration / frames;
+    if (!(frame_time / wanted <= 1e9)) {
+        throw std::runtime_error("--step: more than 1e9 steps for each frame");
+    }
     const auto substeps =
         std::max<taut::Index>(1, static_cast<taut::Index>(std::ceil(frame_time / wanted)));
     const double h = frame_time / static_cast<double>(substeps);
@@ -97,7 +119,8 @@ int simulate(const Options& options, const example::Scene& scene) {
     double highest = start_energy;
     const auto start = std::chrono::steady_clock::now();
     std::string trouble;
-    for (int frame = 0; frame <= frames && trouble.empty(); ++frame) {
+    int frame = 0;
+    for (; frame <= frames; ++frame) {
         if (frame > 0) {
             const auto report = stepper(state, h, substeps);
             if (!report) {
@@ -111,12 +134,14 @@ int simulate(const Options& options, const example::Scene& scene) {
         highest = std::max(highest, kinetic + potential);
         std::fprintf(csv, "%.9g,%.9g,%.9g,%.9g\n", state.time, kinetic, potential,
                      kinetic + potential);
-        if (kinetic + potential > start_energy + allowance) {
+        if (!(kinetic + potential <= start_energy + allowance)) {  // or it is NaN
             char text[96];
             std::snprintf(text, sizeof text, "the energy rose from %.3g J to %.3g J", start_energy,
                           kinetic + potential);
             trouble = text;
-        } else if (!taut::write_obj(frame_path(options.output, frame), state.x, scene.faces)) {
+            break;
+        }
+        if (!taut::write_obj(frame_path(options.output, frame), state.x, scene.faces)) {
             std::fclose(csv);
             throw std::runtime_error("--output: " + frame_path(options.output, frame) +
                                      " cannot be written");
@@ -126,8 +151,10 @@ int simulate(const Options& options, const example::Scene& scene) {
                          kinetic + potential);
         }
     }
-    if (std::fclose(csv) != 0)
+    const bool written = std::ferror(csv) == 0;
+    if (std::fclose(csv) != 0 || !written)
         throw std::runtime_error("--output: " + table + " cannot be written");
+    warn_of_old_frames(options.output, frame);
     if (!trouble.empty()) {
         std::fprintf(
             stderr,

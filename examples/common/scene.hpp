@@ -4,10 +4,18 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
 #include <sstream>
+#include <stdexcept>
+#include <string>
 #include <taut/taut.hpp>
+#include <utility>
+#include <vector>
 
 #include "mesh_file.hpp"
+#include "naming.hpp"
 
 // The scene of a program: a mesh file or a built-in cloth, as its command line describes it.
 
@@ -41,10 +49,10 @@ inline CLI::Validator non_negative() {
 struct SceneOptions {
     std::string mesh;
     std::string built_in;
-    int size = 64;
-    double stretch = 1000;  // N/m
-    double bend = 100;      // N/m
-    double mass = 0.3;      // kg
+    std::optional<int> size;  // none: 64
+    double stretch = 1000;    // N/m
+    double bend = 100;        // N/m
+    double mass = 0.3;        // kg
     std::string pins;
     double d0 = 0;     // 1/s
     double alpha = 0;  // s
@@ -57,7 +65,7 @@ struct SceneOptions {
             ->excludes(file);
         app.add_option("--size", size, "particles along a side of the built-in scene")
             ->check(CLI::Range(2, 2000))
-            ->capture_default_str();
+            ->default_str("64");
         app.add_option("--stretch", stretch, "stiffness along edges and quad diagonals, N/m")
             ->check(non_negative())
             ->capture_default_str();
@@ -103,12 +111,12 @@ inline std::vector<taut::Index> parse_pins(const std::string& list) {
 
 inline Scene hanging_cloth_scene(const SceneOptions& options) {
     taut::ClothOptions cloth;
-    cloth.rows = cloth.columns = options.size;
+    cloth.rows = cloth.columns = options.size.value_or(64);
     cloth.stretch = options.stretch;
     cloth.bend = options.bend;
     cloth.mass = options.mass;
     Scene scene{
-        "hanging_cloth " + std::to_string(options.size), taut::hanging_cloth<double>(cloth), {}, 0};
+        "hanging_cloth " + std::to_string(cloth.rows), taut::hanging_cloth<double>(cloth), {}, 0};
     for (taut::Index r = 0; r + 1 < cloth.rows; ++r) {
         for (taut::Index c = 0; c + 1 < cloth.columns; ++c) {
             const taut::Index i = r * cloth.columns + c;
@@ -121,6 +129,9 @@ inline Scene hanging_cloth_scene(const SceneOptions& options) {
 /// Builds the scene. Throws with a message for the user.
 inline Scene make_scene(const SceneOptions& options) {
     const bool built_in = !options.built_in.empty() || options.mesh == "hanging_cloth";
+    if (!built_in && options.size) {
+        throw std::runtime_error("--size: " + options.mesh + " is a mesh, whose size is its own");
+    }
     const auto pins = parse_pins(options.pins);
     Scene scene;
     std::vector<taut::Index> particle;
@@ -128,8 +139,10 @@ inline Scene make_scene(const SceneOptions& options) {
         scene = hanging_cloth_scene(options);
     } else {
         MeshFile file = read_obj(options.mesh);
-        auto mesh = taut::springs_from_mesh<double>(file.vertices, file.faces,
-                                                    {options.stretch, options.bend, options.mass});
+        auto mesh = naming(options.mesh, [&] {
+            return taut::springs_from_mesh<double>(file.vertices, file.faces,
+                                                   {options.stretch, options.bend, options.mass});
+        });
         scene = {options.mesh, std::move(mesh.system), std::move(file.faces), mesh.unused_vertices};
         particle = std::move(mesh.particle_of_vertex);
         for (auto& face : scene.faces) {

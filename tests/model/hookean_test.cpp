@@ -77,8 +77,8 @@ TEST_CASE("hookean: a negative or not finite stiffness is refused by name", "[mo
     const double bad = GENERATE(-1.0, std::numeric_limits<double>::infinity(),
                                 std::numeric_limits<double>::quiet_NaN());
     const taut::Hookean::Parameters<double> p{bad};
-    CHECK(missing(message_of([&] { p.require_valid(); }), {"Hookean", "stiffness is ", ">= 0"}) ==
-          "");
+    CHECK(missing(message_of([&] { p.require_valid("add_spring(3, 7)"); }),
+                  {"add_spring(3, 7)", "stiffness is ", ">= 0"}) == "");
 }
 
 TEST_CASE("hookean: parameters change their precision without changing their value", "[model]") {

@@ -47,7 +47,6 @@ inline Eigen::VectorXd scattered_vector(Index N, Index seed = 0) {
 /// restart (K. Wu and H. Simon, Thick-restart Lanczos method for large symmetric eigenvalue
 /// problems, 2000). Negate the factors of `c` for the smallest one.
 /// @tparam Operator  Pencil, or anything with its size(), mass() and multiply()
-/// @tparam Operator  Pencil, or anything with its size(), mass() and multiply()
 /// @param start  an approximate eigenvector to begin with, N; empty: a fixed scattered vector
 template <class Operator>
 RitzPair largest_ritz_pair(const Operator& pencil, const Combination& c,

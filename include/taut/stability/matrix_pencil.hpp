@@ -173,6 +173,10 @@ inline double MatrixPencil::upper_bound(const Combination& c, double enough) con
         // Averaging with the old p keeps a bipartite pattern from alternating.
         p = 0.5 * p + (0.5 / growth) * powered;
     }
+    // A quotient that vanished by underflow is not zero.
+    const double least = std::numeric_limits<double>::min();
+    if (best >= 0 && best < least && sizes.nonZeros() > 0 && sizes.coeffs().maxCoeff() > 0)
+        best = least;
     return best + 8 * std::numeric_limits<double>::epsilon() * std::abs(best);
 }
 

@@ -57,15 +57,15 @@ inline AlphaWindow rayleigh_window(Method method, double h, double d0, double k_
     }
     const double infinity = std::numeric_limits<double>::infinity();
     double d0_above = d0;  // what counts as d0 in the upper end
-    const auto empty = [&](EmptyWindow reason) { return AlphaWindow{0, 0, reason, false}; };
     if (method == Method::implicit_euler) return {0, infinity, EmptyWindow::none, true};
     const bool is_explicit = method == Method::explicit_euler;
+    // Where both are too large the step is to blame: no smaller d0 helps [T12].
+    const bool too_long = h * h * (k_max + (is_explicit ? compression : 0)) >= 4;
+    const AlphaWindow empty{
+        0, 0, too_long ? EmptyWindow::step_too_large : EmptyWindow::mass_damping_too_large, false};
     if (is_explicit) d0_above += h * compression / 2;
     // The mode k = 0 sees d0 alone; with d0 ≥ 2/h only k_min > 0 can leave a window [T15].
-    if (k_min == 0 && h * d0_above >= 2) {
-        return empty(is_explicit && h * h * compression >= 4 ? EmptyWindow::step_too_large
-                                                             : EmptyWindow::mass_damping_too_large);
-    }
+    if (k_min == 0 && h * d0_above >= 2) return empty;
     if (k_max == 0) return {0, infinity, EmptyWindow::none, true};
 
     const auto upper_at = [&](double k) {
@@ -80,11 +80,7 @@ inline AlphaWindow rayleigh_window(Method method, double h, double d0, double k_
     // α = 0 is explicit Euler with d0 alone: stable when h k_max < d0. Symplectic: neutral at
     // worst.
     window.includes_zero = is_explicit ? lower < 0 : true;
-    if (window.upper <= window.lower) {
-        return empty(h * h * (k_max + (is_explicit ? compression : 0)) >= 4
-                         ? EmptyWindow::step_too_large
-                         : EmptyWindow::mass_damping_too_large);
-    }
+    if (window.upper <= window.lower) return empty;
     return window;
 }
 

@@ -78,6 +78,7 @@ inline RayleighDesign rayleigh_design(Method method, double h, double d0, double
         (radius(left) < radius(right) ? high : low) = radius(left) < radius(right) ? right : left;
     }
     design.fastest_settling = (low + high) / 2;
+    design.least_damping = std::min(design.least_damping, design.fastest_settling);
     return design;
 }
 

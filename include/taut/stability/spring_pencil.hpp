@@ -244,6 +244,8 @@ double SpringPencil<Dim>::weighted_bound(const Combination& c, const std::vector
     for (std::size_t i = 0; i < sum.size(); ++i) {
         const double rounding = (degree_[i] + 64) * eps * size[i];
         r[i] = (detail::eigenvalue_upper_bound<Dim>(sum[i]) + rounding) / mass_[Dim * i];
+        // A quotient that vanished by underflow is not zero.
+        if (size[i] > 0) r[i] = std::max(r[i], std::numeric_limits<double>::min());
         if (!(r[i] <= largest)) largest = r[i];  // NaN and infinity stay
     }
     return largest;

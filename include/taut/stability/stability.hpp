@@ -179,8 +179,26 @@ Certificate Stability<Scalar, Cholesky>::certify(Method method, double h) const 
     const StepLimit<Scalar> bound = max_step(method);
     certificate.proved = h <= static_cast<double>(bound.certified);
     if (certificate.proved || !(h < static_cast<double>(bound.refuted))) return certificate;
-    const double room = static_cast<double>(bound.refuted) / h - 1;
-    certificate.proved = h <= static_cast<double>(max_step(method, std::max(room, 1e-7)).certified);
+    const Pencil& pencil = *pencil_;
+    const bool symplectic = method == Method::symplectic_euler || method == Method::velocity_verlet;
+    // An h² that underflows would leave the stiffness out.
+    if (symplectic && h * h >= std::numeric_limits<double>::min() &&
+        pencil.damping_semidefinite() && (pencil.projects() || pencil.stiffness_semidefinite())) {
+        // [T19] at h itself; where K is indefinite hD ≺ 4M carries it to smaller steps.
+        Prover<Cholesky> prover;
+        certificate.proved =
+            prove(prover, pencil, {4, -h * h, -2 * h, false}).proved &&
+            (pencil.stiffness_semidefinite() || prove(prover, pencil, {4, 0, -h}).proved);
+        return certificate;
+    }
+    // A bracket narrowed to its distance from h may still contain h: the refuting end moves too.
+    double room = std::min(1.0, static_cast<double>(bound.refuted) / h - 1);
+    for (int repeat = 0; repeat < 8 && !certificate.proved; ++repeat) {
+        const StepLimit<Scalar> narrowed = max_step(method, std::max(room, 1e-9));
+        certificate.proved = h <= static_cast<double>(narrowed.certified);
+        if (!(h < static_cast<double>(narrowed.refuted)) || room < 1e-9) break;
+        room = std::min(room / 8, static_cast<double>(narrowed.refuted) / h - 1);
+    }
     return certificate;
 }
 
@@ -207,12 +225,18 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::explicit_limit(double tightness) 
     RitzPair mode = stiffest_;
     Prover<Cholesky> prover;
     if (tightness > 0 && pencil.is_rayleigh() && pencil.stiffness_semidefinite()) {
-        auto proved = detail::narrow_maximum(pencil, prover, tightness);
-        bracket.certified =
-            std::max(bracket.certified, detail::certified_explicit(pencil, proved.upper));
-        if (proved.vector.size() > 0) mode.vector = std::move(proved.vector);
+        // Near critical damping the step moves faster than k_max does [T9]: narrow until it fits.
+        for (double share = tightness; share > 1e-14; share /= 16) {
+            auto proved = detail::narrow_maximum(pencil, prover, share);
+            bracket.certified =
+                std::max(bracket.certified, detail::certified_explicit(pencil, proved.upper));
+            if (proved.vector.size() > 0) mode.vector = std::move(proved.vector);
+            bracket.refuted = detail::refuted_explicit(pencil, mode, commutes);
+            if (bracket.within(tightness) || proved.upper > proved.lower * (1 + share)) break;
+        }
+    } else {
+        bracket.refuted = detail::refuted_explicit(pencil, mode, commutes);
     }
-    bracket.refuted = detail::refuted_explicit(pencil, mode, commutes);
     if (!commutes && size() <= dense_size) {
         bracket.refuted =
             std::min(bracket.refuted, DenseAnalysis<>(pencil, false).explicit_limit_above());

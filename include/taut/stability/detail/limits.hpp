@@ -88,6 +88,13 @@ double refuted_symplectic(const Operator& pencil, RitzPair& mode) {
     };
     double h = step(mode.vector);
     if (pencil.is_rayleigh() && pencil.stiffness_semidefinite()) return h;
+    // The stiffest vector of K⁺ may lie where the true K is buckled: begin elsewhere.
+    for (const Combination& c : {Combination{0, 1, 0, false}, Combination{0, 0, 1}}) {
+        if (std::isfinite(h)) break;
+        RitzPair other = largest_ritz_pair(pencil, c);
+        h = step(other.vector);
+        if (std::isfinite(h)) mode.vector = std::move(other.vector);
+    }
     for (int repeat = 0; repeat < 4 && std::isfinite(h); ++repeat) {
         RitzPair next = largest_ritz_pair(pencil, {0, h * h, 2 * h, false}, {}, mode.vector);
         const double smaller = step(next.vector);

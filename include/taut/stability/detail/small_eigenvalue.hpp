@@ -36,7 +36,7 @@ inline double cosine_eigenvalue(const Eigen::Matrix3d& A) {
     const double b = A(1, 1) - mean;
     const double c = A(2, 2) - mean;
     const double p = std::sqrt((a * a + b * b + c * c + 2 * off) / 6);
-    if (p == 0) return mean;
+    if (p <= 1e-8 * std::abs(mean)) return mean + 2 * p;  // never below, and p³ may vanish
     const double det = a * (b * c - A(2, 1) * A(2, 1)) -
                        A(1, 0) * (A(1, 0) * c - A(2, 1) * A(2, 0)) +
                        A(2, 0) * (A(1, 0) * A(2, 1) - b * A(2, 0));
@@ -54,6 +54,13 @@ double eigenvalue_upper_bound(const Eigen::Matrix<double, Dim, Dim>& A) {
         return trace;
     } else {
         if (!(trace > 0)) return 0;
+        if (!(trace > 1e-90 && trace < 1e90) && std::isfinite(trace)) {
+            // Squares and cubes would vanish or overflow; powers of two cost nothing.
+            const int exponent = std::ilogb(trace);
+            const Eigen::Matrix<double, Dim, Dim> scaled =
+                A.unaryExpr([&](double a) { return std::scalbn(a, -exponent); });
+            return std::scalbn(eigenvalue_upper_bound<Dim>(scaled), exponent);
+        }
         double sigma;
         if constexpr (Dim == 2) {
             sigma = (A(0, 0) + A(1, 1)) / 2 + std::hypot((A(0, 0) - A(1, 1)) / 2, A(1, 0));

@@ -94,7 +94,8 @@ template <class Scalar, class Cholesky>
 std::optional<Index> Stability<Scalar, Cholesky>::substeps(Method method, double frame) const {
     require_positive("Stability::substeps", "frame", frame);
     const double certified = static_cast<double>(max_step(method).certified);
-    if (!(certified > 0)) return std::nullopt;
+    // Beyond 1e15 the count is no longer exact, and no frame was meant.
+    if (!(certified > 0) || !(frame / certified < 1e15)) return std::nullopt;
     return std::max<Index>(1, static_cast<Index>(std::ceil(frame / certified)));
 }
 
