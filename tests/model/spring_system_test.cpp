@@ -211,19 +211,20 @@ TEST_CASE("spring_system: bad input: position and gravity", "[model][bad_input]"
 
 TEST_CASE("spring_system: bad input: stiffness, rest length, damping", "[model][bad_input]") {
     for (const double bad : {-1.0, infinity, not_a_number}) {
-        CHECK(refused([&](auto& s) { s.add_spring(0, 2, bad); }, {"stiffness is ", ">= 0"}) == "");
+        CHECK(refused([&](auto& s) { s.add_spring(0, 2, bad); },
+                      {"add_spring(0, 2)", "stiffness is ", ">= 0"}) == "");
         CHECK(refused([&](auto& s) { s.add_spring(0, 2, 10, bad); },
-                      {"add_spring", "damping is ", ">= 0"}) == "");
+                      {"add_spring(0, 2)", "damping is ", ">= 0"}) == "");
         CHECK(refused(
                   [&](auto& s) {
                       s.add_spring(Spring<double, Hookean>{0, 2, {10}, bad});
                   },
-                  {"add_spring", "rest_length is ", ">= 0"}) == "");
+                  {"add_spring(0, 2)", "rest_length is ", ">= 0"}) == "");
         CHECK(refused(
                   [&](auto& s) {
                       s.add_spring(Spring<double, Hookean>{0, 2, {10}, 1, bad});
                   },
-                  {"add_spring", "damping is ", ">= 0"}) == "");
+                  {"add_spring(0, 2)", "damping is ", ">= 0"}) == "");
         CHECK(refused(
                   [&](auto& s) {
                       s.set_rayleigh({bad, 0});
@@ -243,7 +244,7 @@ TEST_CASE("spring_system: bad input: stiffness, rest length, damping", "[model][
     CHECK(missing(message_of([&] {
                       glue.add_spring<Glue>(0, 1, {10, not_a_number});
                   }),
-                  {"Glue", "width is nan"}) == "");
+                  {"add_spring(0, 1)", "width is nan"}) == "");
     CHECK(glue.spring_count() == 0);
 }
 

@@ -141,5 +141,6 @@ TEST_CASE("chain: bad input", "[scene][bad_input]") {
     CHECK(refused({4, ChainEnds::ring, 0}, {"mass", "is 0", "> 0"}) == "");
     CHECK(refused({4, ChainEnds::ring, 1, -2}, {"stiffness is -2", ">= 0"}) == "");
     CHECK(refused({4, ChainEnds::ring, 1, not_a_number}, {"stiffness is nan"}) == "");
-    CHECK(refused({4, ChainEnds::fixed_fixed, 1, 1, not_a_number}, {"position", "finite"}) == "");
+    CHECK(refused({4, ChainEnds::fixed_fixed, 1, 1, not_a_number},
+                  {"chain", "spacing", "finite"}) == "");
 }

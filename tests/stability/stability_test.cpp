@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include <stdexcept>
 #include <set>
 #include <taut/stability/stability.hpp>
 
@@ -116,7 +117,7 @@ TEST_CASE("stability: certify proves up to certified and nothing that is refuted
                 CHECK_FALSE(c.stability.certify(method, 1.001 * limit.refuted + 1e-300).proved);
             }
             for (const double h : {0.0, -1.0, std::nan("")})
-                CHECK_FALSE(c.stability.certify(method, h).proved);
+                CHECK_THROWS_AS(c.stability.certify(method, h), std::invalid_argument);
         }
     }
 }
