@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+// Stability::max_step, method by method, and what K and D that are not known to be semi-definite add.
+
+namespace taut {
+
+template <class Scalar, class Cholesky>
+StepLimit<Scalar> Stability<Scalar, Cholesky>::explicit_limit(double tightness) const {
+    const Pencil& pencil = *pencil_;
+    const double k = pencil.upper_bound({0, 1, 0});
+    const double d = pencil.upper_bound({0, 0, 1});
+    if (!(k > 0) && !(d > 0)) {
+        return limit(detail::infinity, detail::infinity, Cause::nothing_to_limit);
+    }
+    if (!std::isfinite(k) || !std::isfinite(d)) {
+        return limit(0, detail::infinity, Cause::overflow);
+    }
+    if (!(d > 0)) {
+        // One mode with k > 0 refutes every step; buckled modes alone do not.
+        const bool vibrates = detail::quotients(pencil, stiffest_.vector, false).k.lower() > 0;
+        return limit(0, vibrates ? 0 : detail::infinity, Cause::undamped);
+    }
+    // α K⁺ is not a function of an indefinite K, so only d0·M commutes with it.
+    const bool commutes = pencil.is_rayleigh() && (pencil.stiffness_semidefinite() ||
+                                                   pencil.rayleigh().stiffness_proportional == 0);
+    detail::Bracket bracket{detail::certified_explicit(pencil, k), detail::infinity, {}};
+    RitzPair mode = stiffest_;
+    Prover<Cholesky> prover;
+    if (tightness > 0 && pencil.is_rayleigh() && pencil.stiffness_semidefinite()) {
+        // Near critical damping the step moves faster than k_max does [T9]: narrow until it fits.
+        for (double share = tightness; share > 1e-14; share /= 16) {
+            auto proved = detail::narrow_maximum(pencil, prover, share);
+            bracket.certified =
+                std::max(bracket.certified, detail::certified_explicit(pencil, proved.upper));
+            if (proved.vector.size() > 0) mode.vector = std::move(proved.vector);
+            bracket.refuted = detail::refuted_explicit(pencil, mode, commutes);
+            if (bracket.within(tightness) || proved.upper > proved.lower * (1 + share)) break;
+        }
+    } else {
+        bracket.refuted = detail::refuted_explicit(pencil, mode, commutes);
+    }
+    if (!commutes && size() <= dense_size) {
+        bracket.refuted =
+            std::min(bracket.refuted, DenseAnalysis<>(pencil, false).explicit_limit_above());
+    }
+    double up_to = 0;
+    double delta = 0;
+    if (tightness > 0 && !bracket.within(tightness) && !pencil.is_rayleigh()) {
+        // No limit is above that of the best commuting damping by much [T12].
+        const double high = k > 0 ? 4 / std::sqrt(k) : 4 / d;
+        detail::narrow_explicit(pencil, prover, tightness, high, bracket, up_to, delta);
+    }
+    const double certified = bracket.certified;
+    const bool by_damping = k <= 0 || certified * certified * k < 4 * (1 - 1e-3);
+    StepLimit<Scalar> answer = limit(certified, std::max(bracket.refuted, certified),
+                                     certified == 0 ? Cause::undamped_modes
+                                     : by_damping   ? Cause::damping
+                                                    : Cause::stiffness);
+    if (up_to > certified) {
+        answer.certified_up_to = detail::round_down<Scalar>(up_to);
+        answer.admitted_growth = delta;
+        if (certified == 0) answer.cause = Cause::rounding;
+    }
+    return answer;
+}
+
+template <class Scalar, class Cholesky>
+StepLimit<Scalar> Stability<Scalar, Cholesky>::symplectic_limit(double tightness) const {
+    const Pencil& pencil = *pencil_;
+    // A bound within 3 % of the Ritz value's step needs no improvement.
+    RitzPair mode = stiffest_;
+    detail::Bracket bracket;
+    bracket.certified = detail::certified_symplectic(pencil, 1.06 * mode.value);
+    if (!std::isfinite(bracket.certified)) {
+        return limit(detail::infinity, detail::infinity, Cause::nothing_to_limit);
+    }
+    if (!(bracket.certified > 0)) return limit(0, detail::infinity, Cause::overflow);
+    bracket.refuted = detail::refuted_symplectic(pencil, mode);
+    bracket.vector = std::move(mode.vector);
+    if (tightness > 0 && !bracket.within(tightness)) {
+        Prover<Cholesky> prover;
+        detail::narrow_symplectic(pencil, prover, tightness, bracket);
+    }
+    const Enclosed d = detail::quotients(pencil, bracket.vector, true).d;
+    // Half of 4M is used up by the damping term when hd = 1.
+    return limit(bracket.certified, bracket.refuted,
+                 bracket.certified * d.value > 1 ? Cause::damping : Cause::stiffness);
+}
+
+template <class Scalar, class Cholesky>
+StepLimit<Scalar> Stability<Scalar, Cholesky>::implicit_limit() const {
+    const Pencil& pencil = *pencil_;
+    // K⁺ ⪰ 0 for springs: solvable and stable at every step [T20], [T27].
+    const double kappa = std::max(0.0, pencil.upper_bound({0, -1, 0}));
+    if (pencil.projects() || pencil.stiffness_semidefinite() || kappa == 0) {
+        return limit(detail::infinity, detail::infinity, Cause::unconditional);
+    }
+    // Bare matrices: the step matrix stays definite while 1 − h²κ > 0, and turns singular where a
+    // vector says so [T21].
+    const RitzPair softest = largest_ritz_pair(pencil, {0, -1, 0});
+    const auto [k, d] = detail::quotients(pencil, softest.vector, true);
+    if (k.upper() < 0) {
+        return limit(1 / std::sqrt(kappa),
+                     critical_step(Method::implicit_euler, k.upper(), std::max(0.0, d.upper())),
+                     Cause::stiffness);
+    }
+    Prover<Cholesky> prover;
+    const double epsilon = detail::semidefinite_deficit(pencil, prover, {0, 1, 0}, kappa);
+    return limit(1 / std::sqrt(std::min(epsilon, kappa)), detail::infinity, Cause::stiffness);
+}
+
+/// D ⪰ −δM is enough for a limit whose multipliers stay below 1 + hδ [T17]; an answer with its own
+/// name.
+template <class Scalar, class Cholesky>
+void Stability<Scalar, Cholesky>::admit_negative_damping(StepLimit<Scalar>& limit) const {
+    const Pencil& pencil = *pencil_;
+    if (pencil.damping_semidefinite()) return;
+    const double negative = std::max(0.0, pencil.upper_bound({0, 0, -1}));
+    Prover<Cholesky> prover;
+    const double delta = detail::semidefinite_deficit(pencil, prover, {0, 0, 1}, negative);
+    // A δ that is no rounding is negative damping, which feeds energy in at every step.
+    const bool rounding = delta <= 1e-6 * std::max(0.0, pencil.upper_bound({0, 0, 1}));
+    if (rounding && !(limit.certified > 0)) return;
+    if (rounding) {
+        limit.certified_up_to =
+            std::min(limit.certified, detail::round_down<Scalar>(1 / std::max(delta, 1e-300)));
+        limit.admitted_growth = delta;
+    } else {
+        limit.refuted = std::numeric_limits<Scalar>::infinity();
+    }
+    limit.certified = 0;
+    limit.cause = rounding ? Cause::rounding : Cause::damping_unproved;
+}
+
+/// What the physics adds where K is not known to be positive semi-definite [T27]: √κ of the
+/// undamped motion (damping slows the growth but does not remove it), or what could not be
+/// excluded.
+template <class Scalar, class Cholesky>
+void Stability<Scalar, Cholesky>::add_growth(StepLimit<Scalar>& limit, double tightness) const {
+    const Pencil& pencil = *pencil_;
+    if (pencil.stiffness_semidefinite()) return;
+    LanczosOptions options;
+    options.basis = 48;
+    options.tolerance = 1e-4;
+    const RitzPair softest = largest_ritz_pair(pencil, {0, -1, 0, false}, options);
+    const Enclosed k = detail::quotients(pencil, softest.vector, false).k;
+    // Rest lengths and poses are rounded to Scalar: so much compression is no statement about
+    // physics.
+    const double resolution =
+        pencil.projects() ? 16 * static_cast<double>(std::numeric_limits<Scalar>::epsilon()) *
+                                std::max(0.0, pencil.upper_bound({0, 1, 0}))
+                          : 0;
+    if (k.upper() < -resolution) {
+        limit.growth_rate = std::sqrt(-k.value);
+        if (limit.certified > 0) limit.cause = Cause::buckling;
+        return;
+    }
+    if (limit.cause == Cause::undamped) return;
+    // Not refuted, not proved: K ⪰ −εM is what can be said.
+    double epsilon = std::max(0.0, pencil.upper_bound({0, -1, 0, false}));
+    if (epsilon > 0 && (tightness > 0 || !pencil.projects())) {
+        Prover<Cholesky> prover;
+        epsilon = std::min(epsilon,
+                           detail::semidefinite_deficit(pencil, prover, {0, 1, 0, false}, epsilon));
+    }
+    limit.admitted_growth = std::max(limit.admitted_growth, std::sqrt(epsilon));
+    if (pencil.projects()) return;
+    limit.certified_up_to = std::max(limit.certified, limit.certified_up_to);
+    limit.certified = 0;
+    limit.cause = Cause::rounding;
+}
+
+}  // namespace taut
