@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-// Stability::max_step, method by method, and what K and D that are not known to be semi-definite add.
+// Stability::max_step, method by method, and what K and D that are not known to be semi-definite
+// add.
 
 namespace taut {
 
