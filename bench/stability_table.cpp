@@ -7,85 +7,23 @@
 #include <Spectra/SymEigsSolver.h>
 #include <Spectra/MatOp/SparseSymMatProd.h>
 
-#include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <random>
+#include <taut/solver/cholmod_simplicial.hpp>
 #include <taut/taut.hpp>
 #include <vector>
 
+#include "measure.hpp"
+#include "memory.hpp"
+#include "plain_loop.hpp"
+
 namespace {
 
-using taut::Index;
+using bench::Cloth;
+using bench::Index;
+using bench::measure;
+using bench::PlainLoop;
+using bench::Times;
 using taut::Method;
-using Cloth = taut::SpringSystem<double, 3>;
-
-struct Times {
-    double least = 0;   // ms
-    double median = 0;  // ms
-};
-
-template <class Job>
-Times measure(int runs, Job&& job) {
-    std::vector<double> times;
-    job();  // warm-up
-    for (int run = 0; run < runs; ++run) {
-        const auto start = std::chrono::steady_clock::now();
-        job();
-        times.push_back(
-            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-                .count());
-    }
-    std::sort(times.begin(), times.end());
-    return {times.front(), times[times.size() / 2]};
-}
-
-/// The step that everybody writes: one loop over springs in the order of the scene.
-class PlainLoop {
-public:
-    explicit PlainLoop(const Cloth& cloth) : cloth_(cloth), springs_(cloth.springs()) {
-        const auto state = cloth.initial_state();
-        x_.assign(state.x.data(), state.x.data() + state.x.size());
-        v_.assign(x_.size(), 0);
-        f_.assign(x_.size(), 0);
-    }
-    void step(double h) {
-        std::fill(f_.begin(), f_.end(), 0);
-        for (std::size_t s = 0; s < springs_.a.size(); ++s) {
-            const double* a = &x_[3 * static_cast<std::size_t>(springs_.a[s])];
-            const double* b = &x_[3 * static_cast<std::size_t>(springs_.b[s])];
-            const double dx = b[0] - a[0];
-            const double dy = b[1] - a[1];
-            const double dz = b[2] - a[2];
-            const double l = std::sqrt(dx * dx + dy * dy + dz * dz);
-            const double pull =
-                springs_.parameters[s].stiffness * (l - springs_.rest_length[s]) / l;
-            double* fa = &f_[3 * static_cast<std::size_t>(springs_.a[s])];
-            double* fb = &f_[3 * static_cast<std::size_t>(springs_.b[s])];
-            fa[0] += pull * dx;
-            fa[1] += pull * dy;
-            fa[2] += pull * dz;
-            fb[0] -= pull * dx;
-            fb[1] -= pull * dy;
-            fb[2] -= pull * dz;
-        }
-        const auto inverse_mass = cloth_.inverse_mass();
-        for (Index i = 0; i < cloth_.size(); ++i) {
-            const double w = inverse_mass[i];
-            for (std::size_t d = 0; d < 3; ++d) {
-                const auto j = 3 * static_cast<std::size_t>(i) + d;
-                const double gravity = w > 0 ? cloth_.gravity()[static_cast<Index>(d)] : 0;
-                v_[j] += h * (w * f_[j] + gravity);
-                x_[j] += h * v_[j];
-            }
-        }
-    }
-
-private:
-    const Cloth& cloth_;
-    const taut::SpringSet<double, taut::Hookean>& springs_;
-    std::vector<double> x_, v_, f_;
-};
 
 /// M^-½ K M^-½ of the scene at rest.
 taut::SparseMatrix<double> scaled_stiffness(const taut::Pencil& pencil) {
@@ -136,237 +74,61 @@ void brackets_by_bounds() {
 void proof_to_1e6() {
     const Cloth cloth = taut::hanging_cloth<double>({100, 100});
     const auto state = cloth.initial_state();
-    const taut::Stability<double> stability(cloth, state);
-    taut::StepLimit<double> limit;
-    const Times proof =
-        measure(3, [&] { limit = stability.max_step(Method::symplectic_euler, 1e-6); });
-    const double h = limit.certified;
-    const auto A = stability.pencil().assemble({4, -h * h, 0});
-    const Times factorisation =
-        measure(3, [&] { Eigen::SimplicialLLT<taut::SparseMatrix<double>> llt(A); });
     std::printf(
-        "## Proof to 1e-6, hanging_cloth 100\n\nfactorisation (analysis included) %.0f ms, "
-        "proof %.0f ms: %.2f factorisations; refuted/certified − 1 = %.1e\n\n",
-        factorisation.least, proof.least, proof.least / factorisation.least,
-        limit.refuted / limit.certified - 1);
-}
-
-/// Eigenvalues 4 sin²((2j − 1)π/(2(2n + 1))) of the fixed–free chain's matrix.
-taut::SparseMatrix<double> chain_matrix(Index n) {
-    std::vector<Eigen::Triplet<double>> entries;
-    for (int i = 0; i < n; ++i) {
-        entries.emplace_back(i, i, i + 1 < n ? 2 : 1);
-        if (i > 0) entries.emplace_back(i, i - 1, -1);
-        if (i > 0) entries.emplace_back(i - 1, i, -1);
-    }
-    taut::SparseMatrix<double> T(n, n);
-    T.setFromTriplets(entries.begin(), entries.end());
-    return T;
-}
-
-taut::SparseMatrix<double> kronecker(const taut::SparseMatrix<double>& A,
-                                     const taut::SparseMatrix<double>& B) {
-    using Entry = taut::SparseMatrix<double>::InnerIterator;
-    std::vector<Eigen::Triplet<double>> entries;
-    for (Index ja = 0; ja < A.outerSize(); ++ja) {
-        for (Entry a(A, ja); a; ++a) {
-            for (Index jb = 0; jb < B.outerSize(); ++jb) {
-                for (Entry b(B, jb); b; ++b) {
-                    entries.emplace_back(static_cast<int>(a.row() * B.rows() + b.row()),
-                                         static_cast<int>(ja * B.cols() + jb),
-                                         a.value() * b.value());
-                }
-            }
-        }
-    }
-    taut::SparseMatrix<double> product(A.rows() * B.rows(), A.cols() * B.cols());
-    product.setFromTriplets(entries.begin(), entries.end());
-    return product;
-}
-
-/// K = S(Tᵃ ⊗ Tᵃ)S, M = S² with S a diagonal of powers of two: M^-½KM^-½ = Tᵃ ⊗ Tᵃ exactly,
-/// integers whose spectrum is known in closed form.
-void conditioned_pairs() {
-    std::printf(
-        "## Bare matrices: closed-form spectra, masses over 1e9\n\n"
-        "| unknowns | condition of K' | tightness asked | answer | lower/truth | refuted/truth | "
-        "admitted growth × h |\n|---|---|---|---|---|---|---|\n");
-    std::mt19937 random(7);
-    for (const auto& [p, q, power] : {std::tuple<Index, Index, int>{32, 32, 1},
-                                      {100, 100, 1},
-                                      {141, 141, 1},
-                                      {32, 32, 2},
-                                      {100, 100, 2},
-                                      {50, 50, 3}}) {
-        const auto raise = [power = power](const taut::SparseMatrix<double>& T) {
-            taut::SparseMatrix<double> result = T;
-            for (int i = 1; i < power; ++i) result = taut::SparseMatrix<double>(result * T);
-            return result;
-        };
-        const auto A = kronecker(raise(chain_matrix(p)), raise(chain_matrix(q)));
-        Eigen::VectorXd scale(A.rows());
-        for (auto& s : scale) s = std::exp2(static_cast<int>(random() % 16) - 7);
-        const taut::LinearSystem<double> system(scale.cwiseAbs2(), {},
-                                                scale.asDiagonal() * A * scale.asDiagonal());
-        const auto extreme = [power = power](Index n, Index j) {
-            const double s = std::sin(static_cast<double>(2 * j - 1) * M_PI /
-                                      static_cast<double>(2 * (2 * n + 1)));
-            return std::pow(4 * s * s, power);
-        };
-        const double truth = 2 / std::sqrt(extreme(p, p) * extreme(q, q));
-        const double condition = extreme(p, p) * extreme(q, q) / (extreme(p, 1) * extreme(q, 1));
-        const taut::Stability<double> stability(system);
-        for (const double tightness : {0.0, 1e-4}) {
-            const auto limit = stability.max_step(Method::symplectic_euler, tightness);
-            const double lower = std::max(limit.certified, limit.certified_up_to);
-            std::printf("| %lld | %.1e | %g | %s | %.6f | %.6f | %.1e |\n",
-                        static_cast<long long>(A.rows()), condition, tightness,
-                        limit.certified > 0 ? "certified" : "certified_up_to", lower / truth,
-                        limit.refuted / truth, limit.admitted_growth * lower);
-            std::fflush(stdout);
-        }
-    }
+        "## Proof to 1e-6, hanging_cloth 100\n\n"
+        "| solver | factorisation (analysis included), ms | proof, ms | factorisations | "
+        "refuted/certified - 1 |\n|---|---|---|---|---|\n");
+    const auto row = [&](const char* solver, const auto& stability, auto&& factorise) {
+        taut::StepLimit<double> limit;
+        const Times proof =
+            measure(3, [&] { limit = stability.max_step(Method::symplectic_euler, 1e-6); });
+        const double h = limit.certified;
+        const auto A = stability.pencil().assemble({4, -h * h, 0});
+        const Times factorisation = measure(3, [&] { factorise(A); });
+        std::printf("| %s | %.0f | %.0f | %.2f | %.1e |\n", solver, factorisation.least,
+                    proof.least, proof.least / factorisation.least,
+                    limit.refuted / limit.certified - 1);
+        std::fflush(stdout);
+    };
+    row("Eigen SimplicialLLT", taut::Stability<double>(cloth, state),
+        [](const auto& A) { Eigen::SimplicialLLT<taut::SparseMatrix<double>> llt(A); });
+    row("CHOLMOD simplicial", taut::Stability<double, taut::CholmodCholesky>(cloth, state),
+        [](const auto& A) { Eigen::CholmodSimplicialLLT<taut::SparseMatrix<double>> llt(A); });
     std::printf("\n");
 }
 
-double uniform(std::mt19937& random, double low, double high) {
-    return low + (high - low) * (random() * 0x1p-32);
-}
-
-/// 1–20 particles in one to three dimensions: N up to 60.
-template <int Dim>
-taut::SpringSystem<double, Dim> random_system(std::mt19937& random) {
-    taut::SpringSystem<double, Dim> system;
-    using Vector = Eigen::Matrix<double, Dim, 1>;
-    const auto decades = [&] { return std::pow(10, uniform(random, -6, 6)); };
-    const Index n = 1 + static_cast<Index>(random() % 20);
-    for (Index i = 0; i < n; ++i) {
-        system.add_particle(Vector::NullaryExpr([&] { return uniform(random, -1, 1); }), decades());
-    }
-    const Index springs = n > 1 ? static_cast<Index>(random() % static_cast<unsigned>(3 * n)) : 0;
-    const bool dampers = random() % 2 == 0;
-    for (Index s = 0; s < springs; ++s) {
-        const auto a = static_cast<Index>(random() % static_cast<unsigned>(n));
-        const auto b = static_cast<Index>(random() % static_cast<unsigned>(n));
-        if (a != b) system.add_spring(a, b, decades(), dampers && random() % 2 ? decades() : 0);
-    }
-    for (Index i = 0; i < n; ++i) {
-        if (random() % 6 == 0) system.pin(i);
-    }
-    if (random() % 2 == 0) {
-        system.set_rayleigh({random() % 2 ? decades() : 0, random() % 2 ? 1e-3 * decades() : 0});
-    }
-    return system;
-}
-
-/// The symplectic limit in long double: the root of λ_min(4 − 2hD' − h²K') = 0 by bisection.
-long double true_symplectic(const taut::Pencil& pencil) {
-    using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-    const taut::VectorX<long double> scale =
-        pencil.mass().cast<long double>().cwiseSqrt().cwiseInverse();
-    const auto scaled = [&](const taut::Combination& c) {
-        return Matrix(scale.asDiagonal() * pencil.assemble(c).toDense().cast<long double>() *
-                      scale.asDiagonal());
+void memory() {
+    const Cloth cloth = taut::hanging_cloth<double>({100, 100});
+    const auto state = cloth.initial_state();
+    const auto K = taut::SpringPencil<3>::at_pose(cloth, state.x).assemble({0, 1, 0});
+    const auto bytes = [](const taut::SparseMatrix<double>& A) {
+        return static_cast<double>(A.nonZeros() * 12 + A.cols() * 4);
     };
-    const Matrix K = scaled({0, 1, 0});
-    const Matrix D = scaled({0, 0, 1});
-    const auto stable = [&](long double h) {
-        const Matrix S = 4 * Matrix::Identity(K.rows(), K.rows()) - 2 * h * D - h * h * K;
-        return Eigen::SelfAdjointEigenSolver<Matrix>(S, Eigen::EigenvaluesOnly).eigenvalues()[0] >
-               0;
+    Eigen::SimplicialLLT<taut::SparseMatrix<double>> llt(
+        taut::SpringPencil<3>::at_pose(cloth, state.x).assemble({1e9, 1, 0}));
+    taut::SparseMatrix<double> L = llt.matrixL();
+    const double factor = bytes(L);
+    L.resize(0, 0);
+    llt = {};
+    const auto analysis = [&](double tightness) {
+        return bench::peak_bytes([&] {
+            taut::Stability<double>(cloth, state).max_step(Method::symplectic_euler, tightness);
+        });
     };
-    long double low = 1e-18L;
-    long double high = 1e18L;
-    while (high > low * (1 + 1e-12L)) {
-        const long double middle = std::sqrt(low * high);
-        (stable(middle) ? low : high) = middle;
-    }
-    return low;
-}
-
-/// The explicit limit in long double. With Rayleigh damping by [T9] for every mode: from
-/// eigenvalues of C the small ones of 12 decades could not be told from zero, and each must not
-/// exceed α (or 2/d0).
-long double true_explicit(const taut::Pencil& pencil) {
-    const taut::DenseAnalysis<long double> dense(pencil);
-    if (!pencil.is_rayleigh()) return dense.explicit_limit();
-    const auto [d0, alpha] = pencil.rayleigh();
-    double limit = d0 > 0 ? 2 / d0 : alpha;
-    for (const long double k : dense.stiffness_eigenvalues()) {
-        if (k <= dense.zero_tolerance()) continue;
-        const double mode = static_cast<double>(k);
-        limit =
-            std::min(limit, taut::critical_step(Method::explicit_euler, mode, d0 + alpha * mode));
-    }
-    return limit;
-}
-
-struct Tally {
-    int systems = 0;
-    int none = 0;   // nothing certified
-    int wrong = 0;  // certified above the truth, or refuted below it
-    std::vector<double> tightness;
-
-    void add(double certified, double refuted, long double truth) {
-        ++systems;
-        if (!(certified > 0)) ++none;
-        // The truth itself is good to about this.
-        if (certified > truth * (1 + 1e-9L) || refuted < truth * (1 - 1e-9L)) ++wrong;
-        if (certified > 0) tightness.push_back(static_cast<double>(certified / truth));
-    }
-    void print(const char* label) {
-        std::sort(tightness.begin(), tightness.end());
-        std::printf("| %s | %d | %d | %d | %.4f | %.4f |\n", label, systems, wrong, none,
-                    tightness.empty() ? 0 : tightness[tightness.size() / 2],
-                    tightness.empty() ? 0 : tightness.front());
-    }
-};
-
-template <int Dim>
-void random_trial(std::mt19937& random, Tally& symplectic, Tally& narrowed, Tally& explicit_euler) {
-    const auto system = random_system<Dim>(random);
-    const taut::Stability<double> stability(system, system.initial_state());
-    if (stability.size() == 0) return;
-    const auto limit = stability.max_step(Method::symplectic_euler);
-    if (std::isfinite(limit.certified)) {
-        const long double truth = true_symplectic(stability.pencil());
-        symplectic.add(limit.certified, limit.refuted, truth);
-        const auto narrow = stability.max_step(Method::symplectic_euler, 1e-4);
-        narrowed.add(narrow.certified, narrow.refuted, truth);
-    }
-    const auto by_explicit = stability.max_step(Method::explicit_euler);
-    if (std::isfinite(by_explicit.certified)) {
-        const long double truth = true_explicit(stability.pencil());
-        explicit_euler.add(by_explicit.certified, by_explicit.refuted, truth);
-    }
-}
-
-void random_systems(int count) {
-    std::mt19937 random(2026);
-    Tally symplectic, narrowed, explicit_euler;
-    for (int i = 0; i < count; ++i) {
-        switch (random() % 3) {
-            case 0: random_trial<1>(random, symplectic, narrowed, explicit_euler); break;
-            case 1: random_trial<2>(random, symplectic, narrowed, explicit_euler); break;
-            default: random_trial<3>(random, symplectic, narrowed, explicit_euler); break;
-        }
-    }
+    const double by_bounds = analysis(0);
+    const double proof = analysis(1e-6);
     std::printf(
-        "## %d random systems, 1 to 60 unknowns, masses and stiffnesses over 12 decades\n\n"
-        "Truth by dense eigenvalues in long double.\n\n"
-        "| limit | with one | wrong | none certified | certified/truth: median | least |\n"
-        "|---|---|---|---|---|---|\n",
-        count);
-    symplectic.print("symplectic, by bounds");
-    narrowed.print("symplectic, narrowed to 1e-4");
-    explicit_euler.print("explicit, by bounds");
+        "## Memory, hanging_cloth 100\n\n"
+        "K takes %.1f MB, its factor %.1f MB. Peak of the analysis by bounds: %.1f MB, %.2f times "
+        "K; with a proof: %.1f MB, %.2f times K beside the factor.\n\n",
+        bytes(K) / 1e6, factor / 1e6, by_bounds / 1e6, by_bounds / bytes(K), proof / 1e6,
+        (proof - factor) / bytes(K));
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main() {
     brackets_by_bounds();
     proof_to_1e6();
-    conditioned_pairs();
-    random_systems(argc > 1 ? std::atoi(argv[1]) : 10000);
+    memory();
 }

@@ -149,6 +149,17 @@ int run(int argc, char** argv) {
                               "--bend", "--mass", "--any-pose"}) {
         K->excludes(app.get_option(other));
     }
+    app.footer(
+        "Questions it answers\n"
+        "  How large may my step be?          stability_report cloth.obj --pin 0,10\n"
+        "  To the last digit, proved?         stability_report cloth.obj --proof\n"
+        "  While the cloth moves?             stability_report cloth.obj --any-pose\n"
+        "  Which springs limit the step?      stability_report cloth.obj --blame 5\n"
+        "  What makes 1/240 s safe?           stability_report cloth.obj --want-step 0.004167\n"
+        "  Which damping suits my step?       stability_report cloth.obj --step 1e-4 --d0 0.5\n"
+        "  How many mechanisms does it have?  stability_report cloth.obj --zero-modes\n"
+        "  And my own matrices?               stability_report --stiffness-matrix K.mtx "
+        "--mass-matrix M.mtx");
     CLI11_PARSE(app, argc, argv)
 
     if (!options.scene.given() && options.stiffness_matrix.empty()) {

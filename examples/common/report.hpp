@@ -64,7 +64,8 @@ inline Json limit_json(const taut::StepLimit<double>& limit) {
             {"growth_rate", limit.growth_rate},
             {"certified_up_to",
              limit.certified_up_to > 0 ? Json(limit.certified_up_to) : Json(nullptr)},
-            {"admitted_growth", limit.admitted_growth}};
+            {"admitted_growth", limit.admitted_growth},
+            {"estimate", limit.estimate > 0 ? Json(limit.estimate) : Json(nullptr)}};
 }
 
 template <class T>
@@ -146,9 +147,22 @@ inline void print_limit(const char* label, const taut::StepLimit<double>& limit)
     std::printf("  %s\n", name(limit.cause));
 }
 
+/// What a limit that holds while the scene moves costs beside the one that holds where it stands.
+inline void print_price(const taut::StepLimit<double>& any_pose,
+                        const taut::StepLimit<double>& at_pose) {
+    if (!(any_pose.certified > 0) || any_pose.unbounded()) return;
+    if (!(at_pose.certified > 0) || at_pose.unbounded()) return;
+    std::printf("  any pose:  its step is %.1f %% of the one certified where the scene stands\n",
+                100 * any_pose.certified / at_pose.certified);
+}
+
 /// A sentence for every cause that a user can do something about.
 inline void print_note(const char* label, const taut::StepLimit<double>& limit) {
     using taut::Cause;
+    if (limit.estimate > 0) {
+        std::printf("  %s: the limit is near %.4g s; an estimate, not proved\n", label,
+                    limit.estimate);
+    }
     if (limit.growth_rate > 0) {
         std::printf("  %s: %s\n    growth rate %.3g 1/s\n", label, describe(limit.cause),
                     limit.growth_rate);
@@ -207,6 +221,7 @@ inline void print_table(const Findings& found, double d0) {
     std::printf(
         "  certified: proved stable at this pose, rounding included (any pose: while it moves)\n"
         "  refuted:   a vibration is known that grows at this step; the true limit lies between\n");
+    if (found.any_pose) print_price(*found.any_pose, found.symplectic_euler);
     print_note("explicit Euler", found.explicit_euler);
     print_note("symplectic Euler", found.symplectic_euler);
     print_note("implicit Euler", found.implicit_euler);

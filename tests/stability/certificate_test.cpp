@@ -5,91 +5,20 @@
 
 #include "../support/catch.hpp"
 #include "../support/tolerance.hpp"
-#include "wild_system.hpp"
+#include "definite_matrices.hpp"
 
 using namespace taut_test;
 using taut::proves_positive_definite;
-using Sparse = Eigen::SparseMatrix<double>;
 
 // One false proof would make every certificate worthless, so most of these matrices have a least
-// eigenvalue just below zero: known by a closed form, by a Schur complement or by long double.
+// eigenvalue just below zero.
 
 namespace {
-
-constexpr double hairs[] = {1e-16, 3e-16, 1e-15, 1e-14, 1e-13, 1e-12, 1e-10, 1e-8, 1e-6};
-
-/// S A S with powers of two: exact, and not a sign of an eigenvalue changes.
-Sparse badly_scaled(Random& random, const Sparse& A, int range) {
-    Eigen::VectorXd s(A.rows());
-    for (Index i = 0; i < s.size(); ++i)
-        s[i] = std::exp2(static_cast<double>(random.below(2 * range + 1) - range));
-    return s.asDiagonal() * A * s.asDiagonal();
-}
 
 /// Both with the given matrix and scaled.
 void check_refused(Random& random, const Sparse& A) {
     CHECK_FALSE(proves_positive_definite(A).proved);
     CHECK_FALSE(proves_positive_definite(badly_scaled(random, A, 60)).proved);
-}
-
-/// `diagonal` on the diagonal and −1 between neighbours of a p × q grid; eigenvalues diagonal −
-/// 2cos(jπ/(p + 1)) − 2cos(lπ/(q + 1)), without the second term for q = 1.
-Sparse grid(Index p, Index q, double diagonal) {
-    std::vector<Eigen::Triplet<double>> entries;
-    const auto at = [&](Index i, Index j) { return static_cast<int>(i + p * j); };
-    for (Index j = 0; j < q; ++j) {
-        for (Index i = 0; i < p; ++i) {
-            entries.emplace_back(at(i, j), at(i, j), diagonal);
-            const auto join = [&](int other) {
-                entries.emplace_back(at(i, j), other, -1);
-                entries.emplace_back(other, at(i, j), -1);
-            };
-            if (i + 1 < p) join(at(i + 1, j));
-            if (j + 1 < q) join(at(i, j + 1));
-        }
-    }
-    Sparse A(p * q, p * q);
-    A.setFromTriplets(entries.begin(), entries.end());
-    return A;
-}
-
-Real grid_least(Index p, Index q, double diagonal) {
-    const Real pi = std::acos(Real(-1));
-    const Real second = q > 1 ? 2 * std::cos(pi / static_cast<Real>(q + 1)) : Real(0);
-    return static_cast<Real>(diagonal) - 2 * std::cos(pi / static_cast<Real>(p + 1)) - second;
-}
-
-/// D + c·11ᵀ off the diagonal: a spectrum by hand, all ones once, dense factor.
-Sparse constant_off_diagonal(Index n, double diagonal, double off) {
-    Eigen::MatrixXd A = Eigen::MatrixXd::Constant(n, n, off);
-    A.diagonal().setConstant(diagonal);
-    return A.sparseView();
-}
-
-/// Random entries with about `degree` neighbours each, diagonally dominant by a little.
-Eigen::MatrixXd random_graph(Random& random, Index n, Index degree) {
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
-    for (Index e = 0; e < n * degree / 2; ++e) {
-        const Index i = random.below(n);
-        const Index j = (i + 1 + random.below(n - 1)) % n;
-        A(i, j) = A(j, i) = random.uniform(-1, 1);
-    }
-    A.diagonal() = 1.05 * A.cwiseAbs().rowwise().sum();
-    A.diagonal().array() += 0.1;
-    return A;
-}
-
-/// A with its last diagonal entry a hair below what definiteness needs: bᵀB⁻¹b, in long double.
-bool make_indefinite(Eigen::MatrixXd& A, double hair) {
-    const Index n = A.rows();
-    const RealMatrix exact = A.cast<Real>();
-    const Eigen::LLT<RealMatrix> llt(exact.topLeftCorner(n - 1, n - 1));
-    if (llt.info() != Eigen::Success) return false;
-    const RealVector b = exact.col(n - 1).head(n - 1);
-    const Real schur = b.dot(llt.solve(b));
-    if (!(schur > 0)) return false;
-    A(n - 1, n - 1) = static_cast<double>(schur * (1 - static_cast<Real>(hair)));
-    return static_cast<Real>(A(n - 1, n - 1)) < schur * (1 - 1e-17L);
 }
 
 /// Any class with this interface will do.
@@ -100,33 +29,6 @@ struct CountingCholesky : taut::EigenCholesky {
     }
     static inline int analyses = 0;
 };
-
-/// The most nonzeros in a row of the Cholesky factor by boolean elimination, in the order that
-/// Eigen's factorisation chooses.
-Index widest_row_by_elimination(const Sparse& A) {
-    const Eigen::SimplicialLLT<Sparse> llt(A);
-    Sparse ordered = A;
-    if (llt.permutationP().size() > 0) ordered = A.twistedBy(llt.permutationP());
-    const Index n = A.rows();
-    Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> L(n, n);
-    L.setConstant(false);
-    for (Index j = 0; j < n; ++j) {
-        L(j, j) = true;
-        for (Sparse::InnerIterator entry(ordered, j); entry; ++entry) L(entry.row(), j) = true;
-    }
-    Index widest = 0;
-    for (Index j = 0; j < n; ++j) {
-        for (Index i = j + 1; i < n; ++i) {
-            for (Index k = j + 1; k <= i && L(i, j); ++k) L(i, k) = L(i, k) || L(k, j);
-        }
-    }
-    for (Index i = 0; i < n; ++i) {
-        Index count = 0;
-        for (Index j = 0; j <= i; ++j) count += L(i, j) ? 1 : 0;
-        widest = std::max(widest, count);
-    }
-    return widest;
-}
 
 }  // namespace
 
@@ -317,7 +219,7 @@ TEST_CASE("certificate: the errors of forming a matrix count", "[stability]") {
         taut::Prover<> prover;
         // Scaling to a diagonal near one moves the least eigenvalue by a bounded factor.
         const auto with_error = [&](double error) {
-            return prover(A,
+            return prover(Sparse(A),
                           [&](const Eigen::VectorXd& s) {
                               REQUIRE(s.size() == n);
                               const Eigen::VectorXd diagonal =
@@ -387,46 +289,4 @@ TEMPLATE_TEST_CASE("certificate: combinations of springs are proved only where t
         }
     }
     CHECK(proved > 100);
-}
-
-TEST_CASE("eigen_cholesky: analyze returns the widest row of the factor", "[stability]") {
-    Random random(208);
-    for (int repeat = 0; repeat < 200; ++repeat) {
-        const Index n = 2 + random.below(40);
-        Eigen::MatrixXd A = random_graph(random, n, 1 + random.below(6));
-        if (repeat % 4 == 0)
-            A.col(0).tail(n - 1) = A.row(0).tail(n - 1).transpose().setConstant(0.01);
-        const Sparse S = A.sparseView();
-        taut::EigenCholesky cholesky;
-        CHECK(cholesky.analyze(S) == widest_row_by_elimination(S));
-    }
-    for (const auto& S :
-         {grid(1, 1, 4), grid(9, 1, 4), grid(7, 8, 5), constant_off_diagonal(9, 10, -1)}) {
-        taut::EigenCholesky cholesky;
-        CHECK(cholesky.analyze(S) == widest_row_by_elimination(S));
-    }
-}
-
-TEST_CASE("eigen_cholesky: factorize and its least pivot", "[stability]") {
-    Random random(209);
-    for (int repeat = 0; repeat < 50; ++repeat) {
-        const Index n = 2 + random.below(12);
-        const Eigen::MatrixXd A = random_graph(random, n, 3);
-        const Sparse S = A.sparseView();
-        taut::EigenCholesky cholesky;
-        cholesky.analyze(S);
-        REQUIRE(cholesky.factorize(S));
-        Eigen::SimplicialLLT<Sparse> llt(S);
-        const Eigen::MatrixXd L(Sparse(llt.matrixL()));
-        const double least = L.diagonal().minCoeff();
-        CHECK_THAT(cholesky.least_pivot(), WithinRel(least * least, Tolerance<double>::rounding));
-        Sparse bad = S;
-        bad.coeffRef(n - 1, n - 1) = -1;
-        CHECK_FALSE(cholesky.factorize(bad));
-        bad.coeffRef(n - 1, n - 1) = std::nan("");
-        CHECK_FALSE(cholesky.factorize(bad));
-        bad.coeffRef(n - 1, n - 1) = std::numeric_limits<double>::infinity();
-        CHECK_FALSE(cholesky.factorize(bad));
-        CHECK(cholesky.factorize(S));
-    }
 }

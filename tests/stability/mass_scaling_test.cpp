@@ -193,3 +193,35 @@ TEST_CASE("mass_scaling: wrong input is refused", "[stability]") {
     state.x(1, 4) = std::nan("");
     CHECK_THROWS_AS(added_mass(cloth, state, 0.1), std::invalid_argument);
 }
+
+TEST_CASE("mass_scaling: frequencies of a large cloth change as those of a dense analysis",
+          "[stability][slow]") {
+    Random random(95);
+    // Enough unknowns for the sparse path; a dense referee is still affordable.
+    auto cloth = taut::hanging_cloth<double>({13, 17});
+    for (int s = 0; s < 12; ++s) {
+        const Index i = random.below(cloth.size() - 1);
+        cloth.add_spring(i, i + 1, 1e5);
+    }
+    const auto state = deformed(cloth, 1.01, 0, 3);
+    const auto pencil = taut::SpringPencil<3>::at_pose(cloth, state.x);
+    REQUIRE(pencil.size() > taut::detail::dense_low_modes);
+    const double h =
+        3 * Stability<double>(cloth, state).max_step(Method::symplectic_euler).certified;
+    const auto added = added_mass(cloth, state, h);
+    REQUIRE(added.frequency_change.size() == 10);
+    const auto frequencies = [&](const auto& system) {
+        const taut::DenseAnalysis<> dense(taut::SpringPencil<3>::at_pose(system, state.x));
+        std::vector<double> omega;
+        for (const double k : dense.stiffness_eigenvalues()) {
+            if (k > dense.zero_tolerance()) omega.push_back(std::sqrt(k));
+        }
+        return omega;
+    };
+    const auto before = frequencies(cloth);
+    const auto after = frequencies(with_added(cloth, added));
+    for (std::size_t j = 0; j < 10; ++j) {
+        INFO("mode " << j);
+        CHECK_THAT(added.frequency_change[j], WithinAbs(after[j] / before[j] - 1, 1e-3));
+    }
+}

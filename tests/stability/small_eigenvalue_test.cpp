@@ -150,3 +150,12 @@ TEST_CASE("small_eigenvalue: proved_above is never true below the largest eigenv
     }
     CHECK(tested > 20000);
 }
+
+TEST_CASE("small_eigenvalue: proved_above where squares vanish or overflow", "[stability]") {
+    for (const double size : {1e-300, 1e-170, 1e-100, 1e-60, 1.0, 1e60, 1e100, 1e170, 1e300}) {
+        const Matrix<3> A = Matrix<3>::Constant(size);  // largest eigenvalue 3·size
+        CHECK_FALSE(proved_above<3>(A, 2.9 * size));
+        CHECK_FALSE(proved_above<3>(A, 1.5 * size));
+    }
+    CHECK(proved_above<3>(Matrix<3>::Constant(1e60), 3.1e60));
+}

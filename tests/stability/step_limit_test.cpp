@@ -130,3 +130,31 @@ TEST_CASE("step_limit: names of causes and methods are their own", "[stability]"
     CHECK(names.size() == 9);
     CHECK(names.count("unknown") == 0);
 }
+
+TEST_CASE("step_limit: after update() the limit is that of a new analysis, and holds again",
+          "[stability]") {
+    auto cloth = taut::hanging_cloth<double>({16, 14});
+    auto state = cloth.initial_state();
+    taut::Stability<double> stability(cloth, state);
+    const auto method = taut::Method::symplectic_euler;
+    const auto check = [&](const char* change) {
+        INFO(change);
+        stability.update(cloth, state);
+        const auto limit = stability.max_step(method);
+        const auto anew = taut::Stability<double>(cloth, state).max_step(method);
+        CHECK(limit.step_for(cloth, 1.0).has_value());
+        // Two brackets of one truth.
+        CHECK(limit.certified < anew.refuted);
+        CHECK(anew.certified < limit.refuted);
+        CHECK(limit.refuted / limit.certified < 1.06);
+        CHECK(stability.size() == 3 * (cloth.size() - cloth.pinned_count()));
+    };
+    cloth.add_spring(30, 45, 1e6);
+    check("a spring added");
+    cloth.set_mass(100, 1e-5);
+    check("a lighter particle");
+    cloth.pin(7);
+    check("a pin added");
+    state.x *= 1.02;
+    check("another pose");
+}

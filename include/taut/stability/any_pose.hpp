@@ -4,6 +4,7 @@
 
 #include "../model/spring_system.hpp"
 #include "detail/narrow.hpp"
+#include "detail/quick_mode.hpp"
 #include "spring_pencil.hpp"
 
 namespace taut {
@@ -38,17 +39,15 @@ StepLimit<Scalar> any_pose_limit(const SpringSystem<Scalar, Dim, Laws...>& syste
         return limit;
     }
     const double h = bracket.certified;
-    RitzPair mode = largest_ritz_pair(laplacian, {0, h * h, 2 * h});
-    bracket.refuted = detail::refuted_symplectic(laplacian, mode);
-    bracket.vector = std::move(mode.vector);
+    bracket.vector = detail::leading_pair(laplacian, {0, h * h, 2 * h}).vector;
+    bracket.refuted = detail::refuted_symplectic(laplacian, bracket.vector);
     if (tightness > 0 && !bracket.within(tightness)) {
         Prover<Cholesky> prover;
         detail::narrow_symplectic(laplacian, prover, tightness, bracket);
     }
     limit.certified = detail::round_down<Scalar>(bracket.certified);
     limit.refuted = detail::round_up<Scalar>(bracket.refuted);
-    const double d = detail::quotients(laplacian, bracket.vector, true).d.value;
-    if (bracket.certified * d > 1) limit.cause = Cause::damping;
+    limit.cause = detail::symplectic_cause(laplacian, bracket.certified, bracket.vector);
     return limit;
 }
 

@@ -34,18 +34,18 @@ inline double cholesky_rounding(Index q) {
 ///
 /// A is first scaled to a diagonal near one by powers of two, which is exact and keeps
 /// definiteness. The pattern is analysed once for matrices that share it.
-/// @tparam Cholesky  EigenCholesky, or another factorisation with its interface. Not one whose
-/// kernels
-///                   multiply by an inverted diagonal block: [T22] does not cover them.
+/// @tparam Cholesky  EigenCholesky, CholmodCholesky, or another factorisation with their interface.
+///                   Not one whose kernels multiply by an inverted diagonal block: [T22] does not
+///                   cover them.
 template <class Cholesky = EigenCholesky>
 class Prover {
 public:
-    /// @param A           symmetric, both triangles stored, the same pattern at every call
-    /// @param max_error   max_error(s): a bound on max_i Σ_j s_i |E_ij| s_j, where E are the errors
-    /// with
-    ///                    which A was formed and s > 0 a scaling of its rows and columns
+    /// @param A          symmetric, both triangles stored, the same pattern at every call;
+    /// overwritten
+    /// @param max_error  max_error(s): a bound on max_i Σ_j s_i |E_ij| s_j, where E are the errors
+    ///                   with which A was formed and s > 0 a scaling of its rows and columns
     template <class Error>
-    DefinitenessProof operator()(const SparseMatrix<double>& A, Error&& max_error);
+    DefinitenessProof operator()(SparseMatrix<double>&& A, Error&& max_error);
     int factorizations() const { return factorizations_; }
 
 private:
@@ -56,7 +56,7 @@ private:
 
 template <class Cholesky>
 template <class Error>
-DefinitenessProof Prover<Cholesky>::operator()(const SparseMatrix<double>& A, Error&& max_error) {
+DefinitenessProof Prover<Cholesky>::operator()(SparseMatrix<double>&& A, Error&& max_error) {
     DefinitenessProof proof;
     const Index N = A.rows();
     Eigen::VectorXd scale(N);
@@ -65,30 +65,34 @@ DefinitenessProof Prover<Cholesky>::operator()(const SparseMatrix<double>& A, Er
         if (!(diagonal[i] > 0) || !std::isfinite(diagonal[i])) return proof;
         scale[i] = std::exp2(-std::round(std::log2(diagonal[i]) / 2));
     }
-    SparseMatrix<double> S = scale.asDiagonal() * A * scale.asDiagonal();
-    if (widest_ == 0) widest_ = cholesky_.analyze(S);
+    for (Index j = 0; j < N; ++j) {
+        for (SparseMatrix<double>::InnerIterator entry(A, j); entry; ++entry) {
+            entry.valueRef() = scale[entry.row()] * entry.value() * scale[j];
+        }
+    }
+    if (widest_ == 0) widest_ = cholesky_.analyze(A);
 
     const double u = std::numeric_limits<double>::epsilon();
     const double sum_rounding = 1 + static_cast<double>(N) * u;
-    const double trace = S.diagonal().sum() * sum_rounding;
+    const double trace = A.diagonal().sum() * sum_rounding;
     const double slack = max_error(scale) * sum_rounding;
-    // The last two terms: rounding of S − cI on a diagonal below 4, and underflow in the
+    // The last two terms: rounding of A − cI on a diagonal below 4, and underflow in the
     // factorisation.
     const double underflow =
         static_cast<double>(N * (widest_ + 1)) * std::numeric_limits<double>::min();
     proof.shift =
         (slack + detail::cholesky_rounding(widest_) * trace) * (1 + 8 * u) + 4 * u + underflow;
     if (!(proof.shift < 0.5)) return proof;
-    S.diagonal().array() -= proof.shift;
+    A.diagonal().array() -= proof.shift;
     ++factorizations_;
-    proof.proved = cholesky_.factorize(S);
+    proof.proved = cholesky_.factorize(A);
     if (proof.proved) proof.room = cholesky_.least_pivot();
     return proof;
 }
 
 /// Proves a matrix that is given exactly, as its stored numbers stand.
 inline DefinitenessProof proves_positive_definite(const SparseMatrix<double>& A) {
-    return Prover<>{}(A, [](const Eigen::VectorXd&) { return 0.0; });
+    return Prover<>{}(SparseMatrix<double>(A), [](const Eigen::VectorXd&) { return 0.0; });
 }
 
 /// Proves the combination S of a pencil, the rounding of its assembly counted.

@@ -5,9 +5,8 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
-#include "../core/types.hpp"
+#include "../solver/detail/factor_rows.hpp"
 
 namespace taut {
 
@@ -21,7 +20,9 @@ public:
     /// @returns the most nonzeros in a row of the factor, the diagonal counted
     Index analyze(const SparseMatrix<double>& A) {
         Base::analyzePattern(A);
-        return widest_row(A);
+        const bool ordered = m_P.size() > 0;
+        return detail::widest_factor_row(
+            A, [&](Index i) { return ordered ? Index(m_P.indices()[i]) : i; });
     }
     /// @returns whether the factorisation ran to completion
     bool factorize(const SparseMatrix<double>& A) {
@@ -36,27 +37,6 @@ public:
         double least = diagonal[0];
         for (Index i = 1; i < diagonal.size(); ++i) least = std::min(least, diagonal[i]);
         return least * least;
-    }
-
-private:
-    /// Row k of L is what the nonzeros of column k reach in the elimination tree.
-    Index widest_row(const SparseMatrix<double>& A) const {
-        SparseMatrix<double> permuted = A;
-        if (m_P.size() > 0) permuted = A.twistedBy(m_P);
-        std::vector<Index> seen(static_cast<std::size_t>(A.rows()), -1);
-        Index widest = 1;
-        for (Index k = 0; k < permuted.outerSize(); ++k) {
-            Index count = 1;
-            seen[k] = k;
-            for (SparseMatrix<double>::InnerIterator entry(permuted, k); entry; ++entry) {
-                for (Index i = entry.row(); i >= 0 && i < k && seen[i] != k; i = m_parent[i]) {
-                    seen[i] = k;
-                    ++count;
-                }
-            }
-            widest = std::max(widest, count);
-        }
-        return widest;
     }
 };
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "../model/spring_system.hpp"
-#include "dense.hpp"
+#include "detail/low_modes.hpp"
 #include "spring_pencil.hpp"
 
 namespace taut {
@@ -18,28 +18,10 @@ struct AddedMass {
         false;  ///< false: d0 alone forbids this step whatever the masses, or they overflow
     std::vector<double> mass;  ///< kg to add to each particle; 0 for pinned ones
     double total = 0;          ///< kg
-    /// Relative change of the lowest frequencies, up to ten, zero modes apart; empty above
-    /// dense_frequencies degrees of freedom.
+    /// Relative change of the lowest frequencies, up to ten, zero modes apart: see
+    /// frequency_changes.
     std::vector<double> frequency_change;
-
-    static constexpr Index dense_frequencies = 600;
 };
-
-namespace detail {
-
-/// The lowest ten √k of M⁻¹K⁺ above the zero modes, rad/s.
-template <class AnyPencil>
-std::vector<double> lowest_frequencies(const AnyPencil& pencil) {
-    const DenseAnalysis<> dense(pencil);
-    std::vector<double> omega;
-    for (Index j = 0; j < pencil.size() && omega.size() < 10; ++j) {
-        const double k = dense.stiffness_eigenvalues()[j];
-        if (k > dense.zero_tolerance()) omega.push_back(std::sqrt(k));
-    }
-    return omega;
-}
-
-}  // namespace detail
 
 /// Selective mass scaling: masses to add so that step h of symplectic Euler can be proved, s, in
 /// this pose, few and small: particle i needs m_i(4 − 2h·d0) ≥ λ_max(Σ_b (1 + p_b/p_i)(2hD_b +
@@ -61,10 +43,7 @@ AddedMass added_mass(const SpringSystem<Scalar, Dim, Laws...>& system,
     added.mass.assign(static_cast<std::size_t>(system.size()), 0);
     const double budget = 4 - 2 * h * system.rayleigh().mass_proportional;
     if (!(budget > 0)) return added;
-    auto pencil = SpringPencil<Dim>::at_pose(system, state.x.template cast<double>());
-    const auto before = pencil.size() <= AddedMass::dense_frequencies && pencil.size() > 0
-                            ? detail::lowest_frequencies(pencil)
-                            : std::vector<double>();
+    const auto pencil = SpringPencil<Dim>::at_pose(system, state.x.template cast<double>());
     std::vector<Index> free;
     for (Index i = 0; i < system.size(); ++i) {
         if (!system.is_pinned(i)) free.push_back(i);
@@ -97,18 +76,13 @@ AddedMass added_mass(const SpringSystem<Scalar, Dim, Laws...>& system,
     added.reached = std::isfinite(best);
     if (!added.reached) return added;
     added.total = best;
-    if (!before.empty()) {
-        auto heavier = system;
-        for (const Index i : free) {
-            heavier.set_mass(
-                i, static_cast<Scalar>(static_cast<double>(system.mass(i)) + added.mass[i]));
-        }
-        const auto after = detail::lowest_frequencies(
-            SpringPencil<Dim>::at_pose(heavier, state.x.template cast<double>()));
-        for (std::size_t j = 0; j < before.size() && j < after.size(); ++j) {
-            added.frequency_change.push_back(after[j] / before[j] - 1);
-        }
+    auto heavier = system;
+    for (const Index i : free) {
+        heavier.set_mass(i,
+                         static_cast<Scalar>(static_cast<double>(system.mass(i)) + added.mass[i]));
     }
+    added.frequency_change = detail::frequency_changes(
+        pencil, SpringPencil<Dim>::at_pose(heavier, state.x.template cast<double>()));
     return added;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "../model/block_pattern.hpp"
 #include "detail/small_eigenvalue.hpp"
 #include "pencil.hpp"
 
@@ -36,11 +37,18 @@ public:
     /// The bound of [T26] before the division by the masses: λ_max(Σ_b (1 + p_b/p_i) P_b) of each
     /// free particle for the springs' part of S, weights p > 0, one for each free particle.
     std::vector<double> particle_loads(const Combination& c, const std::vector<double>& p) const {
-        std::vector<double> load(degree_.size());
-        weighted_bound(c, p, load);
-        for (std::size_t i = 0; i < load.size(); ++i) load[i] *= mass_[static_cast<Index>(Dim * i)];
-        return load;
+        return loads(splitting(c, p));
     }
+    /// visit(a, b, d, axial, transverse) for every spring with a free end: free particles (−1 when
+    /// pinned), unit vector, and S of the spring = axial ddᵀ + transverse(I − ddᵀ), N/m.
+    template <class Visitor>
+    void for_each_link(const Combination& c, Visitor&& visit) const {
+        for (const Link& link : links_) {
+            const auto [axial, transverse] = coefficients(c, link);
+            visit(link.a, link.b, link.d, axial, transverse);
+        }
+    }
+    Index link_count() const { return static_cast<Index>(links_.size()); }
     std::vector<SpringShare> spring_shares(const Eigen::VectorXd& u) const override;
     std::vector<ParticleShare> particle_shares(const Eigen::VectorXd& u) const override;
     std::shared_ptr<const Pencil> scaled(double stiffness, double mass) const override;
@@ -79,8 +87,26 @@ private:
     double mass_coefficient(const Combination& c) const {
         return c.mass + c.damping * rayleigh_.mass_proportional;
     }
-    double weighted_bound(const Combination& c, const std::vector<double>& p,
-                          std::vector<double>& r) const;
+    /// One choice of weights in [T26]: of each free particle the block Σ_b (1 + p_b/p_i) P_b, and a
+    /// bound on its rounding error, N/m.
+    struct Splitting {
+        std::vector<Block, Eigen::aligned_allocator<Block>> block;
+        std::vector<double> rounding;
+    };
+    Splitting splitting(const Combination& c, const std::vector<double>& p) const;
+    std::vector<double> loads(const Splitting& split) const;
+    double largest_quotient(const Splitting& split) const;
+    double quotient(double load, std::size_t i) const {
+        // A quotient that vanished by underflow is not zero.
+        const double r = load / mass_[static_cast<Index>(Dim * i)];
+        return load > 0 ? std::max(r, std::numeric_limits<double>::min()) : r;
+    }
+    static Block block(const Vector& d, double axial, double transverse) {
+        Block P = d * d.transpose();  // first, so that P is symmetric to the bit
+        P *= axial - transverse;
+        P.diagonal().array() += transverse;
+        return P;
+    }
     Vector segment(const Eigen::VectorXd& u, int i) const {
         return i < 0 ? Vector(Vector::Zero()) : Vector(u.segment<Dim>(Dim * i));
     }
@@ -196,7 +222,10 @@ Enclosed SpringPencil<Dim>::quadratic(const Combination& c, const Eigen::VectorX
         sum.value += on_mass * term;
         sum.error += std::abs(on_mass) * term;
     }
-    for (const Link& link : links_) {
+    const bool springs =
+        c.stiffness != 0 || (c.damping != 0 && (damped_ || rayleigh_.stiffness_proportional > 0));
+    for (std::size_t s = 0; springs && s < links_.size(); ++s) {
+        const Link& link = links_[s];
         const auto [axial, transverse] = coefficients(c, link);
         const Vector du = segment(u, link.a) - segment(u, link.b);
         const double along = link.d.dot(du);
@@ -210,99 +239,25 @@ Enclosed SpringPencil<Dim>::quadratic(const Combination& c, const Eigen::VectorX
     return sum;
 }
 
-/// Theory [T26] for one choice of weights p: the bounds r of all particles, and their maximum.
-template <int Dim>
-double SpringPencil<Dim>::weighted_bound(const Combination& c, const std::vector<double>& p,
-                                         std::vector<double>& r) const {
-    std::vector<Block, Eigen::aligned_allocator<Block>> sum(degree_.size(), Block::Zero());
-    std::vector<double> size(degree_.size(), 0);  // Σ of the weighted magnitudes
-    // The factor of every K⁺: where it is not positive, neither is any transverse coefficient,
-    // whatever the rounding of the tangents.
-    const double factor = c.stiffness + c.damping * rayleigh_.stiffness_proportional;
-    const double eps = std::numeric_limits<double>::epsilon();
-    for (const Link& link : links_) {
-        auto [axial, transverse] = coefficients(c, link);
-        if (c.project && factor <= 0 &&
-            (c.damping <= 0 || axial < -64 * eps * magnitude(c, link))) {
-            continue;  // not positive for certain
-        }
-        axial = std::max(axial, 0.0);
-        transverse = std::max(transverse, 0.0);
-        const Block dd = link.d * link.d.transpose();
-        Block P = (axial - transverse) * dd;
-        P.diagonal().array() += transverse;
-        const auto add = [&](int i, int other) {
-            if (i < 0) return;
-            const double weight = other < 0 ? 1 : 1 + p[other] / p[i];
-            sum[i] += weight * P;
-            size[i] += weight * magnitude(c, link);
-        };
-        add(link.a, link.b);
-        add(link.b, link.a);
-    }
-    double largest = 0;
-    for (std::size_t i = 0; i < sum.size(); ++i) {
-        const double rounding = (degree_[i] + 64) * eps * size[i];
-        r[i] = (detail::eigenvalue_upper_bound<Dim>(sum[i]) + rounding) / mass_[Dim * i];
-        // A quotient that vanished by underflow is not zero.
-        if (size[i] > 0) r[i] = std::max(r[i], std::numeric_limits<double>::min());
-        if (!(r[i] <= largest)) largest = r[i];  // NaN and infinity stay
-    }
-    return largest;
-}
-
-template <int Dim>
-double SpringPencil<Dim>::upper_bound(const Combination& c, double enough) const {
-    constexpr int most_repeats = 40;
-    constexpr double worth_repeating = 1e-3;  // of the bound, over five repeats
-    std::vector<double> p(degree_.size());
-    for (std::size_t i = 0; i < p.size(); ++i) p[i] = 1 / std::sqrt(mass_[Dim * i]);
-    std::vector<double> r(p.size());
-    double best = weighted_bound(c, p, r);
-    if (!std::isfinite(best)) return std::numeric_limits<double>::infinity();
-    double earlier = best;
-    for (int repeat = 1; repeat <= most_repeats && best > std::max(0.0, enough); ++repeat) {
-        const double largest = *std::max_element(r.begin(), r.end());
-        // A particle whose bound is far below the largest must not lose all its weight at once.
-        for (std::size_t i = 0; i < p.size(); ++i)
-            p[i] *= std::sqrt(std::max(r[i] / largest, 1e-4));
-        best = std::min(best, weighted_bound(c, p, r));
-        if (repeat % 5 == 0) {
-            if (best > earlier * (1 - worth_repeating)) break;
-            earlier = best;
-        }
-    }
-    const double rounding = 1 + 16 * std::numeric_limits<double>::epsilon();
-    return best * rounding +
-           mass_coefficient(c) * (mass_coefficient(c) > 0 ? rounding : 1 / rounding);
-}
-
 template <int Dim>
 SparseMatrix<double> SpringPencil<Dim>::assemble(const Combination& c) const {
-    std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(links_.size() * 4 * Dim * Dim);
-    const auto add = [&](int row, int column, const Block& block) {
-        for (int i = 0; i < Dim; ++i) {
-            for (int j = 0; j < Dim; ++j) {
-                entries.emplace_back(Dim * row + i, Dim * column + j, block(i, j));
-            }
+    const BlockPattern pattern(size() / Dim, [&](const auto& visit) {
+        for (const Link& link : links_) {
+            if (link.a >= 0 && link.b >= 0) visit(link.a, link.b);
         }
+    });
+    SparseMatrix<double> S = pattern.zero<double, Dim>();
+    const auto add = [&](int row, int column, const Block& P) {
+        if (row >= 0 && column >= 0) pattern.add(S, pattern.place(row, column), column, P);
     };
-    for (const Link& link : links_) {
-        const auto [axial, transverse] = coefficients(c, link);
-        const Block dd = link.d * link.d.transpose();
-        Block P = (axial - transverse) * dd;
-        P.diagonal().array() += transverse;
-        if (link.a >= 0) add(link.a, link.a, P);
-        if (link.b >= 0) add(link.b, link.b, P);
-        if (link.a >= 0 && link.b >= 0) {
-            add(link.a, link.b, -P);
-            add(link.b, link.a, -P);
-        }
-    }
-    for (int i = 0; i < size(); ++i) entries.emplace_back(i, i, mass_coefficient(c) * mass_[i]);
-    SparseMatrix<double> S(size(), size());
-    S.setFromTriplets(entries.begin(), entries.end());
+    for_each_link(c, [&](int a, int b, const Vector& d, double axial, double transverse) {
+        const Block P = block(d, axial, transverse);
+        add(a, a, P);
+        add(b, b, P);
+        add(a, b, -P);
+        add(b, a, -P);
+    });
+    S.diagonal() += mass_coefficient(c) * mass_;
     return S;
 }
 
@@ -375,3 +330,5 @@ std::shared_ptr<const Pencil> SpringPencil<Dim>::scaled(double stiffness, double
 }
 
 }  // namespace taut
+
+#include "detail/spring_pencil_bound.ipp"

@@ -12,7 +12,9 @@
 #include "../model/spring_system.hpp"
 #include "detail/limits.hpp"
 #include "detail/narrow.hpp"
+#include "detail/quick_mode.hpp"
 #include "detail/zero_modes.hpp"
+#include "explicit_estimate.hpp"
 #include "matrix_pencil.hpp"
 #include "rayleigh.hpp"
 #include "spring_pencil.hpp"
@@ -69,7 +71,14 @@ public:
 
     /// @param state  the pose; its velocity is taken as zero. Fails unless it is finite and fits.
     template <int Dim, class... Laws>
-    Stability(const SpringSystem<Scalar, Dim, Laws...>& system, const State<Scalar, Dim>& state);
+    Stability(const SpringSystem<Scalar, Dim, Laws...>& system, const State<Scalar, Dim>& state) {
+        update(system, state);
+    }
+
+    /// Takes the system as it is now, or another pose, at the cost of a new analysis but for the
+    /// first search, which begins at the last stiffest mode.
+    template <int Dim, class... Laws>
+    void update(const SpringSystem<Scalar, Dim, Laws...>& system, const State<Scalar, Dim>& state);
 
     /// The bracket of the largest stable step, s.
     /// @param tightness  0: by bounds alone, O(springs) for each of a fixed number of passes [T26],
@@ -81,14 +90,14 @@ public:
     /// Whether step h, s, is proved stable: by the bound, or else by factorisation.
     Certificate certify(Method method, double h) const;
     /// The α, s, that make step h stable with D = d0·M + αK⁺ in place of the system's own damping:
-    /// proved, since it takes k_max from above and k_min from below [T14]–[T16].
+    /// proved, since it takes k_max from above and k_min as 0 [T14]–[T16].
     AlphaWindow rayleigh_window(Method method, double h, double d0 = 0) const {
-        const auto spectrum = stiffness_spectrum();
-        const double compression =
-            size() == 0 ? 0 : std::max(0.0, pencil_->upper_bound({0, -1, 0, false}));
-        return taut::rayleigh_window(method, h, d0, std::max(0.0, spectrum.k_min.lower),
-                                     spectrum.k_max.upper,
-                                     pencil_->stiffness_semidefinite() ? 0 : compression);
+        if (size() == 0) return taut::rayleigh_window(method, h, d0, 0, 0, 0);
+        const double stiffest = std::max(0.0, pencil_->upper_bound({0, 1, 0}));
+        const double compression = pencil_->stiffness_semidefinite()
+                                       ? 0
+                                       : std::max(0.0, pencil_->upper_bound({0, -1, 0, false}));
+        return taut::rayleigh_window(method, h, d0, 0, stiffest, compression);
     }
     /// Brackets of the extreme eigenvalues. @param count_zero_modes by the inertia of K⁺ − εM: one
     /// sparse factorisation
@@ -139,9 +148,8 @@ private:
 
 template <class Scalar, class Cholesky>
 template <int Dim, class... Laws>
-Stability<Scalar, Cholesky>::Stability(const SpringSystem<Scalar, Dim, Laws...>& system,
-                                       const State<Scalar, Dim>& state)
-    : revision_(system.revision()) {
+void Stability<Scalar, Cholesky>::update(const SpringSystem<Scalar, Dim, Laws...>& system,
+                                         const State<Scalar, Dim>& state) {
     if (state.x.cols() != system.size() || state.v.cols() != system.size()) {
         fail("Stability: the state has ", state.x.cols(), " positions and ", state.v.cols(),
              " velocities; the system has ", system.size(), " particles");
@@ -151,8 +159,12 @@ Stability<Scalar, Cholesky>::Stability(const SpringSystem<Scalar, Dim, Laws...>&
         fail("Stability: the position of particle ", still.first_not_finite(), " is not finite");
     }
     const Points<double, Dim> x = state.x.template cast<double>();
-    pencil_ = std::make_shared<SpringPencil<Dim>>(SpringPencil<Dim>::at_pose(system, x));
-    if (size() > 0) stiffest_ = largest_ritz_pair(*pencil_, {0, 1, 0});
+    auto pencil = std::make_shared<SpringPencil<Dim>>(SpringPencil<Dim>::at_pose(system, x));
+    if (pencil->size() > 0) {
+        stiffest_ = detail::leading_pair(*pencil, {0, 1, 0}, stiffest_.vector);
+    }
+    pencil_ = std::move(pencil);
+    revision_ = system.revision();
 }
 
 template <class Scalar, class Cholesky>
@@ -243,7 +255,7 @@ LimitingMode Stability<Scalar, Cholesky>::limiting_mode() const {
     LanczosOptions options;
     options.basis = 60;
     options.tolerance = 1e-6;
-    RitzPair pair = largest_ritz_pair(*pencil_, {0, 1, 0}, options);
+    RitzPair pair = largest_ritz_pair(*pencil_, {0, 1, 0}, options, stiffest_.vector);
     const auto [k, d] = detail::quotients(*pencil_, pair.vector, true);
     return {k.value, d.value, std::move(pair.vector)};
 }

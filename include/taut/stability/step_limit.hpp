@@ -83,6 +83,8 @@ struct StepLimit {
                            ///< infinity: every step is)
     Scalar refuted = 0;    ///< s; a vector proves that this step fails (infinity: none is known to)
     Cause cause = Cause::stiffness;
+    Scalar estimate = 0;     ///< s; explicit Euler under dampers: a numerical guess at the limit
+                             ///< where the bracket is wide; safe for nothing (0: none)
     double growth_rate = 0;  ///< 1/s; √κ of the physics when K has the eigenvalue −κ, else 0
     Scalar certified_up_to = 0;  ///< s; where semi-definiteness could be shown only up to rounding:
                                  ///< up to this step nothing grows faster than admitted_growth

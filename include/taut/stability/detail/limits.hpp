@@ -78,33 +78,53 @@ inline double certified_symplectic(const Pencil& pencil, double enough = 0) {
     return h;
 }
 
-/// A step that a vector refutes: uᵀ(4M − 2hD − h²K)u ≤ 0, improved by [T19]'s iteration.
-/// Holds for an indefinite K too: a real multiplier ≤ −1 follows from the vector alone.
+/// The step that u refutes for symplectic Euler: the root of uᵀ(4M − 2hD − h²K)u. For an indefinite
+/// K too: a real multiplier ≤ −1 follows from the vector alone.
 template <class Operator>
-double refuted_symplectic(const Operator& pencil, RitzPair& mode) {
-    const auto step = [&](const Eigen::VectorXd& u) {
-        const auto [k, d] = quotients(pencil, u, false);
-        return critical_step(Method::symplectic_euler, k.lower(), std::max(0.0, d.lower()));
-    };
-    double h = step(mode.vector);
+double refuted_by(const Operator& pencil, const Eigen::VectorXd& u) {
+    const auto [k, d] = quotients(pencil, u, false);
+    return critical_step(Method::symplectic_euler, k.lower(), std::max(0.0, d.lower()));
+}
+
+/// [T19]'s iteration: the leading vector of 2hD + h²K refutes a smaller step than h, and so on
+/// until a repeat gains less than `settled` of it.
+template <class Operator>
+void sharpen_symplectic(const Operator& pencil, const LanczosOptions& options, double settled,
+                        double& h, Eigen::VectorXd& vector) {
+    constexpr int most_repeats = 8;
+    // Without dampers the vector does not depend on h.
+    const bool once = pencil.is_rayleigh() && pencil.stiffness_semidefinite();
+    for (int repeat = 0; repeat < (once ? 1 : most_repeats); ++repeat) {
+        RitzPair next = largest_ritz_pair(pencil, {0, h * h, 2 * h, false}, options, vector);
+        const double smaller = refuted_by(pencil, next.vector);
+        if (!(smaller < h)) return;
+        vector = std::move(next.vector);
+        const bool last = smaller > h * (1 - settled);
+        h = smaller;
+        if (last) return;
+    }
+}
+
+/// A step that a vector refutes, from the stiffest vector of K⁺, which the refuting one replaces.
+template <class Operator>
+double refuted_symplectic(const Operator& pencil, Eigen::VectorXd& vector) {
+    double h = refuted_by(pencil, vector);
     if (pencil.is_rayleigh() && pencil.stiffness_semidefinite()) return h;
     // The stiffest vector of K⁺ may lie where the true K is buckled: begin elsewhere.
     for (const Combination& c : {Combination{0, 1, 0, false}, Combination{0, 0, 1}}) {
         if (std::isfinite(h)) break;
         RitzPair other = largest_ritz_pair(pencil, c);
-        h = step(other.vector);
-        if (std::isfinite(h)) mode.vector = std::move(other.vector);
+        h = refuted_by(pencil, other.vector);
+        if (std::isfinite(h)) vector = std::move(other.vector);
     }
-    for (int repeat = 0; repeat < 4 && std::isfinite(h); ++repeat) {
-        RitzPair next = largest_ritz_pair(pencil, {0, h * h, 2 * h, false}, {}, mode.vector);
-        const double smaller = step(next.vector);
-        if (!(smaller < h)) break;
-        mode.vector = next.vector;
-        const bool settled = smaller > h * (1 - 1e-4);
-        h = smaller;
-        if (settled) break;
-    }
+    if (std::isfinite(h)) sharpen_symplectic(pencil, {}, 1e-4, h, vector);
     return h;
+}
+
+/// Which term of 2hD + h²K the refuting vector u feels most; half of 4M is D's when hd = 1.
+inline Cause symplectic_cause(const Pencil& pencil, double h, const Eigen::VectorXd& u) {
+    const double m = pencil.quadratic({1, 0, 0}, u).value;
+    return h * pencil.quadratic({0, 0, 1}, u).value > m ? Cause::damping : Cause::stiffness;
 }
 
 /// Whether the two sufficient conditions of explicit Euler hold at h by the bound [T17]:
@@ -115,9 +135,9 @@ inline bool certifies_explicit(const Pencil& pencil, double h) {
            pencil.upper_bound({0, -h * h, 2 * h, false}) < 4;
 }
 
-/// The largest step that a proved bound k on k_max, or else the bound, certifies for explicit
-/// Euler; 0: none.
-inline double certified_explicit(const Pencil& pencil, double k) {
+/// The largest step that proved bounds k on k_max and d on the largest eigenvalue of D' certify for
+/// explicit Euler, or else the bound at each step tried; 0: none.
+inline double certified_explicit(const Pencil& pencil, double k, double d) {
     if (!std::isfinite(k)) return 0;
     const auto [d0, alpha] = pencil.rayleigh();
     if (pencil.is_rayleigh() && pencil.stiffness_semidefinite()) {
@@ -129,9 +149,7 @@ inline double certified_explicit(const Pencil& pencil, double k) {
     }
     // The stable steps are an interval (0, h_max) [T18]: bisect on a logarithmic scale, downwards
     // from the limit that K alone sets for any commuting damping [T12].
-    const double d = std::max(0.0, pencil.upper_bound({0, 0, 1}));
-    double high = std::min(k > 0 ? 2 / std::sqrt(k) : infinity, infinity);
-    if (!std::isfinite(high)) high = 4 / d;
+    double high = k > 0 ? 2 / std::sqrt(k) : 4 / d;
     double low = high * 1e-12;
     if (!certifies_explicit(pencil, low)) return 0;
     while (certifies_explicit(pencil, high)) high *= 2;

@@ -50,25 +50,8 @@ void narrow(Bracket& bracket, double tightness, Sharpen&& sharpen, Proves&& prov
 template <class Cholesky>
 void narrow_symplectic(const Pencil& pencil, Prover<Cholesky>& prover, double tightness,
                        Bracket& bracket) {
-    const auto step = [&](const Eigen::VectorXd& u) {
-        const auto [k, d] = quotients(pencil, u, false);
-        return critical_step(Method::symplectic_euler, k.lower(), std::max(0.0, d.lower()));
-    };
     const auto sharpen = [&](Bracket& b, double share) {
-        for (int repeat = 0; repeat < 8; ++repeat) {
-            const double h = b.refuted;
-            const RitzPair pair =
-                largest_ritz_pair(pencil, {0, h * h, 2 * h, false}, sharp(share), b.vector);
-            const double smaller = step(pair.vector);
-            if (!(smaller < h)) return;
-            b.refuted = smaller;
-            b.vector = pair.vector;
-            // Without damping the vector does not depend on h: one pass is all.
-            if (smaller > h * (1 - 0.1 * share) ||
-                (pencil.is_rayleigh() && pencil.stiffness_semidefinite())) {
-                return;
-            }
-        }
+        sharpen_symplectic(pencil, sharp(share), 0.1 * share, b.refuted, b.vector);
     };
     narrow(bracket, tightness, sharpen, [&](double h) {
         // Where K is indefinite the condition at h alone says nothing of smaller steps; hD ≺ 4M
@@ -122,10 +105,11 @@ double semidefinite_deficit(const Pencil& pencil, Prover<Cholesky>& prover, cons
 
 /// Explicit Euler with a D that does not commute: [T17] by two factorisations, as far as D − hK⁺ is
 /// definite up to −δM. Raises `up_to` and `delta`, 1/s; certified itself where δ = 0 sufficed.
+/// @param k     a bound on k_max, 1/s²
+/// @param high  no limit is above this step, s
 template <class Cholesky>
-void narrow_explicit(const Pencil& pencil, Prover<Cholesky>& prover, double tightness, double high,
-                     Bracket& bracket, double& up_to, double& delta) {
-    const double k = pencil.upper_bound({0, 1, 0});
+void narrow_explicit(const Pencil& pencil, Prover<Cholesky>& prover, double tightness, double k,
+                     double high, Bracket& bracket, double& up_to, double& delta) {
     const auto second = [&](double h) {
         return prove(prover, pencil, {4, h * h, -2 * h, false}).proved;
     };

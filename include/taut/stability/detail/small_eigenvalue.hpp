@@ -9,9 +9,10 @@
 namespace taut::detail {
 
 /// Whether σI − A is positive definite for certain: a Cholesky factorisation whose pivots stay
-/// above the rounding it can have committed [T22].
+/// above the rounding it can have committed [T22]. False where squares of σ vanish or overflow.
 template <int Dim>
 bool proved_above(const Eigen::Matrix<double, Dim, Dim>& A, double sigma) {
+    if (!(sigma > 1e-150 && sigma < 1e150)) return false;
     const double room = 64 * std::numeric_limits<double>::epsilon() * sigma;
     Eigen::Matrix<double, Dim, Dim> L = -A;
     L.diagonal().array() += sigma - room;

@@ -53,10 +53,10 @@ double Stability<Scalar, Cholesky>::certified_when_scaled(Method method, double 
     const auto pencil = pencil_->scaled(stiffness, mass);
     const double k = std::max(0.0, pencil->upper_bound({0, 1, 0}));
     switch (method) {
-        case Method::explicit_euler:
-            return k > 0 || pencil->upper_bound({0, 0, 1}) > 0
-                       ? detail::certified_explicit(*pencil, k)
-                       : detail::infinity;
+        case Method::explicit_euler: {
+            const double d = std::max(0.0, pencil->upper_bound({0, 0, 1}));
+            return k > 0 || d > 0 ? detail::certified_explicit(*pencil, k, d) : detail::infinity;
+        }
         case Method::symplectic_euler:
         case Method::velocity_verlet: return detail::certified_symplectic(*pencil);
         case Method::implicit_euler: {

@@ -29,7 +29,7 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::explicit_limit(double tightness) 
     // α K⁺ is not a function of an indefinite K, so only d0·M commutes with it.
     const bool commutes = pencil.is_rayleigh() && (pencil.stiffness_semidefinite() ||
                                                    pencil.rayleigh().stiffness_proportional == 0);
-    detail::Bracket bracket{detail::certified_explicit(pencil, k), detail::infinity, {}};
+    detail::Bracket bracket{detail::certified_explicit(pencil, k, d), detail::infinity, {}};
     RitzPair mode = stiffest_;
     Prover<Cholesky> prover;
     if (tightness > 0 && pencil.is_rayleigh() && pencil.stiffness_semidefinite()) {
@@ -37,7 +37,7 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::explicit_limit(double tightness) 
         for (double share = tightness; share > 1e-14; share /= 16) {
             auto proved = detail::narrow_maximum(pencil, prover, share);
             bracket.certified =
-                std::max(bracket.certified, detail::certified_explicit(pencil, proved.upper));
+                std::max(bracket.certified, detail::certified_explicit(pencil, proved.upper, d));
             if (proved.vector.size() > 0) mode.vector = std::move(proved.vector);
             bracket.refuted = detail::refuted_explicit(pencil, mode, commutes);
             if (bracket.within(tightness) || proved.upper > proved.lower * (1 + share)) break;
@@ -45,16 +45,20 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::explicit_limit(double tightness) 
     } else {
         bracket.refuted = detail::refuted_explicit(pencil, mode, commutes);
     }
+    double estimate = 0;
     if (!commutes && size() <= dense_size) {
-        bracket.refuted =
-            std::min(bracket.refuted, DenseAnalysis<>(pencil, false).explicit_limit_above());
+        const DenseAnalysis<> dense(pencil, false);
+        bracket.refuted = std::min(bracket.refuted, dense.explicit_limit_above());
+        estimate = dense.explicit_limit();
+    } else if (!commutes && tightness > 0 && k > 0) {
+        estimate = explicit_estimate(pencil, k);
     }
     double up_to = 0;
     double delta = 0;
     if (tightness > 0 && !bracket.within(tightness) && !pencil.is_rayleigh()) {
         // No limit is above that of the best commuting damping by much [T12].
         const double high = k > 0 ? 4 / std::sqrt(k) : 4 / d;
-        detail::narrow_explicit(pencil, prover, tightness, high, bracket, up_to, delta);
+        detail::narrow_explicit(pencil, prover, tightness, k, high, bracket, up_to, delta);
     }
     const double certified = bracket.certified;
     const bool by_damping = k <= 0 || certified * certified * k < 4 * (1 - 1e-3);
@@ -62,6 +66,7 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::explicit_limit(double tightness) 
                                      certified == 0 ? Cause::undamped_modes
                                      : by_damping   ? Cause::damping
                                                     : Cause::stiffness);
+    answer.estimate = estimate > 0 ? static_cast<Scalar>(estimate) : Scalar(0);
     if (up_to > certified) {
         answer.certified_up_to = detail::round_down<Scalar>(up_to);
         answer.admitted_growth = delta;
@@ -74,23 +79,20 @@ template <class Scalar, class Cholesky>
 StepLimit<Scalar> Stability<Scalar, Cholesky>::symplectic_limit(double tightness) const {
     const Pencil& pencil = *pencil_;
     // A bound within 3 % of the Ritz value's step needs no improvement.
-    RitzPair mode = stiffest_;
     detail::Bracket bracket;
-    bracket.certified = detail::certified_symplectic(pencil, 1.06 * mode.value);
+    bracket.certified = detail::certified_symplectic(pencil, 1.06 * stiffest_.value);
     if (!std::isfinite(bracket.certified)) {
         return limit(detail::infinity, detail::infinity, Cause::nothing_to_limit);
     }
     if (!(bracket.certified > 0)) return limit(0, detail::infinity, Cause::overflow);
-    bracket.refuted = detail::refuted_symplectic(pencil, mode);
-    bracket.vector = std::move(mode.vector);
+    bracket.vector = stiffest_.vector;
+    bracket.refuted = detail::refuted_symplectic(pencil, bracket.vector);
     if (tightness > 0 && !bracket.within(tightness)) {
         Prover<Cholesky> prover;
         detail::narrow_symplectic(pencil, prover, tightness, bracket);
     }
-    const Enclosed d = detail::quotients(pencil, bracket.vector, true).d;
-    // Half of 4M is used up by the damping term when hd = 1.
     return limit(bracket.certified, bracket.refuted,
-                 bracket.certified * d.value > 1 ? Cause::damping : Cause::stiffness);
+                 detail::symplectic_cause(pencil, bracket.certified, bracket.vector));
 }
 
 template <class Scalar, class Cholesky>

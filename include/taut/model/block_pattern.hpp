@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "../core/types.hpp"
+
+namespace taut {
+
+/// The sparsity of a symmetric matrix of blocks: a block on the diagonal of every column and two
+/// for every pair of columns that a spring joins.
+class BlockPattern {
+public:
+    BlockPattern() = default;
+    /// @param columns    n, block columns
+    /// @param each_pair  each_pair(visit) calls visit(a, b) for every spring, 0 ≤ a, b < n; pairs
+    ///                   may repeat
+    template <class EachPair>
+    BlockPattern(Index columns, EachPair&& each_pair) {
+        std::vector<int> degree(static_cast<std::size_t>(columns), 1);
+        each_pair([&](Index a, Index b) {
+            ++degree[a];
+            ++degree[b];
+        });
+        std::vector<Index> end(degree.size());
+        Index total = 0;
+        for (std::size_t j = 0; j < degree.size(); ++j) {
+            end[j] = total;
+            total += degree[j];
+        }
+        rows_.resize(static_cast<std::size_t>(total));
+        for (std::size_t j = 0; j < end.size(); ++j) rows_[end[j]++] = static_cast<int>(j);
+        each_pair([&](Index a, Index b) {
+            rows_[end[a]++] = static_cast<int>(b);
+            rows_[end[b]++] = static_cast<int>(a);
+        });
+        remove_repeats(degree);
+    }
+
+    Index columns() const { return static_cast<Index>(first_.size()) - 1; }
+    Index blocks() const { return static_cast<Index>(rows_.size()); }
+    /// The number of blocks before column j, 0 ≤ j ≤ n.
+    Index first(Index j) const { return first_[j]; }
+    /// Of the block (row, column) among those of its column, rows ascending.
+    int place(Index row, Index column) const {
+        const auto begin = rows_.begin() + first_[column];
+        const auto end = rows_.begin() + first_[column + 1];
+        return static_cast<int>(std::lower_bound(begin, end, static_cast<int>(row)) - begin);
+    }
+    /// The matrix of this pattern with Dim × Dim blocks, filled with zeros.
+    template <class Scalar, int Dim>
+    SparseMatrix<Scalar> zero() const {
+        SparseMatrix<Scalar> A(Dim * columns(), Dim * columns());
+        A.resizeNonZeros(Dim * Dim * blocks());
+        Index next = 0;
+        for (Index j = 0; j < columns(); ++j) {
+            for (int c = 0; c < Dim; ++c) {
+                A.outerIndexPtr()[Dim * j + c] = static_cast<int>(next);
+                for (Index slot = first_[j]; slot < first_[j + 1]; ++slot) {
+                    for (int r = 0; r < Dim; ++r) A.innerIndexPtr()[next++] = Dim * rows_[slot] + r;
+                }
+            }
+        }
+        A.outerIndexPtr()[A.cols()] = static_cast<int>(next);
+        std::fill_n(A.valuePtr(), next, Scalar(0));
+        return A;
+    }
+    /// Adds a block at its place in column j to the values of a matrix made by zero().
+    template <class Scalar, int Dim>
+    void add(SparseMatrix<Scalar>& A, int place, Index j,
+             const Eigen::Matrix<Scalar, Dim, Dim>& block) const {
+        const Index height = Dim * (first_[j + 1] - first_[j]);
+        Scalar* corner = A.valuePtr() + Dim * Dim * first_[j] + Dim * place;
+        for (int c = 0; c < Dim; ++c) {
+            for (int r = 0; r < Dim; ++r) corner[c * height + r] += block(r, c);
+        }
+    }
+
+private:
+    void remove_repeats(const std::vector<int>& degree) {
+        first_.assign(1, 0);
+        auto kept = rows_.begin();
+        auto begin = rows_.begin();
+        for (const int size : degree) {
+            std::sort(begin, begin + size);
+            const auto end = std::unique(begin, begin + size);
+            kept = std::copy(begin, end, kept);
+            begin += size;
+            first_.push_back(static_cast<Index>(kept - rows_.begin()));
+        }
+        rows_.erase(kept, rows_.end());
+    }
+
+    std::vector<Index> first_{0};  // block column → number of blocks before it
+    std::vector<int> rows_;        // block rows of all columns, ascending in each
+};
+
+}  // namespace taut

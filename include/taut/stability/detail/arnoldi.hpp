@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "../lanczos.hpp"
+
+namespace taut::detail {
+
+/// Approximate eigenpairs of a real n × n matrix: columns of `vector` of unit length, and the norm
+/// of what A leaves of them.
+struct ComplexRitzPairs {
+    Eigen::VectorXcd value;
+    Eigen::MatrixXcd vector;
+    Eigen::VectorXd residual;
+};
+
+/// Arnoldi's process without restart (W. E. Arnoldi 1951). @param apply  y = apply(q), both n
+template <class Apply>
+ComplexRitzPairs arnoldi(Apply&& apply, Index n, Index steps) {
+    Index m = std::min(steps, n);
+    Eigen::MatrixXd Q(n, m);
+    Eigen::MatrixXd H = Eigen::MatrixXd::Zero(m, m);  // QᵀAQ
+    Eigen::VectorXd q = scattered_vector(n).normalized();
+    double next = 0;
+    for (Index j = 0; j < m; ++j) {
+        Q.col(j) = q;
+        Eigen::VectorXd w = apply(q);
+        const double norm = w.norm();
+        for (int pass = 0; pass < 2; ++pass) {
+            const Eigen::VectorXd h = Q.leftCols(j + 1).transpose() * w;
+            w.noalias() -= Q.leftCols(j + 1) * h;
+            H.col(j).head(j + 1) += h;
+        }
+        next = w.norm();
+        if (!(next > 1e-13 * norm)) {  // an invariant subspace: all its values are exact
+            m = j + 1;
+            next = 0;
+        } else if (j + 1 < m) {
+            H(j + 1, j) = next;
+            q = w / next;
+        }
+    }
+    const Eigen::EigenSolver<Eigen::MatrixXd> projected(H.topLeftCorner(m, m));
+    const Eigen::MatrixXcd V = projected.eigenvectors();
+    return {projected.eigenvalues(), Q.leftCols(m) * V, next * V.row(m - 1).cwiseAbs()};
+}
+
+}  // namespace taut::detail

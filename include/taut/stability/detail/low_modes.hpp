@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "../dense.hpp"
+#include "arnoldi.hpp"
+
+namespace taut::detail {
+
+inline constexpr Index dense_low_modes = 600;  // unknowns up to which a dense eigensolver is used
+
+/// Some of the lowest modes of M⁻¹K⁺ above the zero modes, N × r, M-orthonormal: all up to
+/// dense_low_modes unknowns, else about twenty.
+///
+/// Large systems: Krylov vectors of B = K'(K' + σ)⁻², which is 0 on the zero modes, however many
+/// mechanisms a net has, and largest on the softest modes above them. One of several modes with the
+/// same frequency may stand for all of them.
+inline Eigen::MatrixXd low_modes(const Pencil& pencil) {
+    const Index N = pencil.size();
+    if (N == 0) return {};
+    const Eigen::VectorXd root = pencil.mass().cwiseSqrt();
+    if (N <= dense_low_modes) {
+        const DenseAnalysis<> dense(pencil);
+        Eigen::MatrixXd U(N, N);
+        Index r = 0;
+        for (Index j = 0; j < N; ++j) {
+            if (dense.stiffness_eigenvalues()[j] > dense.zero_tolerance())
+                U.col(r++) = dense.mode(j);
+        }
+        return U.leftCols(r);
+    }
+    constexpr Index steps = 80;
+    constexpr Index most = 20;
+    constexpr double good = 1e-4;  // residual over value
+    const double sigma = 1e-7 * std::max(0.0, pencil.upper_bound({0, 1, 0}));
+    if (!(sigma > 0)) return {};
+    const Eigen::SimplicialLLT<SparseMatrix<double>> shifted(pencil.assemble({sigma, 1, 0}));
+    if (shifted.info() != Eigen::Success) return {};
+    const auto B = [&](const Eigen::VectorXd& q) {
+        Eigen::VectorXd x = shifted.solve(Eigen::VectorXd(root.cwiseProduct(q)));
+        x = shifted.solve(Eigen::VectorXd(pencil.mass().cwiseProduct(x)));
+        Eigen::VectorXd y;
+        pencil.multiply({0, 1, 0}, x, y);
+        return Eigen::VectorXd(y.cwiseQuotient(root));
+    };
+    const ComplexRitzPairs pairs = arnoldi(B, N, steps);
+    std::vector<std::pair<double, Index>> soft;
+    for (Index j = 0; j < pairs.value.size(); ++j) {
+        const double value = pairs.value[j].real();
+        if (value > 0 && pairs.residual[j] <= good * value) soft.emplace_back(-value, j);
+    }
+    std::sort(soft.begin(), soft.end());
+    const Index r = std::min(most, static_cast<Index>(soft.size()));
+    Eigen::MatrixXd U(N, r);
+    for (Index j = 0; j < r; ++j) {
+        U.col(j) = pairs.vector.col(soft[static_cast<std::size_t>(j)].second).real();
+        U.col(j) = U.col(j).normalized().cwiseQuotient(root);
+    }
+    return U;
+}
+
+/// An orthonormal basis of what the columns span.
+inline Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& U) {
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(U);
+    qr.setThreshold(1e-8);
+    return qr.householderQ() * Eigen::MatrixXd::Identity(U.rows(), qr.rank());
+}
+
+/// The relative change of up to ten of the lowest frequencies above the zero modes from one pencil
+/// to another with the same K and other masses: by Rayleigh and Ritz in the space of the low modes
+/// of both, so that a mode missed on one side is found on the other.
+inline std::vector<double> frequency_changes(const Pencil& before, const Pencil& after) {
+    const Eigen::MatrixXd low = low_modes(before);
+    const Eigen::MatrixXd low_after = low_modes(after);
+    if (low.cols() == 0 || low_after.cols() == 0) return {};
+    Eigen::MatrixXd both(low.rows(), low.cols() + low_after.cols());
+    both << low.colwise().normalized(), low_after.colwise().normalized();
+    const Eigen::MatrixXd U = orthonormal(both);
+    Eigen::MatrixXd KU(U.rows(), U.cols());
+    Eigen::VectorXd y;
+    for (Index j = 0; j < U.cols(); ++j) {
+        before.multiply({0, 1, 0}, U.col(j), y);
+        KU.col(j) = y;
+    }
+    const Eigen::MatrixXd K = U.transpose() * KU;
+    const auto eigenvalues = [&](const Pencil& pencil) {
+        const Eigen::MatrixXd M = U.transpose() * pencil.mass().asDiagonal() * U;
+        const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(
+            K, M, Eigen::EigenvaluesOnly);
+        return Eigen::VectorXd(modes.eigenvalues());
+    };
+    const Eigen::VectorXd k = eigenvalues(before);
+    const Eigen::VectorXd k_after = eigenvalues(after);
+    const double zero = 1e-10 * k[k.size() - 1];
+    std::vector<double> change;
+    for (Index j = 0; j < k.size() && change.size() < 10; ++j) {
+        if (k[j] > zero) change.push_back(std::sqrt(std::max(0.0, k_after[j]) / k[j]) - 1);
+    }
+    return change;
+}
+
+}  // namespace taut::detail
