@@ -3,7 +3,7 @@
 #pragma once
 
 #include "../core/method.hpp"
-#include "detail/step_loop.hpp"
+#include "detail/explicit_steps.hpp"
 
 namespace taut {
 
@@ -27,19 +27,15 @@ public:
 
     /// Takes `count` steps of h, s, finite and > 0. On failure the state is as it was before.
     Report step(State& state, Scalar h, Index count = 1) {
-        return loop_.run(*system_, state, h, count, [&]() -> Report {
-            system_->force(state, f_);
-            state.x += h * state.v;
-            state.v.array() +=
-                h * (f_.array().rowwise() * system_->inverse_mass().transpose().array());
-            return {};
+        return steps_.run(*system_, state, h, count, [](auto&& x, auto&& v, const auto& a, auto h) {
+            x += h * v;
+            v += h * a;
         });
     }
 
 private:
     const System* system_;
-    detail::StepLoop<State> loop_;
-    decltype(State::x) f_;  // force, Dim × n, N
+    detail::ExplicitSteps<System> steps_;
 };
 
 }  // namespace taut
