@@ -117,7 +117,7 @@ bool ForcePlan<System>::update(const System& system) {
 
     auto springs = runs(system, [](int i) { return i; });
     std::size_t in_rest = 0;
-    for (const auto& set : springs) in_rest += set.rest.size();
+    for (const auto& set : springs) in_rest += set.rest().size();
     order_.clear();
     if (2 * in_rest > static_cast<std::size_t>(system.spring_count())) {
         std::vector<detail::Joint> joints;

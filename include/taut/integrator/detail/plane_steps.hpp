@@ -159,16 +159,18 @@ template <class System>
 template <bool Pins, bool Drag, class Update>
 void PlaneSteps<System>::step_block(const Fields& fields, int block, Scalar h, Scalar* scratch,
                                     const Update& update) const {
-    const Field begin_force{scratch, scratch_stride};
-    const Field end_force{scratch + Dim * scratch_stride, scratch_stride};
-    const Field foreign_force{scratch + 2 * Dim * scratch_stride, scratch_stride};
+    const auto force = [&](int which) {
+        return Field{scratch + which * Dim * scratch_stride + most_lanes, scratch_stride};
+    };
+    const Field begin_force = force(0);
+    const Field end_force = force(1);
     plan_.add_forces({{fields.x.first, fields.x.stride},
                       {fields.v.first, fields.v.stride},
                       static_cast<Scalar>(rayleigh_.stiffness_proportional),
                       block,
                       begin_force,
                       end_force,
-                      foreign_force});
+                      force(2)});
     const Pack step(h);
     const Pack zero(Scalar(0));
     [[maybe_unused]] const Pack d0(static_cast<Scalar>(rayleigh_.mass_proportional));

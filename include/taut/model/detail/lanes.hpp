@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 
 namespace taut::detail {
 
@@ -20,55 +19,45 @@ struct Lanes {
     Packet packet;
 
     Lanes() = default;
-    Lanes(Scalar value) : packet(Eigen::internal::pset1<Packet>(value)) {}
-    static Lanes of(const Packet& packet) {
+    EIGEN_ALWAYS_INLINE Lanes(Scalar value) : packet(Eigen::internal::pset1<Packet>(value)) {}
+    static EIGEN_ALWAYS_INLINE Lanes of(const Packet& packet) {
         Lanes lanes;
         lanes.packet = packet;
         return lanes;
     }
-    static Lanes load(const Scalar* from) { return of(Eigen::internal::ploadu<Packet>(from)); }
-    void store(Scalar* to) const { Eigen::internal::pstoreu(to, packet); }
+    static EIGEN_ALWAYS_INLINE Lanes load(const Scalar* from) { return of(Eigen::internal::ploadu<Packet>(from)); }
+    EIGEN_ALWAYS_INLINE void store(Scalar* to) const { Eigen::internal::pstoreu(to, packet); }
 
-    friend Lanes operator+(const Lanes& a, const Lanes& b) {
+    friend EIGEN_ALWAYS_INLINE Lanes operator+(const Lanes& a, const Lanes& b) {
         return of(Eigen::internal::padd(a.packet, b.packet));
     }
-    friend Lanes operator-(const Lanes& a, const Lanes& b) {
+    friend EIGEN_ALWAYS_INLINE Lanes operator-(const Lanes& a, const Lanes& b) {
         return of(Eigen::internal::psub(a.packet, b.packet));
     }
-    friend Lanes operator*(const Lanes& a, const Lanes& b) {
+    friend EIGEN_ALWAYS_INLINE Lanes operator*(const Lanes& a, const Lanes& b) {
         return of(Eigen::internal::pmul(a.packet, b.packet));
     }
-    friend Lanes operator/(const Lanes& a, const Lanes& b) {
+    friend EIGEN_ALWAYS_INLINE Lanes operator/(const Lanes& a, const Lanes& b) {
         return of(Eigen::internal::pdiv(a.packet, b.packet));
     }
-    friend Lanes operator-(const Lanes& a) { return of(Eigen::internal::pnegate(a.packet)); }
-    Lanes& operator+=(const Lanes& other) { return *this = *this + other; }
-    Lanes& operator-=(const Lanes& other) { return *this = *this - other; }
-    Lanes& operator*=(const Lanes& other) { return *this = *this * other; }
+    friend EIGEN_ALWAYS_INLINE Lanes operator-(const Lanes& a) { return of(Eigen::internal::pnegate(a.packet)); }
+    EIGEN_ALWAYS_INLINE Lanes& operator+=(const Lanes& other) { return *this = *this + other; }
+    EIGEN_ALWAYS_INLINE Lanes& operator-=(const Lanes& other) { return *this = *this - other; }
+    EIGEN_ALWAYS_INLINE Lanes& operator*=(const Lanes& other) { return *this = *this * other; }
 
-    friend Lanes max(const Lanes& a, const Lanes& b) {
+    friend EIGEN_ALWAYS_INLINE Lanes max(const Lanes& a, const Lanes& b) {
         return of(Eigen::internal::pmax(a.packet, b.packet));
     }
-    friend Lanes min(const Lanes& a, const Lanes& b) {
+    friend EIGEN_ALWAYS_INLINE Lanes min(const Lanes& a, const Lanes& b) {
         return of(Eigen::internal::pmin(a.packet, b.packet));
     }
-    friend Lanes sqrt(const Lanes& a) { return of(Eigen::internal::psqrt(a.packet)); }
+    friend EIGEN_ALWAYS_INLINE Lanes sqrt(const Lanes& a) { return of(Eigen::internal::psqrt(a.packet)); }
     /// 1/√a of normal numbers, to a few ulp.
-    friend Lanes reciprocal_sqrt(const Lanes& a) { return of(Eigen::internal::prsqrt(a.packet)); }
+    friend EIGEN_ALWAYS_INLINE Lanes reciprocal_sqrt(const Lanes& a) { return of(Eigen::internal::prsqrt(a.packet)); }
     /// Lane by lane, `yes` where a < b and `no` elsewhere, whatever the other one holds.
-    friend Lanes where_less(const Lanes& a, const Lanes& b, const Lanes& yes, const Lanes& no) {
+    friend EIGEN_ALWAYS_INLINE Lanes where_less(const Lanes& a, const Lanes& b, const Lanes& yes, const Lanes& no) {
         return of(Eigen::internal::pselect(Eigen::internal::pcmp_lt(a.packet, b.packet), yes.packet,
                                            no.packet));
-    }
-    /// The first `count` lanes, and 0 in the others whatever they hold.
-    Lanes head(int count) const {
-        static constexpr auto ones = [] {
-            std::array<Scalar, 2 * most_lanes> steps{};
-            for (int i = 0; i < most_lanes; ++i) steps[i] = 1;
-            return steps;
-        }();
-        const Lanes zero(Scalar(0));
-        return where_less(zero, load(ones.data() + (most_lanes - count)), *this, zero);
     }
 };
 

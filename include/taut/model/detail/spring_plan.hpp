@@ -17,6 +17,9 @@ namespace taut::detail {
 /// The particles of a sweep come in blocks of this many, whatever the number of threads. A spring
 /// between two blocks is evaluated in both, so that each block writes to its own particles only.
 inline constexpr int block_size = 1024;
+/// Within a block, springs are taken in the order of tiles of this many particles: what one tile
+/// reads and writes stays in the first cache.
+inline constexpr int tile_size = 256;
 /// Fewer springs of one offset are not worth a run.
 inline constexpr int shortest_run = 16;
 
@@ -26,6 +29,7 @@ struct Planes {
     Scalar* first = nullptr;
     Index stride = 0;
     Scalar* operator[](int d) const { return first + d * stride; }
+    Planes at(Index i) const { return {first + i, stride}; }
 };
 
 /// What a sweep over the springs of one block reads and writes.
@@ -53,33 +57,52 @@ struct NumberedSpring {
     }
 };
 
-/// The springs of a set as cut by numbering: those of a run [first, last) have consecutive a.
-struct SpringRuns {
-    std::vector<NumberedSpring> springs;  // by offset, then by a
-    std::vector<std::pair<std::size_t, std::size_t>> runs;
-    std::vector<NumberedSpring> rest;  // by a
-    
+/// The springs of a set under a numbering: runs, and the rest.
+class SpringRuns {
+public:
+    /// Springs [first, last) of one offset b − a and ascending a, some a left out.
+    struct Run {
+        std::size_t first;
+        std::size_t last;
+    };
+
     template <class Set, class Number>
     SpringRuns(const Set& set, const Number& number) {
-        springs.reserve(set.a.size());
+        springs_.reserve(set.a.size());
         for (std::size_t s = 0; s < set.a.size(); ++s) {
             const int a = number(set.a[s]);
             const int b = number(set.b[s]);
-            springs.push_back({std::min(a, b), std::max(a, b), static_cast<int>(s)});
+            springs_.push_back({std::min(a, b), std::max(a, b), static_cast<int>(s)});
         }
-        std::sort(springs.begin(), springs.end());
-        for (std::size_t first = 0, last = 0; first < springs.size(); first = last) {
-            for (last = first + 1; last < springs.size() && follows(springs[last - 1], springs[last]);) ++last;
-            if (last - first >= shortest_run) {
-                runs.push_back({first, last});
+        std::sort(springs_.begin(), springs_.end());
+        for (std::size_t first = 0, last = 0; first < springs_.size(); first = last) {
+            for (last = first + 1; last < springs_.size() && go_on(last);) ++last;
+            const auto begin = springs_.begin() + static_cast<std::ptrdiff_t>(first);
+            const auto end = springs_.begin() + static_cast<std::ptrdiff_t>(last);
+            const auto count = static_cast<int>(last - first);
+            if (count >= shortest_run && 2 * count > (end - 1)->a - begin->a) {
+                runs_.push_back({first, last});
             } else {
-                rest.insert(rest.end(), springs.begin() + first, springs.begin() + last);
+                rest_.insert(rest_.end(), begin, end);
             }
         }
     }
-    static bool follows(const NumberedSpring& s, const NumberedSpring& t) {
-        return t.a == s.a + 1 && t.b == s.b + 1;
+    const NumberedSpring& spring(std::size_t i) const { return springs_[i]; }
+    const std::vector<Run>& runs() const { return runs_; }
+    const std::vector<NumberedSpring>& rest() const { return rest_; }
+
+private:
+    /// A run goes on over a short gap, such as that between the rows of a grid.
+    bool go_on(std::size_t i) const {
+        const auto& last = springs_[i - 1];
+        const auto& next = springs_[i];
+        return next.b - next.a == last.b - last.a && next.a > last.a &&
+               next.a <= last.a + most_lanes;
     }
+
+    std::vector<NumberedSpring> springs_;  // by offset, then by a
+    std::vector<Run> runs_;
+    std::vector<NumberedSpring> rest_;
 };
 
 /// The springs of one law in the order of a sweep: runs of one offset b − a and consecutive a, which
@@ -104,17 +127,17 @@ public:
     }
 
 private:
-    /// Springs a, a + 1, … of one run whose ends lie in the block, in other blocks, or in both.
+    /// Springs a … a + count − 1 of one run, of which some begin in the block, or end in it, or both.
     struct Segment {
         int run;
-        int a;
+        int a;      // these are multiples of the register's width
         int count;
-        bool begins;  // in the block
+        bool begins;
         bool ends;
     };
     struct Run {
-        int a;
-        int offset;
+        int a;       // of the first of its values
+        int offset;  // b − a
         typename Values::Slice values;
     };
     struct List {
@@ -122,7 +145,17 @@ private:
         std::size_t count;
         typename Values::Slice values;
     };
+    /// Where a segment begins in the planes.
+    struct Lane {
+        Planes<const Scalar> x_begin, x_end;
+        Planes<const Scalar> v_begin, v_end;
+        Planes<Scalar> begin_force, end_force;
+    };
     using Vectors = std::array<Pack, Dim>;
+
+    void add_run(const Set& set, const SpringRuns& springs, const SpringRuns::Run& run,
+                 std::vector<std::vector<Segment>>& segments);
+    void add_rest(const Set& set, const std::vector<NumberedSpring>& rest, int blocks);
 
     template <bool Dampers, bool Rayleigh>
     void add_forces(const BlockSweep<Scalar>& sweep) const;
@@ -131,7 +164,7 @@ private:
     template <bool Dampers, bool Rayleigh>
     void add_list(const BlockSweep<Scalar>& sweep, const List& list) const;
     template <bool Dampers, bool Rayleigh>
-    void pull(const typename Values::Slice& slice, std::size_t i, Scalar alpha, const Vectors& dx,
+    EIGEN_ALWAYS_INLINE void pull(const typename Values::Slice& slice, std::size_t i, Scalar alpha, const Vectors& dx,
               const Vectors& dv, Vectors& force) const;
 
     std::vector<Run> runs_;
@@ -144,54 +177,82 @@ private:
 };
 
 template <class Scalar, int Dim, class Law>
-SpringPlan<Scalar, Dim, Law>::SpringPlan(const Set& set, const SpringRuns& runs, int blocks)
+SpringPlan<Scalar, Dim, Law>::SpringPlan(const Set& set, const SpringRuns& springs, int blocks)
     : damped_(!set.damping.empty()) {
     std::vector<std::vector<Segment>> segments(blocks);
-    std::vector<int> index;
-    const auto add_values = [&](auto begin, auto end) {
-        index.clear();
-        for (; begin != end; ++begin) index.push_back(begin->index);
-        return values_.add(set, index.data(), index.size());
-    };
-    for (const auto& [first, last] : runs.runs) {
-        const auto begin = runs.springs.begin() + first;
-        const auto end = runs.springs.begin() + last;
-        const int run = static_cast<int>(runs_.size());
-        const int offset = begin->b - begin->a;
-        runs_.push_back({begin->a, offset, add_values(begin, end)});
-        // A piece ends where its springs begin or end in another block.
-        const int a_end = (end - 1)->a + 1;
-        for (int a = begin->a; a < a_end;) {
-            const int block_a = a / block_size;
-            const int block_b = (a + offset) / block_size;
-            const int next = std::min({a_end, (block_a + 1) * block_size,
-                                       (block_b + 1) * block_size - offset});
-            segments[block_a].push_back({run, a, next - a, true, block_a == block_b});
-            if (block_a != block_b) segments[block_b].push_back({run, a, next - a, false, true});
-            a = next;
-        }
-    }
-    for (const auto& block : segments) {
+    for (const auto& run : springs.runs()) add_run(set, springs, run, segments);
+    for (auto& block : segments) {
+        std::stable_sort(block.begin(), block.end(), [](const Segment& s, const Segment& t) {
+            return s.a / tile_size < t.a / tile_size;
+        });
         segments_.insert(segments_.end(), block.begin(), block.end());
         segment_end_.push_back(segments_.size());
     }
+    add_rest(set, springs.rest(), blocks);
+    values_.finish();
+}
 
-    std::vector<std::vector<NumberedSpring>> rest(blocks);
-    for (const auto& spring : runs.rest) {
-        const int block_a = spring.a / block_size;
-        const int block_b = spring.b / block_size;
-        rest[block_a].push_back(spring);
-        if (block_a != block_b) rest[block_b].push_back(spring);
+template <class Scalar, int Dim, class Law>
+void SpringPlan<Scalar, Dim, Law>::add_run(const Set& set, const SpringRuns& springs,
+                                           const SpringRuns::Run& run,
+                                           std::vector<std::vector<Segment>>& segments) {
+    const int begin = springs.spring(run.first).a / width * width;
+    const int end = (springs.spring(run.last - 1).a / width + 1) * width;
+    std::vector<int> index(static_cast<std::size_t>(end - begin));
+    std::size_t next = run.first;
+    for (int a = begin; a < end; ++a) {
+        const bool there = next < run.last && springs.spring(next).a == a;
+        const int neighbour = springs.spring(std::min(next, run.last - 1)).index;
+        index[static_cast<std::size_t>(a - begin)] = there ? neighbour : Values::gap(neighbour);
+        if (there) ++next;
     }
-    for (auto& block : rest) {
-        lists_.push_back({a_.size(), block.size(), {}});
-        if (!block.empty()) lists_.back().values = add_values(block.begin(), block.end());
+    const int number = static_cast<int>(runs_.size());
+    const int offset = springs.spring(run.first).b - springs.spring(run.first).a;
+    runs_.push_back({begin, offset, values_.add(set, index)});
+    const auto append = [&](int block, const Segment& segment) {
+        if (block >= static_cast<int>(segments.size())) return;  // gaps beyond the last particle
+        auto& list = segments[block];
+        if (!list.empty() && list.back().run == number && list.back().begins == segment.begins &&
+            list.back().ends == segment.ends && list.back().a + list.back().count == segment.a &&
+            segment.a % tile_size != 0) {
+            list.back().count += width;
+        } else {
+            list.push_back(segment);
+        }
+    };
+    for (int a = begin; a < end; a += width) {
+        const int block = a / block_size;
+        const int first_end = (a + offset) / block_size;
+        const int last_end = (a + offset + width - 1) / block_size;
+        append(block, {number, a, width, true, block == first_end});
+        if (first_end != block) append(first_end, {number, a, width, false, true});
+        if (last_end != first_end) append(last_end, {number, a, width, false, true});
+    }
+}
+
+template <class Scalar, int Dim, class Law>
+void SpringPlan<Scalar, Dim, Law>::add_rest(const Set& set,
+                                            const std::vector<NumberedSpring>& rest, int blocks) {
+    std::vector<std::vector<NumberedSpring>> springs(blocks);
+    for (const auto& spring : rest) {
+        const int block = spring.a / block_size;
+        const int end_block = spring.b / block_size;
+        springs[block].push_back(spring);
+        if (end_block != block) springs[end_block].push_back(spring);
+    }
+    for (auto& block : springs) {
+        std::sort(block.begin(), block.end(), [](const auto& s, const auto& t) {
+            return std::tuple(s.a, s.b, s.index) < std::tuple(t.a, t.b, t.index);
+        });
+        std::vector<int> index;
         for (const auto& spring : block) {
             a_.push_back(spring.a);
             b_.push_back(spring.b);
+            index.push_back(spring.index);
         }
+        lists_.push_back({a_.size() - block.size(), block.size(), {}});
+        if (!block.empty()) lists_.back().values = values_.add(set, index);
     }
-    values_.finish();
 }
 
 template <class Scalar, int Dim, class Law>
@@ -207,7 +268,7 @@ void SpringPlan<Scalar, Dim, Law>::add_forces(const BlockSweep<Scalar>& sweep) c
 /// The force on the end a of springs i, i + 1, … of a slice, one a lane.
 template <class Scalar, int Dim, class Law>
 template <bool Dampers, bool Rayleigh>
-void SpringPlan<Scalar, Dim, Law>::pull(const typename Values::Slice& slice, std::size_t i,
+EIGEN_ALWAYS_INLINE void SpringPlan<Scalar, Dim, Law>::pull(const typename Values::Slice& slice, std::size_t i,
                                         Scalar alpha, const Vectors& dx, const Vectors& dv,
                                         Vectors& force) const {
     Pack l2 = dx[0] * dx[0];
@@ -219,7 +280,7 @@ void SpringPlan<Scalar, Dim, Law>::pull(const typename Values::Slice& slice, std
     const Pack l = safe_l2 * over_l;
     const Pack tension = values_.evaluate(
         slice, i, [](const auto& p, auto L, auto l) { return Law::tension(p, L, l); }, l);
-    const Pack tension_over_l = tension * over_l;
+    const Pack tension_over_l = values_.unless_gap(slice, i, tension * over_l);
     for (int d = 0; d < Dim; ++d) force[d] = tension_over_l * dx[d];
     if constexpr (Dampers || Rayleigh) {
         Vectors direction;
@@ -227,7 +288,7 @@ void SpringPlan<Scalar, Dim, Law>::pull(const typename Values::Slice& slice, std
         Pack stretching = direction[0] * dv[0];
         for (int d = 1; d < Dim; ++d) stretching += direction[d] * dv[d];
         if constexpr (Dampers) {
-            const Pack damping = values_.damping(slice, i) * stretching;
+            const Pack damping = values_.unless_gap(slice, i, values_.damping(slice, i) * stretching);
             for (int d = 0; d < Dim; ++d) force[d] += damping * direction[d];
         }
         if constexpr (Rayleigh) {
@@ -239,7 +300,7 @@ void SpringPlan<Scalar, Dim, Law>::pull(const typename Values::Slice& slice, std
             const Pack zero(Scalar(0));
             const Pack transverse = where_less(zero, l2, max(tension_over_l, zero), bound);
             const Pack along = (max(slope, zero) - transverse) * stretching;
-            const Pack factor(alpha);
+            const Pack factor = values_.unless_gap(slice, i, Pack(alpha));
             for (int d = 0; d < Dim; ++d) {
                 force[d] += factor * (transverse * dv[d] + along * direction[d]);
             }
@@ -253,37 +314,30 @@ void SpringPlan<Scalar, Dim, Law>::add_segment(const BlockSweep<Scalar>& sweep,
                                                const Segment& segment) const {
     const Run& run = runs_[segment.run];
     const int first = sweep.block * block_size;
-    const auto& begin_force = segment.begins ? sweep.begin_force : sweep.foreign_force;
-    const auto& end_force = segment.ends ? sweep.end_force : sweep.foreign_force;
-    const int begin_shift = segment.begins ? segment.a - first : 0;
-    const int end_shift = segment.ends ? segment.a + run.offset - first : 0;
-    Planes<const Scalar> x = sweep.x;
-    Planes<const Scalar> v = sweep.v;
-    const auto advance = [&](int i, auto keep) {
-        const int a = segment.a + i;
-        const int b = a + run.offset;
+    const Lane at{sweep.x.at(segment.a),
+                    sweep.x.at(segment.a + run.offset),
+                    sweep.v.at(segment.a),
+                    sweep.v.at(segment.a + run.offset),
+                    segment.begins ? sweep.begin_force.at(segment.a - first) : sweep.foreign_force,
+                    segment.ends ? sweep.end_force.at(segment.a + run.offset - first)
+                                 : sweep.foreign_force};
+    const auto shift = static_cast<std::size_t>(segment.a - run.a);
+    for (int i = 0; i < segment.count; i += width) {
         Vectors dx, dv, force;
-        for (int d = 0; d < Dim; ++d) dx[d] = Pack::load(x[d] + b) - Pack::load(x[d] + a);
-        if constexpr (Dampers || Rayleigh) {
-            for (int d = 0; d < Dim; ++d) dv[d] = Pack::load(v[d] + b) - Pack::load(v[d] + a);
-        }
-        pull<Dampers, Rayleigh>(run.values, static_cast<std::size_t>(a - run.a), sweep.alpha, dx, dv,
-                                force);
         for (int d = 0; d < Dim; ++d) {
-            const Pack f = keep(force[d]);
-            Scalar* at_a = begin_force[d] + begin_shift + i;
-            Scalar* at_b = end_force[d] + end_shift + i;
-            (Pack::load(at_a) + f).store(at_a);
-            (Pack::load(at_b) - f).store(at_b);
+            dx[d] = Pack::load(at.x_end[d] + i) - Pack::load(at.x_begin[d] + i);
+            if constexpr (Dampers || Rayleigh) {
+                dv[d] = Pack::load(at.v_end[d] + i) - Pack::load(at.v_begin[d] + i);
+            }
         }
-    };
-    int i = 0;
-    for (; i + width <= segment.count; i += width) {
-        advance(i, [](const Pack& f) { return f; });
-    }
-    if (i < segment.count) {
-        // Beyond the segment's end the lanes hold springs that are not there.
-        advance(i, [&](const Pack& f) { return f.head(segment.count - i); });
+        pull<Dampers, Rayleigh>(run.values, shift + static_cast<std::size_t>(i), sweep.alpha, dx,
+                                dv, force);
+        for (int d = 0; d < Dim; ++d) {
+            Scalar* begin_force = at.begin_force[d] + i;
+            Scalar* end_force = at.end_force[d] + i;
+            (Pack::load(begin_force) + force[d]).store(begin_force);
+            (Pack::load(end_force) - force[d]).store(end_force);
+        }
     }
 }
 

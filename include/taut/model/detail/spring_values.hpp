@@ -47,24 +47,33 @@ public:
         std::array<Column, fields> field;  // of one that is
     };
 
-    /// Takes the springs `index[0 … count)` of `set`. Call finish() after the last addition.
-    Slice add(const SpringSet<Scalar, Law>& set, const int* index, std::size_t count) {
+    /// In the place of an index: no spring, with parameters that a law can take.
+    static int gap(int neighbour) { return -1 - neighbour; }
+
+    /// Takes springs and gaps of `set`. Call finish() after the last addition.
+    Slice add(const SpringSet<Scalar, Law>& set, const std::vector<int>& index) {
+        const auto spring = [&](std::size_t i) { return index[i] < 0 ? gap(index[i]) : index[i]; };
         Slice slice;
-        slice.rest_length = add_column(count, [&](std::size_t i) { return set.rest_length[index[i]]; });
+        slice.rest_length = add_column(index.size(), [&](std::size_t i) {
+            return index[i] < 0 ? Scalar(-1) : set.rest_length[index[i]];
+        });
         if (!set.damping.empty()) {
-            slice.damping = add_column(count, [&](std::size_t i) { return set.damping[index[i]]; });
+            slice.damping =
+                add_column(index.size(), [&](std::size_t i) { return set.damping[spring(i)]; });
         }
         if constexpr (in_lanes) {
             for (std::size_t f = 0; f < fields; ++f) {
-                slice.field[f] = add_column(count, [&](std::size_t i) {
+                slice.field[f] = add_column(index.size(), [&](std::size_t i) {
                     std::array<Scalar, fields> values;
-                    std::memcpy(values.data(), &set.parameters[index[i]], sizeof values);
+                    std::memcpy(values.data(), &set.parameters[spring(i)], sizeof values);
                     return values[f];
                 });
             }
         } else {
             slice.parameters = {parameters_.size(), 1};
-            for (std::size_t i = 0; i < count; ++i) parameters_.push_back(set.parameters[index[i]]);
+            for (std::size_t i = 0; i < index.size(); ++i) {
+                parameters_.push_back(set.parameters[spring(i)]);
+            }
         }
         return slice;
     }
@@ -78,13 +87,17 @@ public:
         parameters_.shrink_to_fit();
     }
 
-    Pack rest_length(const Slice& slice, std::size_t i) const { return load(slice.rest_length, i); }
-    Pack damping(const Slice& slice, std::size_t i) const { return load(slice.damping, i); }
+    /// `value` where there is a spring and 0 in the gaps.
+    EIGEN_ALWAYS_INLINE Pack unless_gap(const Slice& slice, std::size_t i, const Pack& value) const {
+        const Pack zero(Scalar(0));
+        return where_less(load(slice.rest_length, i), zero, zero, value);
+    }
+    EIGEN_ALWAYS_INLINE Pack damping(const Slice& slice, std::size_t i) const { return load(slice.damping, i); }
 
     /// function(p, L, more…) of springs i, i + 1, … of a slice, one a lane.
     template <class Function, class... More>
-    Pack evaluate(const Slice& slice, std::size_t i, Function function, const More&... more) const {
-        const Pack L = rest_length(slice, i);
+    EIGEN_ALWAYS_INLINE Pack evaluate(const Slice& slice, std::size_t i, Function function, const More&... more) const {
+        const Pack L = load(slice.rest_length, i);
         if constexpr (in_lanes) {
             std::array<Pack, fields> values;
             for (std::size_t f = 0; f < fields; ++f) values[f] = load(slice.field[f], i);
@@ -103,7 +116,7 @@ private:
         explicit Lane(const Pack& pack) { pack.store(values.data()); }
     };
 
-    Pack load(const Column& column, std::size_t i) const {
+    EIGEN_ALWAYS_INLINE Pack load(const Column& column, std::size_t i) const {
         return Pack::load(numbers_.data() + column.at + column.stride * i);
     }
     template <class Function, class... More>
