@@ -52,7 +52,7 @@ public:
         });
     }
 
-    /// Adds the forces of springs, their dampers and K⁺ on the block's particles to the sweep.
+    /// Adds the forces of springs, their dampers and K⁺ that the sweep's tile brings to its block.
     void add_forces(const Sweep& sweep) const {
         std::apply(
             [&](const auto&... plan) {
@@ -131,7 +131,7 @@ bool ForcePlan<System>::update(const System& system) {
     }
     system.for_each_set([&, next = springs.cbegin()](const auto& set) mutable {
         using Plan = typename PlanOf<std::decay_t<decltype(set)>>::type;
-        std::get<Plan>(plans_) = Plan(set, *next++, blocks());
+        std::get<Plan>(plans_) = Plan(set, *next++, blocks() * (detail::block_size / detail::tile_size));
     });
     return true;
 }

@@ -54,6 +54,10 @@ private:
     template <bool Pins, bool Drag, class Update>
     void step_block(const Fields& fields, int block, Scalar h, Scalar* scratch,
                     const Update& update) const;
+    /// Particles i, i + 1, … by the forces on them, which are cleared.
+    template <bool Pins, bool Drag, class Update>
+    EIGEN_ALWAYS_INLINE void move(const Fields& fields, Index i, Scalar h, const Field& begin_force,
+                                  const Field& end_force, const Update& update) const;
 
     ForcePlan<System> plan_;
     VectorX<Scalar> memory_;        // the planes of fields_
@@ -164,36 +168,48 @@ void PlaneSteps<System>::step_block(const Fields& fields, int block, Scalar h, S
     };
     const Field begin_force = force(0);
     const Field end_force = force(1);
-    plan_.add_forces({{fields.x.first, fields.x.stride},
-                      {fields.v.first, fields.v.stride},
-                      static_cast<Scalar>(rayleigh_.stiffness_proportional),
-                      block,
-                      begin_force,
-                      end_force,
-                      force(2)});
+    BlockSweep<Scalar> sweep{{fields.x.first, fields.x.stride},
+                             {fields.v.first, fields.v.stride},
+                             static_cast<Scalar>(rayleigh_.stiffness_proportional),
+                             block,
+                             0,
+                             begin_force,
+                             end_force,
+                             force(2)};
+    const Index first = static_cast<Index>(block) * block_size;
+    const Index count = std::min<Index>(block_size, plan_.size() - first);
+    for (Index tile = 0; tile < count; tile += tile_size) {
+        sweep.tile = static_cast<int>((first + tile) / tile_size);
+        plan_.add_forces(sweep);
+        const Index end = std::min<Index>(tile + tile_size, count);
+        for (Index i = tile; i < end; i += Pack::size) {
+            move<Pins, Drag>(fields, first + i, h, begin_force.at(i), end_force.at(i), update);
+        }
+    }
+}
+
+template <class System>
+template <bool Pins, bool Drag, class Update>
+EIGEN_ALWAYS_INLINE void PlaneSteps<System>::move(const Fields& fields, Index i, Scalar h,
+                                                  const Field& begin_force, const Field& end_force,
+                                                  const Update& update) const {
     const Pack step(h);
     const Pack zero(Scalar(0));
     [[maybe_unused]] const Pack d0(static_cast<Scalar>(rayleigh_.mass_proportional));
-    const Index first = static_cast<Index>(block) * block_size;
-    const Index count = std::min<Index>(block_size, plan_.size() - first);
-    for (Index i = 0; i < count; i += Pack::size) {
-        const Pack inverse_mass = Pack::load(inverse_mass_.data() + first + i);
-        for (int d = 0; d < Dim; ++d) {
-            Pack x = Pack::load(fields.x[d] + first + i);
-            Pack v = Pack::load(fields.v[d] + first + i);
-            Pack free_fall(gravity_[d]);
-            if constexpr (Drag) free_fall -= d0 * v;
-            if constexpr (Pins) free_fall = where_less(zero, inverse_mass, free_fall, zero);
-            Scalar* f = begin_force[d] + i;
-            Scalar* g = end_force[d] + i;
-            const Pack a = free_fall + inverse_mass * (Pack::load(f) + Pack::load(g));
-            zero.store(f);
-            zero.store(g);
-            update(x, v, a, step);
-            x.store(fields.new_x[d] + first + i);
-            v.store(fields.new_v[d] + first + i);
-        }
-    }
+    const Pack inverse_mass = Pack::load(inverse_mass_.data() + i);
+    for_each_axis<Dim>([&](int d) {
+        Pack x = Pack::load(fields.x[d] + i);
+        Pack v = Pack::load(fields.v[d] + i);
+        Pack free_fall(gravity_[d]);
+        if constexpr (Drag) free_fall -= d0 * v;
+        if constexpr (Pins) free_fall = where_less(zero, inverse_mass, free_fall, zero);
+        const Pack f = Pack::load(begin_force[d]) + Pack::load(end_force[d]);
+        zero.store(begin_force[d]);
+        zero.store(end_force[d]);
+        update(x, v, free_fall + inverse_mass * f, step);
+        x.store(fields.new_x[d] + i);
+        v.store(fields.new_v[d] + i);
+    });
 }
 
 }  // namespace taut::detail

@@ -17,8 +17,8 @@ namespace taut::detail {
 /// The particles of a sweep come in blocks of this many, whatever the number of threads. A spring
 /// between two blocks is evaluated in both, so that each block writes to its own particles only.
 inline constexpr int block_size = 1024;
-/// Within a block, springs are taken in the order of tiles of this many particles: what one tile
-/// reads and writes stays in the first cache.
+/// A block is swept in tiles of this many particles, in order: springs begin in a tile, and end there
+/// or in a later one, so the forces on a tile are complete while they are in the first cache.
 inline constexpr int tile_size = 256;
 /// Fewer springs of one offset are not worth a run.
 inline constexpr int shortest_run = 16;
@@ -39,6 +39,7 @@ struct BlockSweep {
     Planes<const Scalar> v;  // m/s
     Scalar alpha;            // Rayleigh's factor of K⁺, s
     int block;
+    int tile;  // of all tiles
     /// Forces on the block's particles, N; where springs begin and where they end. Apart, because
     /// a register stored to one place and loaded from the next would wait for the store.
     Planes<Scalar> begin_force;
@@ -117,10 +118,10 @@ public:
     using Set = SpringSet<Scalar, Law>;
 
     SpringPlan() = default;
-    SpringPlan(const Set& set, const SpringRuns& runs, int blocks);
+    SpringPlan(const Set& set, const SpringRuns& springs, int tiles);
 
     bool damped() const { return damped_; }
-    /// Adds the forces on the particles of the sweep's block.
+    /// Adds the forces of the sweep's tile on the particles of its block.
     template <bool Rayleigh>
     void add_forces(const BlockSweep<Scalar>& sweep) const {
         damped_ ? add_forces<true, Rayleigh>(sweep) : add_forces<false, Rayleigh>(sweep);
@@ -153,9 +154,15 @@ private:
     };
     using Vectors = std::array<Pack, Dim>;
 
+    static EIGEN_ALWAYS_INLINE Pack dot(const Vectors& a, const Vectors& b) {
+        Pack sum = a[0] * b[0];
+        if constexpr (Dim > 1) sum += a[1] * b[1];
+        if constexpr (Dim > 2) sum += a[2] * b[2];
+        return sum;
+    }
     void add_run(const Set& set, const SpringRuns& springs, const SpringRuns::Run& run,
                  std::vector<std::vector<Segment>>& segments);
-    void add_rest(const Set& set, const std::vector<NumberedSpring>& rest, int blocks);
+    void add_rest(const Set& set, const std::vector<NumberedSpring>& rest, int tiles);
 
     template <bool Dampers, bool Rayleigh>
     void add_forces(const BlockSweep<Scalar>& sweep) const;
@@ -164,31 +171,28 @@ private:
     template <bool Dampers, bool Rayleigh>
     void add_list(const BlockSweep<Scalar>& sweep, const List& list) const;
     template <bool Dampers, bool Rayleigh>
-    EIGEN_ALWAYS_INLINE void pull(const typename Values::Slice& slice, std::size_t i, Scalar alpha, const Vectors& dx,
+    EIGEN_ALWAYS_INLINE void pull(const typename Values::Cursor& springs, Scalar alpha, const Vectors& dx,
               const Vectors& dv, Vectors& force) const;
 
     std::vector<Run> runs_;
-    std::vector<Segment> segments_;          // block by block
-    std::vector<std::size_t> segment_end_;   // of each block
-    std::vector<List> lists_;                // one a block
+    std::vector<Segment> segments_;          // tile by tile
+    std::vector<std::size_t> segment_end_;   // of each tile
+    std::vector<List> lists_;                // one a tile
     std::vector<int> a_, b_;                 // ends of the lists' springs
     Values values_;
     bool damped_ = false;
 };
 
 template <class Scalar, int Dim, class Law>
-SpringPlan<Scalar, Dim, Law>::SpringPlan(const Set& set, const SpringRuns& springs, int blocks)
+SpringPlan<Scalar, Dim, Law>::SpringPlan(const Set& set, const SpringRuns& springs, int tiles)
     : damped_(!set.damping.empty()) {
-    std::vector<std::vector<Segment>> segments(blocks);
+    std::vector<std::vector<Segment>> segments(tiles);
     for (const auto& run : springs.runs()) add_run(set, springs, run, segments);
-    for (auto& block : segments) {
-        std::stable_sort(block.begin(), block.end(), [](const Segment& s, const Segment& t) {
-            return s.a / tile_size < t.a / tile_size;
-        });
-        segments_.insert(segments_.end(), block.begin(), block.end());
+    for (const auto& tile : segments) {
+        segments_.insert(segments_.end(), tile.begin(), tile.end());
         segment_end_.push_back(segments_.size());
     }
-    add_rest(set, springs.rest(), blocks);
+    add_rest(set, springs.rest(), tiles);
     values_.finish();
 }
 
@@ -209,12 +213,11 @@ void SpringPlan<Scalar, Dim, Law>::add_run(const Set& set, const SpringRuns& spr
     const int number = static_cast<int>(runs_.size());
     const int offset = springs.spring(run.first).b - springs.spring(run.first).a;
     runs_.push_back({begin, offset, values_.add(set, index)});
-    const auto append = [&](int block, const Segment& segment) {
-        if (block >= static_cast<int>(segments.size())) return;  // gaps beyond the last particle
-        auto& list = segments[block];
+    const auto append = [&](int tile, const Segment& segment) {
+        if (tile >= static_cast<int>(segments.size())) return;  // gaps beyond the last particle
+        auto& list = segments[tile];
         if (!list.empty() && list.back().run == number && list.back().begins == segment.begins &&
-            list.back().ends == segment.ends && list.back().a + list.back().count == segment.a &&
-            segment.a % tile_size != 0) {
+            list.back().ends == segment.ends && list.back().a + list.back().count == segment.a) {
             list.back().count += width;
         } else {
             list.push_back(segment);
@@ -224,86 +227,87 @@ void SpringPlan<Scalar, Dim, Law>::add_run(const Set& set, const SpringRuns& spr
         const int block = a / block_size;
         const int first_end = (a + offset) / block_size;
         const int last_end = (a + offset + width - 1) / block_size;
-        append(block, {number, a, width, true, block == first_end});
-        if (first_end != block) append(first_end, {number, a, width, false, true});
-        if (last_end != first_end) append(last_end, {number, a, width, false, true});
+        append(a / tile_size, {number, a, width, true, block == first_end});
+        // Springs that come from an earlier block go with the first tile of this one.
+        constexpr int tiles = block_size / tile_size;
+        if (first_end != block) append(first_end * tiles, {number, a, width, false, true});
+        if (last_end != first_end) append(last_end * tiles, {number, a, width, false, true});
     }
 }
 
 template <class Scalar, int Dim, class Law>
 void SpringPlan<Scalar, Dim, Law>::add_rest(const Set& set,
-                                            const std::vector<NumberedSpring>& rest, int blocks) {
-    std::vector<std::vector<NumberedSpring>> springs(blocks);
+                                            const std::vector<NumberedSpring>& rest, int tiles) {
+    std::vector<std::vector<NumberedSpring>> springs(tiles);
     for (const auto& spring : rest) {
-        const int block = spring.a / block_size;
         const int end_block = spring.b / block_size;
-        springs[block].push_back(spring);
-        if (end_block != block) springs[end_block].push_back(spring);
+        springs[spring.a / tile_size].push_back(spring);
+        if (end_block != spring.a / block_size) {
+            springs[end_block * (block_size / tile_size)].push_back(spring);
+        }
     }
-    for (auto& block : springs) {
-        std::sort(block.begin(), block.end(), [](const auto& s, const auto& t) {
+    for (auto& tile : springs) {
+        std::sort(tile.begin(), tile.end(), [](const auto& s, const auto& t) {
             return std::tuple(s.a, s.b, s.index) < std::tuple(t.a, t.b, t.index);
         });
         std::vector<int> index;
-        for (const auto& spring : block) {
+        for (const auto& spring : tile) {
             a_.push_back(spring.a);
             b_.push_back(spring.b);
             index.push_back(spring.index);
         }
-        lists_.push_back({a_.size() - block.size(), block.size(), {}});
-        if (!block.empty()) lists_.back().values = values_.add(set, index);
+        lists_.push_back({a_.size() - tile.size(), tile.size(), {}});
+        if (!tile.empty()) lists_.back().values = values_.add(set, index);
     }
 }
 
 template <class Scalar, int Dim, class Law>
 template <bool Dampers, bool Rayleigh>
 void SpringPlan<Scalar, Dim, Law>::add_forces(const BlockSweep<Scalar>& sweep) const {
-    const auto block = static_cast<std::size_t>(sweep.block);
-    for (std::size_t s = block == 0 ? 0 : segment_end_[block - 1]; s < segment_end_[block]; ++s) {
+    const auto tile = static_cast<std::size_t>(sweep.tile);
+    for (std::size_t s = tile == 0 ? 0 : segment_end_[tile - 1]; s < segment_end_[tile]; ++s) {
         add_segment<Dampers, Rayleigh>(sweep, segments_[s]);
     }
-    add_list<Dampers, Rayleigh>(sweep, lists_[block]);
+    if (lists_[tile].count > 0) add_list<Dampers, Rayleigh>(sweep, lists_[tile]);
 }
 
 /// The force on the end a of springs i, i + 1, … of a slice, one a lane.
 template <class Scalar, int Dim, class Law>
 template <bool Dampers, bool Rayleigh>
-EIGEN_ALWAYS_INLINE void SpringPlan<Scalar, Dim, Law>::pull(const typename Values::Slice& slice, std::size_t i,
+EIGEN_ALWAYS_INLINE void SpringPlan<Scalar, Dim, Law>::pull(const typename Values::Cursor& springs,
                                         Scalar alpha, const Vectors& dx, const Vectors& dv,
                                         Vectors& force) const {
-    Pack l2 = dx[0] * dx[0];
-    for (int d = 1; d < Dim; ++d) l2 += dx[d] * dx[d];
+    const Pack l2 = dot(dx, dx);
     // Kept from zero, a spring of no length has no direction, and so no force.
     const Pack least(std::numeric_limits<Scalar>::min());
     const Pack safe_l2 = max(l2, least);
     const Pack over_l = reciprocal_sqrt(safe_l2);
     const Pack l = safe_l2 * over_l;
-    const Pack tension = values_.evaluate(
-        slice, i, [](const auto& p, auto L, auto l) { return Law::tension(p, L, l); }, l);
-    const Pack tension_over_l = values_.unless_gap(slice, i, tension * over_l);
-    for (int d = 0; d < Dim; ++d) force[d] = tension_over_l * dx[d];
+    const Pack tension = springs.evaluate(
+        [](const auto& p, auto L, auto l) { return Law::tension(p, L, l); }, l);
+    const Pack tension_over_l = springs.unless_gap(tension * over_l);
+    for_each_axis<Dim>([&](int d) { force[d] = tension_over_l * dx[d]; });
     if constexpr (Dampers || Rayleigh) {
         Vectors direction;
-        for (int d = 0; d < Dim; ++d) direction[d] = over_l * dx[d];
-        Pack stretching = direction[0] * dv[0];
-        for (int d = 1; d < Dim; ++d) stretching += direction[d] * dv[d];
+        for_each_axis<Dim>([&](int d) { direction[d] = over_l * dx[d]; });
+        const Pack stretching = dot(direction, dv);
         if constexpr (Dampers) {
-            const Pack damping = values_.unless_gap(slice, i, values_.damping(slice, i) * stretching);
-            for (int d = 0; d < Dim; ++d) force[d] += damping * direction[d];
+            const Pack damping = springs.unless_gap(springs.damping() * stretching);
+            for_each_axis<Dim>([&](int d) { force[d] += damping * direction[d]; });
         }
         if constexpr (Rayleigh) {
-            const Pack slope = values_.evaluate(
-                slice, i, [](const auto& p, auto L, auto l) { return Law::tension_slope(p, L, l); },
+            const Pack slope = springs.evaluate(
+                [](const auto& p, auto L, auto l) { return Law::tension_slope(p, L, l); },
                 l);
-            const Pack bound = values_.evaluate(
-                slice, i, [](const auto& p, auto L) { return Law::stiffness_bound(p, L); });
+            const Pack bound = springs.evaluate(
+                [](const auto& p, auto L) { return Law::stiffness_bound(p, L); });
             const Pack zero(Scalar(0));
             const Pack transverse = where_less(zero, l2, max(tension_over_l, zero), bound);
             const Pack along = (max(slope, zero) - transverse) * stretching;
-            const Pack factor = values_.unless_gap(slice, i, Pack(alpha));
-            for (int d = 0; d < Dim; ++d) {
+            const Pack factor = springs.unless_gap(Pack(alpha));
+            for_each_axis<Dim>([&](int d) {
                 force[d] += factor * (transverse * dv[d] + along * direction[d]);
-            }
+            });
         }
     }
 }
@@ -321,23 +325,22 @@ void SpringPlan<Scalar, Dim, Law>::add_segment(const BlockSweep<Scalar>& sweep,
                     segment.begins ? sweep.begin_force.at(segment.a - first) : sweep.foreign_force,
                     segment.ends ? sweep.end_force.at(segment.a + run.offset - first)
                                  : sweep.foreign_force};
-    const auto shift = static_cast<std::size_t>(segment.a - run.a);
-    for (int i = 0; i < segment.count; i += width) {
+    typename Values::Cursor springs(values_, run.values, static_cast<std::size_t>(segment.a - run.a));
+    for (int i = 0; i < segment.count; i += width, springs.next()) {
         Vectors dx, dv, force;
-        for (int d = 0; d < Dim; ++d) {
+        for_each_axis<Dim>([&](int d) {
             dx[d] = Pack::load(at.x_end[d] + i) - Pack::load(at.x_begin[d] + i);
             if constexpr (Dampers || Rayleigh) {
                 dv[d] = Pack::load(at.v_end[d] + i) - Pack::load(at.v_begin[d] + i);
             }
-        }
-        pull<Dampers, Rayleigh>(run.values, shift + static_cast<std::size_t>(i), sweep.alpha, dx,
-                                dv, force);
-        for (int d = 0; d < Dim; ++d) {
+        });
+        pull<Dampers, Rayleigh>(springs, sweep.alpha, dx, dv, force);
+        for_each_axis<Dim>([&](int d) {
             Scalar* begin_force = at.begin_force[d] + i;
             Scalar* end_force = at.end_force[d] + i;
             (Pack::load(begin_force) + force[d]).store(begin_force);
             (Pack::load(end_force) - force[d]).store(end_force);
-        }
+        });
     }
 }
 
@@ -350,6 +353,7 @@ void SpringPlan<Scalar, Dim, Law>::add_list(const BlockSweep<Scalar>& sweep,
     const unsigned first = static_cast<unsigned>(sweep.block) * block_size;
     Scalar dx[Dim][chunk] = {};
     [[maybe_unused]] Scalar dv[Dim][chunk] = {};
+    typename Values::Cursor springs(values_, list.values, 0);
     for (std::size_t done = 0; done < list.count; done += chunk) {
         const int* a = a_.data() + list.first + done;
         const int* b = b_.data() + list.first + done;
@@ -362,14 +366,13 @@ void SpringPlan<Scalar, Dim, Law>::add_list(const BlockSweep<Scalar>& sweep,
                 for (int s = 0; s < count; ++s) dv[d][s] = v[b[s]] - v[a[s]];
             }
         }
-        for (int s = 0; s < count; s += width) {
+        for (int s = 0; s < count; s += width, springs.next()) {
             Vectors dx_s, dv_s, force;
             for (int d = 0; d < Dim; ++d) dx_s[d] = Pack::load(dx[d] + s);
             if constexpr (Dampers || Rayleigh) {
                 for (int d = 0; d < Dim; ++d) dv_s[d] = Pack::load(dv[d] + s);
             }
-            pull<Dampers, Rayleigh>(list.values, done + static_cast<std::size_t>(s), sweep.alpha,
-                                    dx_s, dv_s, force);
+            pull<Dampers, Rayleigh>(springs, sweep.alpha, dx_s, dv_s, force);
             for (int d = 0; d < Dim; ++d) force[d].store(dx[d] + s);
         }
         for (int s = 0; s < count; ++s) {

@@ -37,6 +37,12 @@ class SpringValues {
         std::size_t at = 0;
         std::size_t stride = 0;  // 0: one value for all
     };
+    struct Stream {
+        const Scalar* at;
+        std::size_t step;
+        EIGEN_ALWAYS_INLINE Pack load() const { return Pack::load(at); }
+        EIGEN_ALWAYS_INLINE void next() { at += step; }
+    };
 
 public:
     /// The springs of one addition.
@@ -87,45 +93,68 @@ public:
         parameters_.shrink_to_fit();
     }
 
-    /// `value` where there is a spring and 0 in the gaps.
-    EIGEN_ALWAYS_INLINE Pack unless_gap(const Slice& slice, std::size_t i, const Pack& value) const {
-        const Pack zero(Scalar(0));
-        return where_less(load(slice.rest_length, i), zero, zero, value);
-    }
-    EIGEN_ALWAYS_INLINE Pack damping(const Slice& slice, std::size_t i) const { return load(slice.damping, i); }
-
-    /// function(p, L, more…) of springs i, i + 1, … of a slice, one a lane.
-    template <class Function, class... More>
-    EIGEN_ALWAYS_INLINE Pack evaluate(const Slice& slice, std::size_t i, Function function, const More&... more) const {
-        const Pack L = load(slice.rest_length, i);
-        if constexpr (in_lanes) {
-            std::array<Pack, fields> values;
-            for (std::size_t f = 0; f < fields; ++f) values[f] = load(slice.field[f], i);
-            PackParameters p;
-            std::memcpy(&p, values.data(), sizeof p);
-            return function(p, L, more...);
-        } else {
-            return one_by_one(slice, i, function, Lane(L), Lane(more)...);
+    /// Springs of a slice, as many as a register has lanes, going forward.
+    class Cursor {
+    public:
+        /// At spring i of the slice.
+        Cursor(const SpringValues& values, const Slice& slice, std::size_t i)
+            : rest_length_(values.stream(slice.rest_length, i)),
+              damping_(values.stream(slice.damping, i)),
+              parameters_(values.parameters_.data() + slice.parameters.at + i) {
+            for (std::size_t f = 0; f < fields; ++f) field_[f] = values.stream(slice.field[f], i);
         }
-    }
+        EIGEN_ALWAYS_INLINE void next() {
+            rest_length_.next();
+            damping_.next();
+            for (auto& field : field_) field.next();
+            parameters_ += in_lanes ? 0 : Pack::size;
+        }
+        EIGEN_ALWAYS_INLINE Pack damping() const { return damping_.load(); }
+        /// `value` where there is a spring and 0 in the gaps.
+        EIGEN_ALWAYS_INLINE Pack unless_gap(const Pack& value) const {
+            const Pack zero(Scalar(0));
+            return where_less(rest_length_.load(), zero, zero, value);
+        }
+        /// function(p, L, more…) of each spring.
+        template <class Function, class... More>
+        EIGEN_ALWAYS_INLINE Pack evaluate(Function function, const More&... more) const {
+            const Pack L = rest_length_.load();
+            if constexpr (in_lanes) {
+                std::array<Pack, fields> values;
+                for (std::size_t f = 0; f < fields; ++f) values[f] = field_[f].load();
+                PackParameters p;
+                std::memcpy(&p, values.data(), sizeof p);
+                return function(p, L, more...);
+            } else {
+                return one_by_one(function, Register(L), Register(more)...);
+            }
+        }
+
+    private:
+        template <class Function, class... More>
+        Pack one_by_one(Function function, const More&... lanes) const {
+            std::array<Scalar, Pack::size> result;
+            for (std::size_t k = 0; k < result.size(); ++k) {
+                result[k] = function(parameters_[k], lanes.values[k]...);
+            }
+            return Pack::load(result.data());
+        }
+
+        Stream rest_length_;
+        Stream damping_;
+        std::array<Stream, fields> field_;
+        const Parameters* parameters_;
+    };
 
 private:
     /// A register as an array.
-    struct Lane {
+    struct Register {
         std::array<Scalar, Pack::size> values;
-        explicit Lane(const Pack& pack) { pack.store(values.data()); }
+        explicit Register(const Pack& pack) { pack.store(values.data()); }
     };
 
-    EIGEN_ALWAYS_INLINE Pack load(const Column& column, std::size_t i) const {
-        return Pack::load(numbers_.data() + column.at + column.stride * i);
-    }
-    template <class Function, class... More>
-    Pack one_by_one(const Slice& slice, std::size_t i, Function function, const More&... lanes) const {
-        std::array<Scalar, Pack::size> result;
-        for (std::size_t k = 0; k < result.size(); ++k) {
-            result[k] = function(parameters_[slice.parameters.at + i + k], lanes.values[k]...);
-        }
-        return Pack::load(result.data());
+    Stream stream(const Column& column, std::size_t i) const {
+        return {numbers_.data() + column.at + column.stride * i, column.stride * Pack::size};
     }
     template <class Value>
     Column add_column(std::size_t count, Value value) {
@@ -134,7 +163,9 @@ private:
         if (same && shared_ < numbers_.size() && numbers_[shared_] == value(0)) {
             return {shared_, 0};
         }
-        const std::size_t at = numbers_.size();
+        // Aligned like the particles' planes, a register never lies across two cache lines.
+        const std::size_t at = (numbers_.size() + most_lanes - 1) / most_lanes * most_lanes;
+        numbers_.resize(at, Scalar(0));
         if (same) {
             numbers_.resize(at + most_lanes, value(0));
             shared_ = at;
@@ -144,7 +175,7 @@ private:
         return {at, same ? 0u : 1u};
     }
 
-    std::vector<Scalar> numbers_;         // columns one after another
+    std::vector<Scalar, Eigen::aligned_allocator<Scalar>> numbers_;  // columns one after another
     std::vector<Parameters> parameters_;  // of a law that is not vectorizable
     std::size_t shared_ = std::size_t(-1);  // the last column of one value, or none
 };
