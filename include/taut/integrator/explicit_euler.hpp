@@ -27,13 +27,18 @@ public:
 
     /// Takes `count` steps of h, s, finite and > 0. On failure the state is as it was before.
     Report step(State& state, Scalar h, Index count = 1) {
-        return steps_.run(*system_, state, h, count, [](auto&& x, auto&& v, const auto& a, auto h) {
-            x += h * v;
-            v += h * a;
-        });
+        return steps_.run(*system_, state, h, count, Update{});
     }
 
 private:
+    struct Update {
+        template <class X, class V, class A, class Step>
+        EIGEN_ALWAYS_INLINE void operator()(X&& x, V&& v, const A& a, const Step& h) const {
+            x += h * v;
+            v += h * a;
+        }
+    };
+
     const System* system_;
     detail::ExplicitSteps<System> steps_;
 };

@@ -54,10 +54,10 @@ private:
     template <bool Pins, bool Drag, class Update>
     void step_block(const Fields& fields, int block, Scalar h, Scalar* scratch,
                     const Update& update) const;
-    /// Particles i, i + 1, … by the forces on them, which are cleared.
+    /// Particles first, first + 1, … by the forces on them, which are cleared.
     template <bool Pins, bool Drag, class Update>
-    EIGEN_ALWAYS_INLINE void move(const Fields& fields, Index i, Scalar h, const Field& begin_force,
-                                  const Field& end_force, const Update& update) const;
+    void move(const Fields& fields, Index first, Index count, Scalar h, const Field& begin_force,
+              const Field& end_force, const Update& update) const;
 
     ForcePlan<System> plan_;
     VectorX<Scalar> memory_;        // the planes of fields_
@@ -181,35 +181,43 @@ void PlaneSteps<System>::step_block(const Fields& fields, int block, Scalar h, S
     for (Index tile = 0; tile < count; tile += tile_size) {
         sweep.tile = static_cast<int>((first + tile) / tile_size);
         plan_.add_forces(sweep);
-        const Index end = std::min<Index>(tile + tile_size, count);
-        for (Index i = tile; i < end; i += Pack::size) {
-            move<Pins, Drag>(fields, first + i, h, begin_force.at(i), end_force.at(i), update);
-        }
+        move<Pins, Drag>(fields, first + tile, std::min<Index>(tile_size, count - tile), h,
+                         begin_force.at(tile), end_force.at(tile), update);
     }
 }
 
 template <class System>
 template <bool Pins, bool Drag, class Update>
-EIGEN_ALWAYS_INLINE void PlaneSteps<System>::move(const Fields& fields, Index i, Scalar h,
-                                                  const Field& begin_force, const Field& end_force,
-                                                  const Update& update) const {
+void PlaneSteps<System>::move(const Fields& fields, Index first, Index count, Scalar h,
+                              const Field& begin_force, const Field& end_force,
+                              const Update& update) const {
     const Pack step(h);
     const Pack zero(Scalar(0));
     [[maybe_unused]] const Pack d0(static_cast<Scalar>(rayleigh_.mass_proportional));
-    const Pack inverse_mass = Pack::load(inverse_mass_.data() + i);
-    for_each_axis<Dim>([&](int d) {
-        Pack x = Pack::load(fields.x[d] + i);
-        Pack v = Pack::load(fields.v[d] + i);
-        Pack free_fall(gravity_[d]);
-        if constexpr (Drag) free_fall -= d0 * v;
-        if constexpr (Pins) free_fall = where_less(zero, inverse_mass, free_fall, zero);
-        const Pack f = Pack::load(begin_force[d]) + Pack::load(end_force[d]);
-        zero.store(begin_force[d]);
-        zero.store(end_force[d]);
-        update(x, v, free_fall + inverse_mass * f, step);
-        x.store(fields.new_x[d] + i);
-        v.store(fields.new_v[d] + i);
-    });
+    for (int d = 0; d < Dim; ++d) {
+        const Pack gravity(gravity_[d]);
+        const Scalar* inverse_masses = inverse_mass_.data() + first;
+        const Scalar* xs = fields.x[d] + first;
+        const Scalar* vs = fields.v[d] + first;
+        Scalar* new_xs = fields.new_x[d] + first;
+        Scalar* new_vs = fields.new_v[d] + first;
+        Scalar* begin_forces = begin_force[d];
+        Scalar* end_forces = end_force[d];
+        for (Index i = 0; i < count; i += Pack::size) {
+            const Pack inverse_mass = Pack::load(inverse_masses + i);
+            Pack x = Pack::load(xs + i);
+            Pack v = Pack::load(vs + i);
+            Pack free_fall = gravity;
+            if constexpr (Drag) free_fall -= d0 * v;
+            if constexpr (Pins) free_fall = where_less(zero, inverse_mass, free_fall, zero);
+            const Pack f = Pack::load(begin_forces + i) + Pack::load(end_forces + i);
+            zero.store(begin_forces + i);
+            zero.store(end_forces + i);
+            update(x, v, free_fall + inverse_mass * f, step);
+            x.store(new_xs + i);
+            v.store(new_vs + i);
+        }
+    }
 }
 
 }  // namespace taut::detail

@@ -18,6 +18,11 @@ EIGEN_ALWAYS_INLINE Packet select_less_packet(const Packet& a, const Packet& b, 
                                               const Packet& no) {
     return Eigen::internal::pselect(Eigen::internal::pcmp_lt(a, b), yes, no);
 }
+template <class Packet>
+EIGEN_ALWAYS_INLINE Packet unless_negative_packet(const Packet& sign, const Packet& value) {
+    const Packet zero = Eigen::internal::pset1<Packet>(0);
+    return Eigen::internal::pselect(Eigen::internal::pcmp_lt(sign, zero), zero, value);
+}
 
 #ifdef EIGEN_VECTORIZE_AVX512
 // Eigen's own go through vectors of masks, and give infinity its due; here they are most of a step.
@@ -33,6 +38,12 @@ EIGEN_ALWAYS_INLINE __m512 rsqrt_packet(const __m512& a) {
     const __m512 y = _mm512_maskz_rsqrt14_ps(0xffff, a);
     const __m512 e = _mm512_fnmadd_ps(_mm512_mul_ps(a, y), y, _mm512_set1_ps(1));
     return _mm512_fmadd_ps(_mm512_mul_ps(y, e), _mm512_set1_ps(0.5f), y);
+}
+EIGEN_ALWAYS_INLINE __m512d unless_negative_packet(const __m512d& sign, const __m512d& value) {
+    return _mm512_maskz_mov_pd(_mm512_cmp_pd_mask(sign, _mm512_setzero_pd(), _CMP_GE_OQ), value);
+}
+EIGEN_ALWAYS_INLINE __m512 unless_negative_packet(const __m512& sign, const __m512& value) {
+    return _mm512_maskz_mov_ps(_mm512_cmp_ps_mask(sign, _mm512_setzero_ps(), _CMP_GE_OQ), value);
 }
 EIGEN_ALWAYS_INLINE __m512d select_less_packet(const __m512d& a, const __m512d& b,
                                                const __m512d& yes, const __m512d& no) {
@@ -92,6 +103,10 @@ struct Lanes {
     /// 1/√a of normal numbers, to a few ulp.
     friend EIGEN_ALWAYS_INLINE Lanes reciprocal_sqrt(const Lanes& a) {
         return of(rsqrt_packet(a.packet));
+    }
+    /// `value` in the lanes where `sign` is ≥ 0, and 0 in the others, whatever they hold.
+    friend EIGEN_ALWAYS_INLINE Lanes unless_negative(const Lanes& sign, const Lanes& value) {
+        return of(unless_negative_packet(sign.packet, value.packet));
     }
     /// Lane by lane, `yes` where a < b and `no` elsewhere, whatever the other one holds.
     friend EIGEN_ALWAYS_INLINE Lanes where_less(const Lanes& a, const Lanes& b, const Lanes& yes,

@@ -16,7 +16,7 @@ namespace taut::detail {
 
 /// The particles of a sweep come in blocks of this many, whatever the number of threads. A spring
 /// between two blocks is evaluated in both, so that each block writes to its own particles only.
-inline constexpr int block_size = 1024;
+inline constexpr int block_size = 2048;
 /// A block is swept in tiles of this many particles, in order: springs begin in a tile, and end there
 /// or in a later one, so the forces on a tile are complete while they are in the first cache.
 inline constexpr int tile_size = 256;
@@ -105,6 +105,22 @@ private:
     std::vector<Run> runs_;
     std::vector<NumberedSpring> rest_;
 };
+
+/// Orders springs so that neighbours in the list have different ends: first one of each a, then
+/// another of each. To add to the force just stored would be to wait for the store.
+inline void spread(std::vector<NumberedSpring>& springs) {
+    std::sort(springs.begin(), springs.end(), [](const auto& s, const auto& t) {
+        return std::tuple(s.a, s.b, s.index) < std::tuple(t.a, t.b, t.index);
+    });
+    std::vector<std::pair<int, NumberedSpring>> ranked;
+    for (const auto& spring : springs) {
+        const bool another = !ranked.empty() && ranked.back().second.a == spring.a;
+        ranked.emplace_back(another ? ranked.back().first + 1 : 0, spring);
+    }
+    std::stable_sort(ranked.begin(), ranked.end(),
+                     [](const auto& s, const auto& t) { return s.first < t.first; });
+    for (std::size_t i = 0; i < springs.size(); ++i) springs[i] = ranked[i].second;
+}
 
 /// The springs of one law in the order of a sweep: runs of one offset b − a and consecutive a, which
 /// need no index and no gather, and lists of the others.
@@ -247,9 +263,7 @@ void SpringPlan<Scalar, Dim, Law>::add_rest(const Set& set,
         }
     }
     for (auto& tile : springs) {
-        std::sort(tile.begin(), tile.end(), [](const auto& s, const auto& t) {
-            return std::tuple(s.a, s.b, s.index) < std::tuple(t.a, t.b, t.index);
-        });
+        spread(tile);
         std::vector<int> index;
         for (const auto& spring : tile) {
             a_.push_back(spring.a);

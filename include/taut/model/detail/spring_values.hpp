@@ -112,8 +112,7 @@ public:
         EIGEN_ALWAYS_INLINE Pack damping() const { return damping_.load(); }
         /// `value` where there is a spring and 0 in the gaps.
         EIGEN_ALWAYS_INLINE Pack unless_gap(const Pack& value) const {
-            const Pack zero(Scalar(0));
-            return where_less(rest_length_.load(), zero, zero, value);
+            return unless_negative(rest_length_.load(), value);
         }
         /// function(p, L, more…) of each spring.
         template <class Function, class... More>
