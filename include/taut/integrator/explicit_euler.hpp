@@ -18,12 +18,14 @@ class ExplicitEuler {
 public:
     using Scalar = typename System::Scalar;
     using State = typename System::State;
+    using Options = ExplicitOptions;
     static constexpr Method method = Method::explicit_euler;
     static constexpr int order = 1;
 
     /// Keeps a reference: the system must outlive the stepper.
-    explicit ExplicitEuler(const System& system) : system_(&system) {}
-    explicit ExplicitEuler(const System&&) = delete;
+    explicit ExplicitEuler(const System& system, const Options& options = {})
+        : system_(&system), steps_(options) {}
+    explicit ExplicitEuler(const System&&, const Options& = {}) = delete;
 
     /// Takes `count` steps of h, s, finite and > 0. On failure the state is as it was before.
     Report step(State& state, Scalar h, Index count = 1) {

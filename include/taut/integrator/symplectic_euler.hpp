@@ -18,12 +18,14 @@ class SymplecticEuler {
 public:
     using Scalar = typename System::Scalar;
     using State = typename System::State;
+    using Options = ExplicitOptions;
     static constexpr Method method = Method::symplectic_euler;
     static constexpr int order = 1;
 
     /// Keeps a reference: the system must outlive the stepper.
-    explicit SymplecticEuler(const System& system) : system_(&system) {}
-    explicit SymplecticEuler(const System&&) = delete;
+    explicit SymplecticEuler(const System& system, const Options& options = {})
+        : system_(&system), steps_(options) {}
+    explicit SymplecticEuler(const System&&, const Options& = {}) = delete;
 
     /// Takes `count` steps of h, s, finite and > 0. On failure the state is as it was before.
     Report step(State& state, Scalar h, Index count = 1) {

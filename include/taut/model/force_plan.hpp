@@ -31,7 +31,9 @@ public:
     Index size() const { return size_; }
     /// Scalars from one plane to the next: size() and what a whole register may touch beyond it.
     Index stride() const { return stride_; }
-    int blocks() const { return static_cast<int>((size_ + detail::block_size - 1) / detail::block_size); }
+    int blocks() const {
+        return static_cast<int>((size_ + detail::block_size - 1) / detail::block_size);
+    }
 
     /// Whether a spring has a damper of its own.
     bool damped() const {
@@ -131,7 +133,8 @@ bool ForcePlan<System>::update(const System& system) {
     }
     system.for_each_set([&, next = springs.cbegin()](const auto& set) mutable {
         using Plan = typename PlanOf<std::decay_t<decltype(set)>>::type;
-        std::get<Plan>(plans_) = Plan(set, *next++, blocks() * (detail::block_size / detail::tile_size));
+        std::get<Plan>(plans_) =
+            Plan(set, *next++, blocks() * (detail::block_size / detail::tile_size));
     });
     return true;
 }

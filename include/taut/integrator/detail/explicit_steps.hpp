@@ -2,11 +2,23 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <type_traits>
+
 #include "../../model/spring_system.hpp"
 #include "plane_steps.hpp"
 #include "step_loop.hpp"
 
-namespace taut::detail {
+namespace taut {
+
+/// Of the explicit steppers.
+struct ExplicitOptions {
+    /// For the springs of a SpringSystem, with OpenMP (-fopenmp) only. The result has the same bits
+    /// for any number; scenes below some thousands of particles are stepped by one.
+    int threads = 1;
+};
+
+namespace detail {
 
 template <class System>
 inline constexpr bool is_spring_system_v = false;
@@ -19,6 +31,10 @@ class ExplicitSteps {
 public:
     using Scalar = typename System::Scalar;
     using State = typename System::State;
+
+    explicit ExplicitSteps(const ExplicitOptions& options) : threads_(options.threads) {
+        if (threads_ < 1) fail("ExplicitOptions: threads is ", threads_, "; it must be >= 1");
+    }
 
     /// @param update  update(x, v, a, h): x and v, of one step, by the acceleration a = M⁻¹f(x, v);
     ///                arrays or Lanes
@@ -42,12 +58,14 @@ public:
         });
     }
 
-    int threads_ = 1;
 private:
     struct None {};
+
+    int threads_;
     std::conditional_t<is_spring_system_v<System>, PlaneSteps<System>, None> planes_;
     StepLoop<State> loop_;
     decltype(State::x) f_;  // force, Dim × n, N
 };
 
-}  // namespace taut::detail
+}  // namespace detail
+}  // namespace taut

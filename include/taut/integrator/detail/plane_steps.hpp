@@ -14,8 +14,8 @@
 
 namespace taut::detail {
 
-/// Many explicit steps of a SpringSystem in planes: converted once, then for each block of particles
-/// the forces of its springs, gravity, damping and the update in one go.
+/// Many explicit steps of a SpringSystem in planes: converted once, then for each block of
+/// particles the forces of its springs, gravity, damping and the update in one go.
 template <class System>
 class PlaneSteps {
 public:
@@ -60,7 +60,7 @@ private:
               const Field& end_force, const Update& update) const;
 
     ForcePlan<System> plan_;
-    VectorX<Scalar> memory_;        // the planes of fields_
+    VectorX<Scalar> memory_;  // the planes of fields_
     Fields fields_;
     VectorX<Scalar> inverse_mass_;  // 1/kg, 0 if pinned
     VectorX<Scalar> scratch_;       // forces on one block for each thread, N; 0 between blocks
@@ -136,9 +136,8 @@ void PlaneSteps<System>::steps(Scalar h, Index count, int threads, const Update&
         Fields fields = fields_;
         Scalar* scratch = scratch_.data() + worker * scratch_size;
         for (Index step = 0; step < count; ++step) {
-            for_each_block([&](int block) {
-                step_block<Pins, Drag>(fields, block, h, scratch, update);
-            });
+            for_each_block(
+                [&](int block) { step_block<Pins, Drag>(fields, block, h, scratch, update); });
             fields.swap();
         }
     };

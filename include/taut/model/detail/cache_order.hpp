@@ -28,7 +28,9 @@ inline std::vector<int> cache_order(int n, const std::vector<Joint>& joints) {
         neighbour[next[b]++] = a;
     }
     const auto degree = [&](int i) { return first[i + 1] - first[i]; };
-    const auto by_degree = [&](int i, int j) { return std::pair(degree(i), i) < std::pair(degree(j), j); };
+    const auto by_degree = [&](int i, int j) {
+        return std::pair(degree(i), i) < std::pair(degree(j), j);
+    };
 
     std::vector<int> start(n);
     for (int i = 0; i < n; ++i) start[i] = i;

@@ -71,7 +71,9 @@ struct Lanes {
         lanes.packet = packet;
         return lanes;
     }
-    static EIGEN_ALWAYS_INLINE Lanes load(const Scalar* from) { return of(Eigen::internal::ploadu<Packet>(from)); }
+    static EIGEN_ALWAYS_INLINE Lanes load(const Scalar* from) {
+        return of(Eigen::internal::ploadu<Packet>(from));
+    }
     EIGEN_ALWAYS_INLINE void store(Scalar* to) const { Eigen::internal::pstoreu(to, packet); }
 
     friend EIGEN_ALWAYS_INLINE Lanes operator+(const Lanes& a, const Lanes& b) {
@@ -86,7 +88,9 @@ struct Lanes {
     friend EIGEN_ALWAYS_INLINE Lanes operator/(const Lanes& a, const Lanes& b) {
         return of(Eigen::internal::pdiv(a.packet, b.packet));
     }
-    friend EIGEN_ALWAYS_INLINE Lanes operator-(const Lanes& a) { return of(Eigen::internal::pnegate(a.packet)); }
+    friend EIGEN_ALWAYS_INLINE Lanes operator-(const Lanes& a) {
+        return of(Eigen::internal::pnegate(a.packet));
+    }
     EIGEN_ALWAYS_INLINE Lanes& operator+=(const Lanes& other) { return *this = *this + other; }
     EIGEN_ALWAYS_INLINE Lanes& operator-=(const Lanes& other) { return *this = *this - other; }
     EIGEN_ALWAYS_INLINE Lanes& operator*=(const Lanes& other) { return *this = *this * other; }

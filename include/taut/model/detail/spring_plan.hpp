@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "../../core/types.hpp"
+#include "spring_runs.hpp"
 #include "spring_values.hpp"
 
 namespace taut::detail {
@@ -17,11 +18,9 @@ namespace taut::detail {
 /// The particles of a sweep come in blocks of this many, whatever the number of threads. A spring
 /// between two blocks is evaluated in both, so that each block writes to its own particles only.
 inline constexpr int block_size = 2048;
-/// A block is swept in tiles of this many particles, in order: springs begin in a tile, and end there
-/// or in a later one, so the forces on a tile are complete while they are in the first cache.
+/// A block is swept in tiles of this many particles, in order: springs begin in a tile, and end
+/// there or in a later one, so the forces on a tile are complete while they are in the first cache.
 inline constexpr int tile_size = 256;
-/// Fewer springs of one offset are not worth a run.
-inline constexpr int shortest_run = 16;
 
 /// Plane d of one vector a particle: d·stride scalars after the first plane.
 template <class Scalar>
@@ -47,83 +46,8 @@ struct BlockSweep {
     Planes<Scalar> foreign_force;  // on particles of other blocks: written, never read
 };
 
-/// A spring of a set with its ends in the plan's numbering, a < b.
-struct NumberedSpring {
-    int a;
-    int b;
-    int index;
-
-    friend bool operator<(const NumberedSpring& s, const NumberedSpring& t) {
-        return std::tuple(s.b - s.a, s.a, s.index) < std::tuple(t.b - t.a, t.a, t.index);
-    }
-};
-
-/// The springs of a set under a numbering: runs, and the rest.
-class SpringRuns {
-public:
-    /// Springs [first, last) of one offset b − a and ascending a, some a left out.
-    struct Run {
-        std::size_t first;
-        std::size_t last;
-    };
-
-    template <class Set, class Number>
-    SpringRuns(const Set& set, const Number& number) {
-        springs_.reserve(set.a.size());
-        for (std::size_t s = 0; s < set.a.size(); ++s) {
-            const int a = number(set.a[s]);
-            const int b = number(set.b[s]);
-            springs_.push_back({std::min(a, b), std::max(a, b), static_cast<int>(s)});
-        }
-        std::sort(springs_.begin(), springs_.end());
-        for (std::size_t first = 0, last = 0; first < springs_.size(); first = last) {
-            for (last = first + 1; last < springs_.size() && go_on(last);) ++last;
-            const auto begin = springs_.begin() + static_cast<std::ptrdiff_t>(first);
-            const auto end = springs_.begin() + static_cast<std::ptrdiff_t>(last);
-            const auto count = static_cast<int>(last - first);
-            if (count >= shortest_run && 2 * count > (end - 1)->a - begin->a) {
-                runs_.push_back({first, last});
-            } else {
-                rest_.insert(rest_.end(), begin, end);
-            }
-        }
-    }
-    const NumberedSpring& spring(std::size_t i) const { return springs_[i]; }
-    const std::vector<Run>& runs() const { return runs_; }
-    const std::vector<NumberedSpring>& rest() const { return rest_; }
-
-private:
-    /// A run goes on over a short gap, such as that between the rows of a grid.
-    bool go_on(std::size_t i) const {
-        const auto& last = springs_[i - 1];
-        const auto& next = springs_[i];
-        return next.b - next.a == last.b - last.a && next.a > last.a &&
-               next.a <= last.a + most_lanes;
-    }
-
-    std::vector<NumberedSpring> springs_;  // by offset, then by a
-    std::vector<Run> runs_;
-    std::vector<NumberedSpring> rest_;
-};
-
-/// Orders springs so that neighbours in the list have different ends: first one of each a, then
-/// another of each. To add to the force just stored would be to wait for the store.
-inline void spread(std::vector<NumberedSpring>& springs) {
-    std::sort(springs.begin(), springs.end(), [](const auto& s, const auto& t) {
-        return std::tuple(s.a, s.b, s.index) < std::tuple(t.a, t.b, t.index);
-    });
-    std::vector<std::pair<int, NumberedSpring>> ranked;
-    for (const auto& spring : springs) {
-        const bool another = !ranked.empty() && ranked.back().second.a == spring.a;
-        ranked.emplace_back(another ? ranked.back().first + 1 : 0, spring);
-    }
-    std::stable_sort(ranked.begin(), ranked.end(),
-                     [](const auto& s, const auto& t) { return s.first < t.first; });
-    for (std::size_t i = 0; i < springs.size(); ++i) springs[i] = ranked[i].second;
-}
-
-/// The springs of one law in the order of a sweep: runs of one offset b − a and consecutive a, which
-/// need no index and no gather, and lists of the others.
+/// The springs of one law in the order of a sweep: runs of one offset b − a and consecutive a,
+/// which need no index and no gather, and lists of the others.
 template <class Scalar, int Dim, class Law>
 class SpringPlan {
     using Pack = Lanes<Scalar>;
@@ -144,10 +68,11 @@ public:
     }
 
 private:
-    /// Springs a … a + count − 1 of one run, of which some begin in the block, or end in it, or both.
+    /// Springs a … a + count − 1 of one run, of which some begin in the block, or end in it, or
+    /// both.
     struct Segment {
         int run;
-        int a;      // these are multiples of the register's width
+        int a;  // these are multiples of the register's width
         int count;
         bool begins;
         bool ends;
@@ -187,14 +112,14 @@ private:
     template <bool Dampers, bool Rayleigh>
     void add_list(const BlockSweep<Scalar>& sweep, const List& list) const;
     template <bool Dampers, bool Rayleigh>
-    EIGEN_ALWAYS_INLINE void pull(const typename Values::Cursor& springs, Scalar alpha, const Vectors& dx,
-              const Vectors& dv, Vectors& force) const;
+    EIGEN_ALWAYS_INLINE void pull(const typename Values::Cursor& springs, Scalar alpha,
+                                  const Vectors& dx, const Vectors& dv, Vectors& force) const;
 
     std::vector<Run> runs_;
-    std::vector<Segment> segments_;          // tile by tile
-    std::vector<std::size_t> segment_end_;   // of each tile
-    std::vector<List> lists_;                // one a tile
-    std::vector<int> a_, b_;                 // ends of the lists' springs
+    std::vector<Segment> segments_;         // tile by tile
+    std::vector<std::size_t> segment_end_;  // of each tile
+    std::vector<List> lists_;               // one a tile
+    std::vector<int> a_, b_;                // ends of the lists' springs
     Values values_;
     bool damped_ = false;
 };
@@ -252,8 +177,8 @@ void SpringPlan<Scalar, Dim, Law>::add_run(const Set& set, const SpringRuns& spr
 }
 
 template <class Scalar, int Dim, class Law>
-void SpringPlan<Scalar, Dim, Law>::add_rest(const Set& set,
-                                            const std::vector<NumberedSpring>& rest, int tiles) {
+void SpringPlan<Scalar, Dim, Law>::add_rest(const Set& set, const std::vector<NumberedSpring>& rest,
+                                            int tiles) {
     std::vector<std::vector<NumberedSpring>> springs(tiles);
     for (const auto& spring : rest) {
         const int end_block = spring.b / block_size;
@@ -289,8 +214,9 @@ void SpringPlan<Scalar, Dim, Law>::add_forces(const BlockSweep<Scalar>& sweep) c
 template <class Scalar, int Dim, class Law>
 template <bool Dampers, bool Rayleigh>
 EIGEN_ALWAYS_INLINE void SpringPlan<Scalar, Dim, Law>::pull(const typename Values::Cursor& springs,
-                                        Scalar alpha, const Vectors& dx, const Vectors& dv,
-                                        Vectors& force) const {
+                                                            Scalar alpha, const Vectors& dx,
+                                                            const Vectors& dv,
+                                                            Vectors& force) const {
     const Pack l2 = dot(dx, dx);
     // Kept from zero, a spring of no length has no direction, and so no force.
     const Pack least(std::numeric_limits<Scalar>::min());
@@ -298,7 +224,7 @@ EIGEN_ALWAYS_INLINE void SpringPlan<Scalar, Dim, Law>::pull(const typename Value
     const Pack over_l = reciprocal_sqrt(safe_l2);
     const Pack l = safe_l2 * over_l;
     const Pack tension = springs.evaluate(
-        [](const auto& p, auto L, auto l) { return Law::tension(p, L, l); }, l);
+        [](const auto& p, auto L, auto length) { return Law::tension(p, L, length); }, l);
     const Pack tension_over_l = springs.unless_gap(tension * over_l);
     for_each_axis<Dim>([&](int d) { force[d] = tension_over_l * dx[d]; });
     if constexpr (Dampers || Rayleigh) {
@@ -311,17 +237,16 @@ EIGEN_ALWAYS_INLINE void SpringPlan<Scalar, Dim, Law>::pull(const typename Value
         }
         if constexpr (Rayleigh) {
             const Pack slope = springs.evaluate(
-                [](const auto& p, auto L, auto l) { return Law::tension_slope(p, L, l); },
+                [](const auto& p, auto L, auto length) { return Law::tension_slope(p, L, length); },
                 l);
-            const Pack bound = springs.evaluate(
-                [](const auto& p, auto L) { return Law::stiffness_bound(p, L); });
+            const Pack bound =
+                springs.evaluate([](const auto& p, auto L) { return Law::stiffness_bound(p, L); });
             const Pack zero(Scalar(0));
             const Pack transverse = where_less(zero, l2, max(tension_over_l, zero), bound);
             const Pack along = (max(slope, zero) - transverse) * stretching;
             const Pack factor = springs.unless_gap(Pack(alpha));
-            for_each_axis<Dim>([&](int d) {
-                force[d] += factor * (transverse * dv[d] + along * direction[d]);
-            });
+            for_each_axis<Dim>(
+                [&](int d) { force[d] += factor * (transverse * dv[d] + along * direction[d]); });
         }
     }
 }
@@ -332,14 +257,15 @@ void SpringPlan<Scalar, Dim, Law>::add_segment(const BlockSweep<Scalar>& sweep,
                                                const Segment& segment) const {
     const Run& run = runs_[segment.run];
     const int first = sweep.block * block_size;
-    const Lane at{sweep.x.at(segment.a),
-                    sweep.x.at(segment.a + run.offset),
-                    sweep.v.at(segment.a),
-                    sweep.v.at(segment.a + run.offset),
-                    segment.begins ? sweep.begin_force.at(segment.a - first) : sweep.foreign_force,
-                    segment.ends ? sweep.end_force.at(segment.a + run.offset - first)
-                                 : sweep.foreign_force};
-    typename Values::Cursor springs(values_, run.values, static_cast<std::size_t>(segment.a - run.a));
+    const Lane at{
+        sweep.x.at(segment.a),
+        sweep.x.at(segment.a + run.offset),
+        sweep.v.at(segment.a),
+        sweep.v.at(segment.a + run.offset),
+        segment.begins ? sweep.begin_force.at(segment.a - first) : sweep.foreign_force,
+        segment.ends ? sweep.end_force.at(segment.a + run.offset - first) : sweep.foreign_force};
+    typename Values::Cursor springs(values_, run.values,
+                                    static_cast<std::size_t>(segment.a - run.a));
     for (int i = 0; i < segment.count; i += width, springs.next()) {
         Vectors dx, dv, force;
         for_each_axis<Dim>([&](int d) {
@@ -391,8 +317,10 @@ void SpringPlan<Scalar, Dim, Law>::add_list(const BlockSweep<Scalar>& sweep,
         }
         for (int s = 0; s < count; ++s) {
             // Particles of other blocks share the place after the block's last.
-            const unsigned at_a = std::min<unsigned>(static_cast<unsigned>(a[s]) - first, block_size);
-            const unsigned at_b = std::min<unsigned>(static_cast<unsigned>(b[s]) - first, block_size);
+            const unsigned at_a =
+                std::min<unsigned>(static_cast<unsigned>(a[s]) - first, block_size);
+            const unsigned at_b =
+                std::min<unsigned>(static_cast<unsigned>(b[s]) - first, block_size);
             for (int d = 0; d < Dim; ++d) {
                 sweep.begin_force[d][at_a] += dx[d][s];
                 sweep.begin_force[d][at_b] -= dx[d][s];

@@ -49,7 +49,7 @@ public:
     struct Slice {
         Column rest_length;
         Column damping;
-        Column parameters;                  // of a law that is not vectorizable
+        Column parameters;                 // of a law that is not vectorizable
         std::array<Column, fields> field;  // of one that is
     };
 
@@ -175,7 +175,7 @@ private:
     }
 
     std::vector<Scalar, Eigen::aligned_allocator<Scalar>> numbers_;  // columns one after another
-    std::vector<Parameters> parameters_;  // of a law that is not vectorizable
+    std::vector<Parameters> parameters_;    // of a law that is not vectorizable
     std::size_t shared_ = std::size_t(-1);  // the last column of one value, or none
 };
 
