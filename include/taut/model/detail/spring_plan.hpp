@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <limits>
-#include <tuple>
-#include <utility>
+#include <unordered_map>
 #include <vector>
 
 #include "../../core/types.hpp"
@@ -52,6 +52,7 @@ template <class Scalar, int Dim, class Law>
 class SpringPlan {
     using Pack = Lanes<Scalar>;
     using Values = SpringValues<Scalar, Law>;
+    using Cursor = typename Values::Cursor;
     static constexpr int width = Pack::size;
 
 public:
@@ -82,10 +83,16 @@ private:
         int offset;  // b − a
         typename Values::Slice values;
     };
+    /// Springs by their ends among the particles that the list touches.
     struct List {
         std::size_t first;
-        std::size_t count;
-        typename Values::Slice values;
+        int count = 0;
+        std::size_t first_touched;
+        int touched = 0;
+        typename Values::Slice values{};
+    };
+    struct Ends {
+        std::uint16_t a, b;
     };
     /// Where a segment begins in the planes.
     struct Lane {
@@ -94,6 +101,13 @@ private:
         Planes<Scalar> begin_force, end_force;
     };
     using Vectors = std::array<Pack, Dim>;
+    struct Pull {
+        Pack A, B;
+    };
+    /// One vector, in memory as registers like it.
+    using Point = Eigen::Array<Scalar, Dim == 3 ? 4 : Dim, 1>;
+    /// A list works on copies of as many particles, in the first cache.
+    static constexpr int most_touched = 512;
 
     static EIGEN_ALWAYS_INLINE Pack dot(const Vectors& a, const Vectors& b) {
         Pack sum = a[0] * b[0];
@@ -103,6 +117,8 @@ private:
     }
     void add_run(const Set& set, const SpringRuns& springs, const SpringRuns::Run& run,
                  std::vector<std::vector<Segment>>& segments);
+    using Springs = std::vector<NumberedSpring>::const_iterator;
+    Springs add_list(const Set& set, Springs next, Springs end);
     void add_rest(const Set& set, const std::vector<NumberedSpring>& rest, int tiles);
 
     template <bool Dampers, bool Rayleigh>
@@ -112,14 +128,16 @@ private:
     template <bool Dampers, bool Rayleigh>
     void add_list(const BlockSweep<Scalar>& sweep, const List& list) const;
     template <bool Dampers, bool Rayleigh>
-    EIGEN_ALWAYS_INLINE void pull(const typename Values::Cursor& springs, Scalar alpha,
-                                  const Vectors& dx, const Vectors& dv, Vectors& force) const;
+    EIGEN_ALWAYS_INLINE Pull pull(const Cursor& springs, Scalar alpha, const Pack& l2,
+                                  const Pack& s) const;
 
     std::vector<Run> runs_;
     std::vector<Segment> segments_;         // tile by tile
     std::vector<std::size_t> segment_end_;  // of each tile
-    std::vector<List> lists_;               // one a tile
-    std::vector<int> a_, b_;                // ends of the lists' springs
+    std::vector<List> lists_;               // tile by tile
+    std::vector<std::size_t> list_end_;     // of each tile
+    std::vector<Ends> ends_;                // of the lists' springs
+    std::vector<int> touched_;              // particles of the lists
     Values values_;
     bool damped_ = false;
 };
@@ -189,15 +207,34 @@ void SpringPlan<Scalar, Dim, Law>::add_rest(const Set& set, const std::vector<Nu
     }
     for (auto& tile : springs) {
         spread(tile);
-        std::vector<int> index;
-        for (const auto& spring : tile) {
-            a_.push_back(spring.a);
-            b_.push_back(spring.b);
-            index.push_back(spring.index);
-        }
-        lists_.push_back({a_.size() - tile.size(), tile.size(), {}});
-        if (!tile.empty()) lists_.back().values = values_.add(set, index);
+        for (auto next = tile.cbegin(); next != tile.cend();)
+            next = add_list(set, next, tile.cend());
+        list_end_.push_back(lists_.size());
     }
+}
+
+/// A list of as many springs as touch few enough particles. @returns the first of the others
+template <class Scalar, int Dim, class Law>
+auto SpringPlan<Scalar, Dim, Law>::add_list(const Set& set, Springs next, Springs end) -> Springs {
+    List list{ends_.size(), 0, touched_.size()};
+    std::unordered_map<int, std::uint16_t> place;
+    const auto touch = [&](int particle) {
+        const auto [at, is_new] =
+            place.try_emplace(particle, static_cast<std::uint16_t>(place.size()));
+        if (is_new) touched_.push_back(particle);
+        return at->second;
+    };
+    std::vector<int> index;
+    for (; next != end && place.size() + 2 <= most_touched; ++next) {
+        const auto a = touch(next->a);
+        ends_.push_back({a, touch(next->b)});
+        index.push_back(next->index);
+    }
+    list.count = static_cast<int>(index.size());
+    list.touched = static_cast<int>(place.size());
+    list.values = values_.add(set, index);
+    lists_.push_back(list);
+    return next;
 }
 
 template <class Scalar, int Dim, class Law>
@@ -207,48 +244,40 @@ void SpringPlan<Scalar, Dim, Law>::add_forces(const BlockSweep<Scalar>& sweep) c
     for (std::size_t s = tile == 0 ? 0 : segment_end_[tile - 1]; s < segment_end_[tile]; ++s) {
         add_segment<Dampers, Rayleigh>(sweep, segments_[s]);
     }
-    if (lists_[tile].count > 0) add_list<Dampers, Rayleigh>(sweep, lists_[tile]);
+    for (std::size_t s = tile == 0 ? 0 : list_end_[tile - 1]; s < list_end_[tile]; ++s) {
+        add_list<Dampers, Rayleigh>(sweep, lists_[s]);
+    }
 }
 
-/// The force on the end a of springs i, i + 1, … of a slice, one a lane.
+/// The force on the end a of each spring is A·dx + B·dv; l2 = dx·dx, s = dx·dv.
 template <class Scalar, int Dim, class Law>
 template <bool Dampers, bool Rayleigh>
-EIGEN_ALWAYS_INLINE void SpringPlan<Scalar, Dim, Law>::pull(const typename Values::Cursor& springs,
-                                                            Scalar alpha, const Vectors& dx,
-                                                            const Vectors& dv,
-                                                            Vectors& force) const {
-    const Pack l2 = dot(dx, dx);
+EIGEN_ALWAYS_INLINE auto SpringPlan<Scalar, Dim, Law>::pull(const Cursor& springs, Scalar alpha,
+                                                            const Pack& l2, const Pack& s) const
+    -> Pull {
     // Kept from zero, a spring of no length has no direction, and so no force.
-    const Pack least(std::numeric_limits<Scalar>::min());
-    const Pack safe_l2 = max(l2, least);
+    const Pack safe_l2 = max(l2, Pack(std::numeric_limits<Scalar>::min()));
     const Pack over_l = reciprocal_sqrt(safe_l2);
     const Pack l = safe_l2 * over_l;
     const Pack tension = springs.evaluate(
         [](const auto& p, auto L, auto length) { return Law::tension(p, L, length); }, l);
-    const Pack tension_over_l = springs.unless_gap(tension * over_l);
-    for_each_axis<Dim>([&](int d) { force[d] = tension_over_l * dx[d]; });
-    if constexpr (Dampers || Rayleigh) {
-        Vectors direction;
-        for_each_axis<Dim>([&](int d) { direction[d] = over_l * dx[d]; });
-        const Pack stretching = dot(direction, dv);
-        if constexpr (Dampers) {
-            const Pack damping = springs.unless_gap(springs.damping() * stretching);
-            for_each_axis<Dim>([&](int d) { force[d] += damping * direction[d]; });
-        }
-        if constexpr (Rayleigh) {
-            const Pack slope = springs.evaluate(
-                [](const auto& p, auto L, auto length) { return Law::tension_slope(p, L, length); },
-                l);
-            const Pack bound =
-                springs.evaluate([](const auto& p, auto L) { return Law::stiffness_bound(p, L); });
-            const Pack zero(Scalar(0));
-            const Pack transverse = where_less(zero, l2, max(tension_over_l, zero), bound);
-            const Pack along = (max(slope, zero) - transverse) * stretching;
-            const Pack factor = springs.unless_gap(Pack(alpha));
-            for_each_axis<Dim>(
-                [&](int d) { force[d] += factor * (transverse * dv[d] + along * direction[d]); });
-        }
+    const Pack tension_over_l = tension * over_l;
+    const Pack zero(Scalar(0));
+    if constexpr (!Dampers && !Rayleigh) return {springs.unless_gap(tension_over_l), zero};
+    Pack A = tension_over_l;
+    Pack B = zero;
+    const Pack stretching = s * over_l * over_l;
+    if constexpr (Dampers) A += springs.damping() * stretching;
+    if constexpr (Rayleigh) {
+        const Pack slope = springs.evaluate(
+            [](const auto& p, auto L, auto length) { return Law::tension_slope(p, L, length); }, l);
+        const Pack bound =
+            springs.evaluate([](const auto& p, auto L) { return Law::stiffness_bound(p, L); });
+        const Pack transverse = where_less(zero, l2, max(tension_over_l, zero), bound);
+        B = Pack(alpha) * transverse;
+        A += Pack(alpha) * (max(slope, zero) - transverse) * stretching;
     }
+    return {springs.unless_gap(A), springs.unless_gap(B)};
 }
 
 template <class Scalar, int Dim, class Law>
@@ -264,22 +293,25 @@ void SpringPlan<Scalar, Dim, Law>::add_segment(const BlockSweep<Scalar>& sweep,
         sweep.v.at(segment.a + run.offset),
         segment.begins ? sweep.begin_force.at(segment.a - first) : sweep.foreign_force,
         segment.ends ? sweep.end_force.at(segment.a + run.offset - first) : sweep.foreign_force};
-    typename Values::Cursor springs(values_, run.values,
-                                    static_cast<std::size_t>(segment.a - run.a));
+    Cursor springs(values_, run.values, static_cast<std::size_t>(segment.a - run.a));
     for (int i = 0; i < segment.count; i += width, springs.next()) {
-        Vectors dx, dv, force;
+        Vectors dx, dv;
         for_each_axis<Dim>([&](int d) {
             dx[d] = Pack::load(at.x_end[d] + i) - Pack::load(at.x_begin[d] + i);
             if constexpr (Dampers || Rayleigh) {
                 dv[d] = Pack::load(at.v_end[d] + i) - Pack::load(at.v_begin[d] + i);
             }
         });
-        pull<Dampers, Rayleigh>(springs, sweep.alpha, dx, dv, force);
+        Pack s(Scalar(0));
+        if constexpr (Dampers || Rayleigh) s = dot(dx, dv);
+        const Pull pull_on_a = pull<Dampers, Rayleigh>(springs, sweep.alpha, dot(dx, dx), s);
         for_each_axis<Dim>([&](int d) {
+            Pack force = pull_on_a.A * dx[d];
+            if constexpr (Rayleigh) force += pull_on_a.B * dv[d];
             Scalar* begin_force = at.begin_force[d] + i;
             Scalar* end_force = at.end_force[d] + i;
-            (Pack::load(begin_force) + force[d]).store(begin_force);
-            (Pack::load(end_force) - force[d]).store(end_force);
+            (Pack::load(begin_force) + force).store(begin_force);
+            (Pack::load(end_force) - force).store(end_force);
         });
     }
 }
@@ -288,44 +320,56 @@ template <class Scalar, int Dim, class Law>
 template <bool Dampers, bool Rayleigh>
 void SpringPlan<Scalar, Dim, Law>::add_list(const BlockSweep<Scalar>& sweep,
                                             const List& list) const {
-    constexpr int chunk = 64;  // springs between the gather and the scatter
+    constexpr bool velocities = Dampers || Rayleigh;
+    constexpr int chunk = 64;  // springs between the differences and the forces
     static_assert(chunk % most_lanes == 0);
-    const unsigned first = static_cast<unsigned>(sweep.block) * block_size;
-    Scalar dx[Dim][chunk] = {};
-    [[maybe_unused]] Scalar dv[Dim][chunk] = {};
-    typename Values::Cursor springs(values_, list.values, 0);
-    for (std::size_t done = 0; done < list.count; done += chunk) {
-        const int* a = a_.data() + list.first + done;
-        const int* b = b_.data() + list.first + done;
-        const int count = static_cast<int>(std::min<std::size_t>(chunk, list.count - done));
-        for (int d = 0; d < Dim; ++d) {
-            const Scalar* x = sweep.x[d];
-            for (int s = 0; s < count; ++s) dx[d][s] = x[b[s]] - x[a[s]];
-            if constexpr (Dampers || Rayleigh) {
-                const Scalar* v = sweep.v[d];
-                for (int s = 0; s < count; ++s) dv[d][s] = v[b[s]] - v[a[s]];
+    alignas(64) Point x[most_touched];
+    alignas(64) Point v[velocities ? most_touched : 1];
+    alignas(64) Point f[most_touched];
+    const int* touched = touched_.data() + list.first_touched;
+    for (int t = 0; t < list.touched; ++t) {
+        x[t].setZero();
+        f[t].setZero();
+        for (int d = 0; d < Dim; ++d) x[t][d] = sweep.x[d][touched[t]];
+        if constexpr (velocities) {
+            v[t].setZero();
+            for (int d = 0; d < Dim; ++d) v[t][d] = sweep.v[d][touched[t]];
+        }
+    }
+    alignas(64) Point dx[chunk];
+    alignas(64) Point dv[velocities ? chunk : 1];
+    alignas(64) Scalar l2[chunk] = {};
+    alignas(64) Scalar dx_dv[chunk] = {};
+    Cursor springs(values_, list.values, 0);
+    for (int done = 0; done < list.count; done += chunk) {
+        const Ends* ends = ends_.data() + list.first + done;
+        const int count = std::min(chunk, list.count - done);
+        for (int s = 0; s < count; ++s) {
+            dx[s] = x[ends[s].b] - x[ends[s].a];
+            l2[s] = dx[s].square().sum();
+            if constexpr (velocities) {
+                dv[s] = v[ends[s].b] - v[ends[s].a];
+                dx_dv[s] = (dx[s] * dv[s]).sum();
             }
         }
         for (int s = 0; s < count; s += width, springs.next()) {
-            Vectors dx_s, dv_s, force;
-            for (int d = 0; d < Dim; ++d) dx_s[d] = Pack::load(dx[d] + s);
-            if constexpr (Dampers || Rayleigh) {
-                for (int d = 0; d < Dim; ++d) dv_s[d] = Pack::load(dv[d] + s);
-            }
-            pull<Dampers, Rayleigh>(springs, sweep.alpha, dx_s, dv_s, force);
-            for (int d = 0; d < Dim; ++d) force[d].store(dx[d] + s);
+            const Pull pull_on_a = pull<Dampers, Rayleigh>(springs, sweep.alpha, Pack::load(l2 + s),
+                                                           Pack::load(dx_dv + s));
+            pull_on_a.A.store(l2 + s);
+            pull_on_a.B.store(dx_dv + s);
         }
         for (int s = 0; s < count; ++s) {
-            // Particles of other blocks share the place after the block's last.
-            const unsigned at_a =
-                std::min<unsigned>(static_cast<unsigned>(a[s]) - first, block_size);
-            const unsigned at_b =
-                std::min<unsigned>(static_cast<unsigned>(b[s]) - first, block_size);
-            for (int d = 0; d < Dim; ++d) {
-                sweep.begin_force[d][at_a] += dx[d][s];
-                sweep.begin_force[d][at_b] -= dx[d][s];
-            }
+            Point force = l2[s] * dx[s];
+            if constexpr (Rayleigh) force += dx_dv[s] * dv[s];
+            f[ends[s].a] += force;
+            f[ends[s].b] -= force;
         }
+    }
+    const int first = sweep.block * block_size;
+    for (int t = 0; t < list.touched; ++t) {
+        const int i = touched[t] - first;
+        if (i < 0 || i >= block_size) continue;  // another block sees to it
+        for (int d = 0; d < Dim; ++d) sweep.begin_force[d][i] += f[t][d];
     }
 }
 
