@@ -17,16 +17,17 @@ bool eigen_allocated = false;
 #define eigen_assert(condition) ((condition) ? void() : void(eigen_allocated = true))
 #include <taut/taut.hpp>
 
-void* operator new(std::size_t size) {
+// Not inline: GCC would take the pair for a mismatch of new and free.
+EIGEN_DONT_INLINE void* operator new(std::size_t size) {
     ++allocations;
     if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
     std::abort();
 }
-void* operator new[](std::size_t size) { return operator new(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+EIGEN_DONT_INLINE void* operator new[](std::size_t size) { return operator new(size); }
+EIGEN_DONT_INLINE void operator delete(void* memory) noexcept { std::free(memory); }
+EIGEN_DONT_INLINE void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+EIGEN_DONT_INLINE void operator delete[](void* memory) noexcept { std::free(memory); }
+EIGEN_DONT_INLINE void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace {
 
