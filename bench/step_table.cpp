@@ -6,13 +6,11 @@
 // are of one thread's processor, ratios of runs side by side: the minimum and the median.
 
 #include <algorithm>
-#include <array>
 #include <boost/numeric/odeint.hpp>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <malloc.h>
-#include <random>
 #include <taut/taut.hpp>
 #include <vector>
 
