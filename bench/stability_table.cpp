@@ -18,10 +18,10 @@
 
 namespace {
 
-using bench::Cloth;
-using bench::Index;
+using Cloth = taut::SpringSystem<double, 3>;
 using bench::measure;
-using bench::PlainLoop;
+using taut::Index;
+using PlainLoop = bench::PlainLoop<double>;
 using bench::Times;
 using taut::Method;
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "../core/method.hpp"
-#include "detail/step_loop.hpp"
+#include "detail/explicit_steps.hpp"
 
 namespace taut {
 
@@ -18,28 +18,31 @@ class ExplicitEuler {
 public:
     using Scalar = typename System::Scalar;
     using State = typename System::State;
+    using Options = ExplicitOptions;
     static constexpr Method method = Method::explicit_euler;
     static constexpr int order = 1;
 
     /// Keeps a reference: the system must outlive the stepper.
-    explicit ExplicitEuler(const System& system) : system_(&system) {}
-    explicit ExplicitEuler(const System&&) = delete;
+    explicit ExplicitEuler(const System& system, const Options& options = {})
+        : system_(&system), steps_(options) {}
+    explicit ExplicitEuler(const System&&, const Options& = {}) = delete;
 
     /// Takes `count` steps of h, s, finite and > 0. On failure the state is as it was before.
     Report step(State& state, Scalar h, Index count = 1) {
-        return loop_.run(*system_, state, h, count, [&]() -> Report {
-            system_->force(state, f_);
-            state.x += h * state.v;
-            state.v.array() +=
-                h * (f_.array().rowwise() * system_->inverse_mass().transpose().array());
-            return {};
-        });
+        return steps_.run(*system_, state, h, count, Update{});
     }
 
 private:
+    struct Update {
+        template <class X, class V, class A, class Step>
+        EIGEN_ALWAYS_INLINE void operator()(X&& x, V&& v, const A& a, const Step& h) const {
+            x += h * v;
+            v += h * a;
+        }
+    };
+
     const System* system_;
-    detail::StepLoop<State> loop_;
-    decltype(State::x) f_;  // force, Dim × n, N
+    detail::ExplicitSteps<System> steps_;
 };
 
 }  // namespace taut

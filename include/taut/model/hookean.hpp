@@ -13,6 +13,8 @@ namespace taut {
 struct Hookean {
     /// Whether the energy is convex in the positions, as theory [T24] asks.
     static constexpr bool convex = false;
+    /// Whether the functions are plain arithmetic, so that Scalar may be a register of numbers.
+    static constexpr bool vectorizable = true;
 
     template <class Scalar>
     struct Parameters {

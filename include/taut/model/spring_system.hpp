@@ -110,6 +110,7 @@ public:
     State initial_state() const;
     /// f ← total force on every particle, N, Dim × n; on a pinned one, what its pin has to bear.
     void force(const State& state, Force& f) const;
+    bool has_external_force() const { return static_cast<bool>(external_force_); }
     /// f ← the external force alone, N, Dim × n.
     void external_force(const State& state, Force& f) const {
         f.setZero(Dim, size());

@@ -15,16 +15,23 @@ class StepLoop {
 public:
     using Scalar = typename State::Scalar;
 
-    /// @param advance  Report advance(): one step of `state` in place, its time excepted
-    template <class System, class Advance>
-    Report run(const System& system, State& state, Scalar h, Index count, Advance&& advance) {
+    /// What every call refuses: a bad h, a state of the wrong size or with NaN or infinity.
+    template <class System>
+    static Report check(const System& system, const State& state, Scalar h) {
         if (!(h > 0) || !std::isfinite(h)) return {Status::invalid_step};
         if (state.x.cols() != system.size() || state.v.cols() != system.size()) {
             return {Status::invalid_state};
         }
         if (!state.finite()) return {Status::invalid_state, 0, 0, state.first_not_finite()};
+        return {};
+    }
+
+    /// @param advance  Report advance(): one step of `state` in place, its time excepted
+    template <class System, class Advance>
+    Report run(const System& system, State& state, Scalar h, Index count, Advance&& advance) {
+        Report report = check(system, state, h);
+        if (!report) return report;
         backup_ = state;
-        Report report;
         while (report && report.iterations < count) {
             const int steps = report.iterations;
             const Scalar time = state.time;

@@ -1,0 +1,261 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+
+// What a symplectic step costs beside the plain loop over springs and Boost.odeint, and what
+// becomes of the scene. Prints Markdown; a mesh in OBJ form may be named on the command line. Times
+// are of one thread's processor, ratios of runs side by side: the minimum and the median.
+
+#include <algorithm>
+#include <boost/numeric/odeint.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <malloc.h>
+#include <taut/taut.hpp>
+#include <vector>
+
+#include "../examples/common/mesh_file.hpp"
+#include "plain_loop.hpp"
+
+namespace {
+
+using taut::Index;
+template <class Scalar>
+using Net = taut::SpringSystem<Scalar, 3>;
+
+/// ms on a clock of the system: a thread's own, which others on the machine disturb least, or the
+/// wall's.
+double now(clockid_t clock = CLOCK_THREAD_CPUTIME_ID) {
+    std::timespec time{};
+    clock_gettime(clock, &time);
+    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+struct Comparison {
+    clockid_t clock = CLOCK_THREAD_CPUTIME_ID;
+    std::vector<double> ours, theirs, ratio;  // ms a step, sorted
+
+    template <class Ours, class Theirs>
+    void run(int runs, int count, Ours&& our_steps, Theirs&& their_steps) {
+        our_steps(count);
+        their_steps(count);
+        for (int i = 0; i < runs; ++i) {
+            const double start = now(clock);
+            their_steps(count);
+            const double middle = now(clock);
+            our_steps(count);
+            const double end = now(clock);
+            theirs.push_back((middle - start) / count);
+            ours.push_back((end - middle) / count);
+            ratio.push_back((end - middle) / (middle - start));
+        }
+        for (auto* times : {&ours, &theirs, &ratio}) std::sort(times->begin(), times->end());
+    }
+    void print(const char* label) const {
+        std::printf("| %s | %.4f | %.4f (%.4f) | %.2f (%.2f) |\n", label, theirs.front(),
+                    ours.front(), ours[ours.size() / 2], ours.front() / theirs.front(),
+                    ratio[ratio.size() / 2]);
+        std::fflush(stdout);
+    }
+};
+
+template <class Scalar>
+void compare(const char* label, const Net<Scalar>& net, int runs, int count) {
+    const Scalar h = Scalar(0.9) * taut::any_pose_limit(net).certified;
+    bench::PlainLoop<Scalar> plain(net);
+    taut::SymplecticEuler<Net<Scalar>> stepper(net);
+    auto state = net.initial_state();
+    Comparison comparison;
+    comparison.run(
+        runs, count,
+        [&](int steps) {
+            if (!stepper.step(state, h, steps)) std::printf("%s: diverged\n", label);
+        },
+        [&](int steps) {
+            for (int i = 0; i < steps; ++i) plain.step(h);
+        });
+    comparison.print(label);
+}
+
+/// Two threads beside one.
+void compare_threads(const char* label, const Net<double>& net, int runs, int count) {
+    const double h = 0.9 * taut::any_pose_limit(net).certified;
+    taut::SymplecticEuler<Net<double>> one(net);
+    taut::SymplecticEuler<Net<double>> two(net, {2});
+    auto state_of_one = net.initial_state();
+    auto state_of_two = state_of_one;
+    Comparison comparison;
+    comparison.clock = CLOCK_MONOTONIC;
+    comparison.run(
+        runs, count, [&](int steps) { std::ignore = two.step(state_of_two, h, steps); },
+        [&](int steps) { std::ignore = one.step(state_of_one, h, steps); });
+    comparison.print(label);
+    if (state_of_one.x != state_of_two.x) std::printf("the bits differ\n");
+}
+
+/// Boost.odeint's symplectic Euler: q' = p, p' = M⁻¹f(q) by System::force.
+void compare_odeint(const char* label, const Net<double>& net, int runs, int count) {
+    using Vector = std::vector<double>;
+    const double h = 0.9 * taut::any_pose_limit(net).certified;
+    auto state = net.initial_state();
+    Vector q(state.x.data(), state.x.data() + state.x.size());
+    Vector p(q.size(), 0);
+    auto given = state;
+    taut::Points<double, 3> f;
+    const auto velocity = [](const Vector& v, Vector& rate) { rate = v; };
+    const auto acceleration = [&](const Vector& x, Vector& rate) {
+        std::copy(x.begin(), x.end(), given.x.data());
+        net.force(given, f);
+        for (Index i = 0; i < net.size(); ++i) f.col(i) *= net.inverse_mass()[i];
+        std::copy(f.data(), f.data() + f.size(), rate.begin());
+    };
+    boost::numeric::odeint::symplectic_euler<Vector> peer;
+    taut::SymplecticEuler stepper(net);
+    Comparison comparison;
+    comparison.run(
+        runs, count, [&](int steps) { std::ignore = stepper.step(state, h, steps); },
+        [&](int steps) {
+            for (int i = 0; i < steps; ++i) {
+                peer.do_step(std::make_pair(velocity, acceleration),
+                             std::make_pair(std::ref(q), std::ref(p)), 0, h);
+            }
+        });
+    comparison.print(label);
+}
+
+/// A lattice of n³ particles in the shape of a cube, its springs to the 13 nearest, nothing pinned.
+Net<double> lattice(Index n) {
+    Net<double> net;
+    for (Index i = 0; i < n * n * n; ++i) {
+        net.add_particle(Eigen::Vector3d(static_cast<double>(i % n), static_cast<double>(i / n % n),
+                                         static_cast<double>(i / n / n)) /
+                             static_cast<double>(n),
+                         0.3 / static_cast<double>(n * n * n));
+    }
+    for (Index z = 0; z < 2; ++z) {
+        for (Index y = z > 0 ? -1 : 0; y < 2; ++y) {
+            for (Index x = z > 0 || y > 0 ? -1 : 1; x < 2; ++x) {
+                for (Index i = 0; i < n * n * n; ++i) {
+                    const Index u = i % n + x;
+                    const Index v = i / n % n + y;
+                    const Index w = i / n / n + z;
+                    if (u < 0 || u >= n || v < 0 || v >= n || w >= n) continue;
+                    net.add_spring(i, (w * n + v) * n + u, 1000);
+                }
+            }
+        }
+    }
+    net.set_gravity({0, 0, -9.81});
+    return net;
+}
+
+double largest_stretch(const Net<double>& net, const Net<double>::State& state) {
+    const auto& springs = net.springs();
+    double stretch = 0;
+    for (std::size_t s = 0; s < springs.a.size(); ++s) {
+        const double l = (state.x.col(springs.b[s]) - state.x.col(springs.a[s])).norm();
+        stretch = std::max(stretch, l / springs.rest_length[s]);
+    }
+    return stretch;
+}
+
+/// One second in frames of 1/60 s: the time of a frame, and what became of the scene.
+void outcome(const char* label, const Net<double>& net) {
+    const double limit = taut::any_pose_limit(net).certified;
+    const double frame = 1.0 / 60;
+    const auto substeps = static_cast<Index>(std::ceil(frame / limit));
+    const double h = frame / static_cast<double>(substeps);
+    taut::SymplecticEuler stepper(net);
+    auto state = net.initial_state();
+    const double start_energy = net.energy(state);
+    double largest_kinetic = 0;
+    double late_energy = 0;
+    int late = 0;
+    double stretch = 0;
+    bool exploded = false;
+    std::vector<double> times;
+    for (int i = 0; i < 60 && !exploded; ++i) {
+        const double start = now();
+        exploded = !stepper.step(state, h, substeps);
+        times.push_back(now() - start);
+        largest_kinetic = std::max(largest_kinetic, net.kinetic_energy(state));
+        stretch = std::max(stretch, largest_stretch(net, state));
+        if (i >= 54) {
+            late_energy += net.energy(state);
+            ++late;
+        }
+    }
+    std::sort(times.begin(), times.end());
+    std::printf("| %s | %lld | %.2f (%.2f) | %.3f %% | %.3f | %s |\n", label,
+                static_cast<long long>(substeps), times.front(), times[times.size() / 2],
+                100 * std::abs(late_energy / late - start_energy) / largest_kinetic, stretch,
+                exploded ? "yes" : "no");
+    std::fflush(stdout);
+}
+
+void memory() {
+    const auto before = mallinfo2();
+    const auto net = taut::hanging_cloth<double>({100, 100});
+    const auto system = mallinfo2();
+    auto state = net.initial_state();
+    const auto given = mallinfo2();
+    taut::SymplecticEuler stepper(net);
+    std::ignore = stepper.step(state, 1e-5);
+    const auto after = mallinfo2();
+    const auto bytes = [](const auto& from, const auto& to) {
+        return static_cast<double>(to.uordblks + to.hblkhd) -
+               static_cast<double>(from.uordblks + from.hblkhd);
+    };
+    const auto springs = static_cast<double>(net.spring_count());
+    std::printf(
+        "\n%.1f bytes a spring, hanging_cloth 100 in double: SpringSystem %.1f, "
+        "SymplecticEuler %.1f.\n",
+        (bytes(before, system) + bytes(given, after)) / springs, bytes(before, system) / springs,
+        bytes(given, after) / springs);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    std::printf(
+        "## A symplectic step, ms\n\n"
+        "| scene | plain loop | Taut: min (median) | ratio: of minima (median) |\n"
+        "|---|---|---|---|\n");
+    for (const Index n : {32, 64, 100, 200, 400}) {
+        const int count = n < 400 ? 100 : 30;
+        const int runs = n < 200 ? 21 : 7;
+        char label[64];
+        std::snprintf(label, sizeof label, "hanging_cloth %d", static_cast<int>(n));
+        compare<double>(label, taut::hanging_cloth<double>({n, n}), runs, count);
+        std::snprintf(label, sizeof label, "hanging_cloth %d, float", static_cast<int>(n));
+        compare<float>(label, taut::hanging_cloth<float>({n, n}), runs, count);
+    }
+    compare<double>("free lattice 30³", lattice(30), 7, 100);
+    taut::SpringSystem<double, 3> mesh;
+    if (argc > 1) {
+        const auto file = example::read_obj(argv[1]);
+        mesh = taut::springs_from_mesh<double>(file.vertices, file.faces).system;
+        mesh.set_gravity({0, 0, -9.81});
+        mesh.pin(0);
+        compare<double>("mesh", mesh, 21, 100);
+    }
+    const auto cloth = taut::hanging_cloth<double>({100, 100});
+    std::printf("\n| scene | Boost.odeint | Taut: min (median) | ratio |\n|---|---|---|---|\n");
+    compare_odeint("hanging_cloth 100", cloth, 7, 100);
+#ifdef _OPENMP
+    std::printf("\n| scene | one thread | two: min (median) | ratio |\n|---|---|---|---|\n");
+    compare_threads("hanging_cloth 100", cloth, 11, 100);
+    compare_threads("hanging_cloth 400", taut::hanging_cloth<double>({400, 400}), 7, 30);
+#endif
+    std::printf(
+        "\n## One second in frames of 1/60 s at the any-pose limit\n\n"
+        "| scene | substeps | frame, ms: min (median) | energy drift | largest l/L | exploded |\n"
+        "|---|---|---|---|---|---|\n");
+    for (const Index n : {32, 64, 100}) {
+        char label[64];
+        std::snprintf(label, sizeof label, "hanging_cloth %d", static_cast<int>(n));
+        outcome(label, taut::hanging_cloth<double>({n, n}));
+    }
+    if (mesh.size() > 0) outcome("mesh", mesh);
+    memory();
+}

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+
+namespace taut::detail {
+
+/// No register of Eigen's holds more scalars than this; arrays are padded by it.
+inline constexpr int most_lanes = 64 / sizeof(float);
+
+template <class Packet>
+EIGEN_ALWAYS_INLINE Packet rsqrt_packet(const Packet& a) {
+    return Eigen::internal::prsqrt(a);
+}
+template <class Packet>
+EIGEN_ALWAYS_INLINE Packet select_less_packet(const Packet& a, const Packet& b, const Packet& yes,
+                                              const Packet& no) {
+    return Eigen::internal::pselect(Eigen::internal::pcmp_lt(a, b), yes, no);
+}
+template <class Packet>
+EIGEN_ALWAYS_INLINE Packet unless_negative_packet(const Packet& sign, const Packet& value) {
+    const Packet zero = Eigen::internal::pset1<Packet>(0);
+    return Eigen::internal::pselect(Eigen::internal::pcmp_lt(sign, zero), zero, value);
+}
+
+#ifdef EIGEN_VECTORIZE_AVX512
+// Eigen's own go through vectors of masks, and give infinity its due; here they are most of a step.
+// With y = (1 + ε)/√a good to 14 bits and e = 1 − ay²: 1/√a = y(1 + e/2 + 3e²/8 + 5e³/16 + …).
+EIGEN_ALWAYS_INLINE __m512d rsqrt_packet(const __m512d& a) {
+    const __m512d y = _mm512_maskz_rsqrt14_pd(0xff, a);
+    const __m512d e = _mm512_fnmadd_pd(_mm512_mul_pd(a, y), y, _mm512_set1_pd(1));
+    const __m512d p = _mm512_fmadd_pd(e, _mm512_set1_pd(0.3125), _mm512_set1_pd(0.375));
+    const __m512d q = _mm512_fmadd_pd(e, p, _mm512_set1_pd(0.5));
+    return _mm512_fmadd_pd(_mm512_mul_pd(y, e), q, y);
+}
+EIGEN_ALWAYS_INLINE __m512 rsqrt_packet(const __m512& a) {
+    const __m512 y = _mm512_maskz_rsqrt14_ps(0xffff, a);
+    const __m512 e = _mm512_fnmadd_ps(_mm512_mul_ps(a, y), y, _mm512_set1_ps(1));
+    return _mm512_fmadd_ps(_mm512_mul_ps(y, e), _mm512_set1_ps(0.5f), y);
+}
+EIGEN_ALWAYS_INLINE __m512d unless_negative_packet(const __m512d& sign, const __m512d& value) {
+    return _mm512_maskz_mov_pd(_mm512_cmp_pd_mask(sign, _mm512_setzero_pd(), _CMP_GE_OQ), value);
+}
+EIGEN_ALWAYS_INLINE __m512 unless_negative_packet(const __m512& sign, const __m512& value) {
+    return _mm512_maskz_mov_ps(_mm512_cmp_ps_mask(sign, _mm512_setzero_ps(), _CMP_GE_OQ), value);
+}
+EIGEN_ALWAYS_INLINE __m512d select_less_packet(const __m512d& a, const __m512d& b,
+                                               const __m512d& yes, const __m512d& no) {
+    return _mm512_mask_blend_pd(_mm512_cmp_pd_mask(a, b, _CMP_LT_OQ), no, yes);
+}
+EIGEN_ALWAYS_INLINE __m512 select_less_packet(const __m512& a, const __m512& b, const __m512& yes,
+                                              const __m512& no) {
+    return _mm512_mask_blend_ps(_mm512_cmp_ps_mask(a, b, _CMP_LT_OQ), no, yes);
+}
+#endif
+
+/// One vector register of scalars with a scalar's arithmetic, on Eigen's packets: vectorised for
+/// whatever the compiler's flags allow (SSE2 on plain x86-64), one number where there is nothing.
+template <class Scalar>
+struct Lanes {
+    using Packet = typename Eigen::internal::packet_traits<Scalar>::type;
+    static constexpr int size = Eigen::internal::unpacket_traits<Packet>::size;
+
+    Packet packet;
+
+    Lanes() = default;
+    EIGEN_ALWAYS_INLINE Lanes(Scalar value) : packet(Eigen::internal::pset1<Packet>(value)) {}
+    static EIGEN_ALWAYS_INLINE Lanes of(const Packet& packet) {
+        Lanes lanes;
+        lanes.packet = packet;
+        return lanes;
+    }
+    static EIGEN_ALWAYS_INLINE Lanes load(const Scalar* from) {
+        return of(Eigen::internal::ploadu<Packet>(from));
+    }
+    EIGEN_ALWAYS_INLINE void store(Scalar* to) const { Eigen::internal::pstoreu(to, packet); }
+
+    friend EIGEN_ALWAYS_INLINE Lanes operator+(const Lanes& a, const Lanes& b) {
+        return of(Eigen::internal::padd(a.packet, b.packet));
+    }
+    friend EIGEN_ALWAYS_INLINE Lanes operator-(const Lanes& a, const Lanes& b) {
+        return of(Eigen::internal::psub(a.packet, b.packet));
+    }
+    friend EIGEN_ALWAYS_INLINE Lanes operator*(const Lanes& a, const Lanes& b) {
+        return of(Eigen::internal::pmul(a.packet, b.packet));
+    }
+    friend EIGEN_ALWAYS_INLINE Lanes operator/(const Lanes& a, const Lanes& b) {
+        return of(Eigen::internal::pdiv(a.packet, b.packet));
+    }
+    friend EIGEN_ALWAYS_INLINE Lanes operator-(const Lanes& a) {
+        return of(Eigen::internal::pnegate(a.packet));
+    }
+    EIGEN_ALWAYS_INLINE Lanes& operator+=(const Lanes& other) { return *this = *this + other; }
+    EIGEN_ALWAYS_INLINE Lanes& operator-=(const Lanes& other) { return *this = *this - other; }
+    EIGEN_ALWAYS_INLINE Lanes& operator*=(const Lanes& other) { return *this = *this * other; }
+
+    friend EIGEN_ALWAYS_INLINE Lanes max(const Lanes& a, const Lanes& b) {
+        return of(Eigen::internal::pmax(a.packet, b.packet));
+    }
+    friend EIGEN_ALWAYS_INLINE Lanes min(const Lanes& a, const Lanes& b) {
+        return of(Eigen::internal::pmin(a.packet, b.packet));
+    }
+    friend EIGEN_ALWAYS_INLINE Lanes sqrt(const Lanes& a) {
+        return of(Eigen::internal::psqrt(a.packet));
+    }
+    /// 1/√a of normal numbers, to a few ulp.
+    friend EIGEN_ALWAYS_INLINE Lanes reciprocal_sqrt(const Lanes& a) {
+        return of(rsqrt_packet(a.packet));
+    }
+    /// `value` in the lanes where `sign` is ≥ 0, and 0 in the others, whatever they hold.
+    friend EIGEN_ALWAYS_INLINE Lanes unless_negative(const Lanes& sign, const Lanes& value) {
+        return of(unless_negative_packet(sign.packet, value.packet));
+    }
+    /// Lane by lane, `yes` where a < b and `no` elsewhere, whatever the other one holds.
+    friend EIGEN_ALWAYS_INLINE Lanes where_less(const Lanes& a, const Lanes& b, const Lanes& yes,
+                                                const Lanes& no) {
+        return of(select_less_packet(a.packet, b.packet, yes.packet, no.packet));
+    }
+};
+
+/// visit(d) for each of the coordinates, unrolled whatever the compiler's flags.
+template <int Dim, class Visitor>
+EIGEN_ALWAYS_INLINE void for_each_axis(Visitor&& visit) {
+    visit(0);
+    if constexpr (Dim > 1) visit(1);
+    if constexpr (Dim > 2) visit(2);
+}
+
+}  // namespace taut::detail

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+
+// After its first call an explicit step allocates nothing: neither by operator new nor by Eigen.
+
+#define EIGEN_RUNTIME_NO_MALLOC
+#include <cstdio>
+#include <cstdlib>
+#include <new>
+
+namespace {
+long allocations = 0;
+bool eigen_allocated = false;
+}  // namespace
+
+// Eigen asserts on every allocation while none is allowed.
+#define eigen_assert(condition) ((condition) ? void() : void(eigen_allocated = true))
+#include <taut/taut.hpp>
+
+// Not inline: GCC would take the pair for a mismatch of new and free.
+EIGEN_DONT_INLINE void* operator new(std::size_t size) {
+    ++allocations;
+    if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+    std::abort();
+}
+EIGEN_DONT_INLINE void* operator new[](std::size_t size) { return operator new(size); }
+EIGEN_DONT_INLINE void operator delete(void* memory) noexcept { std::free(memory); }
+EIGEN_DONT_INLINE void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+EIGEN_DONT_INLINE void operator delete[](void* memory) noexcept { std::free(memory); }
+EIGEN_DONT_INLINE void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace {
+
+template <class Stepper, class System>
+bool allocates(const char* name, const System& system) {
+    auto state = system.initial_state();
+    Stepper stepper(system);
+    const auto step = [&](taut::Index count) { return bool(stepper.step(state, 1e-5, count)); };
+    if (!step(2)) return true;
+    const long before = allocations;
+    eigen_allocated = false;
+    Eigen::internal::set_is_malloc_allowed(false);
+    const bool stepped = step(1) && step(130);
+    Eigen::internal::set_is_malloc_allowed(true);
+    const bool found = allocations != before || eigen_allocated || !stepped;
+    if (found) std::fprintf(stderr, "%s allocates, or does not step\n", name);
+    return found;
+}
+
+template <class System>
+bool any_allocates(const System& system) {
+    return allocates<taut::SymplecticEuler<System>>("symplectic_euler", system) ||
+           allocates<taut::ExplicitEuler<System>>("explicit_euler", system) ||
+           allocates<taut::VelocityVerlet<System>>("velocity_verlet", system);
+}
+
+}  // namespace
+
+int main() {
+    auto cloth = taut::hanging_cloth<double>({60, 60});
+    if (any_allocates(cloth)) return 1;
+    cloth.set_rayleigh({0.1, 1e-6});
+    cloth.add_spring(5, 3003, 10, 0.1);
+    if (any_allocates(cloth)) return 1;
+    cloth.set_external_force([](const auto&, auto& f) { f.array() += 0.001; });
+    return any_allocates(cloth) ? 1 : 0;
+}

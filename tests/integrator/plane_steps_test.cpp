@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#include <taut/integrator/explicit_euler.hpp>
+#include <taut/integrator/symplectic_euler.hpp>
+#include <taut/scene/cloth.hpp>
+
+#include "../support/catch.hpp"
+#include "../support/random_system.hpp"
+#include "../support/tolerance.hpp"
+
+using namespace taut_test;
+
+namespace {
+
+/// TensionOnly in arithmetic that registers can do, too.
+struct Slack : TensionOnly {
+    static constexpr bool vectorizable = true;
+
+    template <class Scalar>
+    static Scalar tension(const Parameters<Scalar>& p, Scalar L, Scalar l) {
+        using std::max;
+        return p.stiffness * max(l - L, Scalar(0));
+    }
+    template <class Scalar>
+    static Scalar tension_slope(const Parameters<Scalar>& p, Scalar L, Scalar l) {
+        using std::max;
+        using std::min;
+        // 1 where l > L: any excess is far more than the square of a rounding error.
+        const Scalar excess = max(l - L, Scalar(0));
+        return p.stiffness * min(excess * Scalar(1e30f), Scalar(1));
+    }
+};
+
+template <class Scalar>
+Slack::Parameters<Scalar> draw_parameters(Random& random, Slack) {
+    return {static_cast<Scalar>(random.uniform(20, 200))};
+}
+
+/// The plain path: a stepper cannot know that this force is none.
+template <class System>
+System by_the_plain_path(System system) {
+    system.set_external_force([](const auto&, auto&) {});
+    return system;
+}
+
+template <template <class...> class Stepper, class System>
+void check_equals_plain_path(const System& system, const typename System::State& start) {
+    using Scalar = typename System::Scalar;
+    const auto plain = by_the_plain_path(system);
+    Stepper fast_stepper(system);
+    Stepper plain_stepper(plain);
+    auto state = start;
+    auto expected = start;
+    const auto h = static_cast<Scalar>(0.001);
+    REQUIRE(fast_stepper.step(state, h, 4));
+    REQUIRE(plain_stepper.step(expected, h, 4));
+    const double force_scale = largest(expected.v) + largest(expected.x);
+    CHECK(distance(state.x, expected.x) <= Tolerance<Scalar>::rounding * force_scale);
+    CHECK(distance(state.v, expected.v) <= Tolerance<Scalar>::rounding * force_scale);
+    CHECK(distance(state.v, start.v) > 1e-4);
+    CHECK(state.time == expected.time);
+}
+
+/// A net of rows × columns with springs to neighbours and diagonals, of random stiffness.
+template <class Scalar, int Dim>
+taut::SpringSystem<Scalar, Dim> net(Random& random, Index rows, Index columns) {
+    taut::SpringSystem<Scalar, Dim> system;
+    for (Index i = 0; i < rows * columns; ++i) {
+        system.add_particle(random.vector<Scalar, Dim>(-1, 1),
+                            static_cast<Scalar>(random.uniform(0.5, 2)));
+    }
+    const auto join = [&](Index rise, Index run) {
+        for (Index r = 0; r + rise < rows; ++r) {
+            for (Index c = run < 0 ? -run : 0; c + run < columns && c < columns; ++c) {
+                const Index a = r * columns + c;
+                system.add_spring(taut::Spring<Scalar, taut::Hookean>{
+                    a,
+                    a + rise * columns + run,
+                    {static_cast<Scalar>(random.uniform(20, 200))},
+                    static_cast<Scalar>(random.uniform(0.2, 1.4))});
+            }
+        }
+    };
+    join(0, 1);
+    join(1, 0);
+    join(1, 1);
+    join(1, -1);
+    return system;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("plane_steps: a scene without order is stepped as by the plain path",
+                   "[integrator]", (Case<float, 2>), (Case<double, 1>), (Case<double, 3>)) {
+    using Scalar = typename TestType::Scalar;
+    Random random(41);
+    for (const bool damped : {false, true}) {
+        RandomOptions options;
+        options.particles = 300;
+        options.springs = 900;
+        options.dampers = damped;
+        options.rayleigh = damped;
+        options.pinned = damped ? 7 : 0;
+        const auto system = random_system<Scalar, TestType::Dim>(random, options);
+        check_equals_plain_path<taut::SymplecticEuler>(system, random_state(random, system));
+        check_equals_plain_path<taut::ExplicitEuler>(system, random_state(random, system));
+    }
+}
+
+TEMPLATE_TEST_CASE("plane_steps: grids of any width are stepped as by the plain path",
+                   "[integrator]", float, double) {
+    Random random(42);
+    for (const Index columns : {17, 30, 64}) {
+        for (const bool damped : {false, true}) {
+            auto system = net<TestType, 3>(random, 90, columns);  // 64: beyond one block
+            if (damped) {
+                system.set_rayleigh({0.25, 0.0078125});
+                system.pin(columns - 1);
+                system.add_spring(taut::Spring<TestType, taut::Hookean>{
+                    0, 89 * columns, {100}, TestType(0.5), TestType(2)});
+            }
+            system.set_gravity({0, -10, 3});
+            check_equals_plain_path<taut::SymplecticEuler>(system, random_state(random, system));
+        }
+    }
+}
+
+TEMPLATE_TEST_CASE("plane_steps: a lone damper along a grid acts in every block", "[integrator]",
+                   float, double) {
+    Random random(43);
+    auto system = net<TestType, 2>(random, 80, 60);
+    for (Index i = 0; i + 2000 < system.size(); i += 7) {
+        system.add_spring(taut::Spring<TestType, taut::Hookean>{
+            i, i + 2000, {50}, TestType(0.5), static_cast<TestType>(random.uniform(0.1, 2))});
+    }
+    check_equals_plain_path<taut::SymplecticEuler>(system, random_state(random, system));
+}
+
+TEMPLATE_TEST_CASE("plane_steps: every law, in registers or one by one", "[integrator]", float,
+                   double) {
+    Random random(44);
+    RandomOptions options;
+    options.particles = 60;
+    options.springs = 150;
+    for (const bool damped : {false, true}) {
+        options.dampers = damped;
+        options.rayleigh = damped;
+        auto system =
+            random_system<TestType, 3, taut::Hookean, Glue, TensionOnly, Slack>(random, options);
+        // Runs of both kinds of law.
+        for (Index i = 0; i + 3 < 60; ++i) {
+            system.template add_spring<Glue>({i, i + 3, {60, TestType(0.5)}, TestType(0.7)});
+            system.template add_spring<Slack>({i, i + 2, {80}, TestType(0.7)});
+        }
+        check_equals_plain_path<taut::SymplecticEuler>(system, random_state(random, system));
+    }
+}
+
+TEMPLATE_TEST_CASE("plane_steps: springs of no length are the plain path's", "[integrator]", float,
+                   double) {
+    Random random(45);
+    for (const bool rest : {false, true}) {
+        auto system = net<TestType, 3>(random, 40, 20);
+        for (Index i = 0; i + 5 < system.size(); i += 5) {
+            system.add_spring(taut::Spring<TestType, taut::Hookean>{
+                i, i + 5, {50}, TestType(rest ? 0.5 : 0), TestType(1)});
+        }
+        system.set_rayleigh({0, 0.0078125});
+        auto state = random_state(random, system);
+        for (Index i = 0; i < system.size(); ++i) {
+            if (i % 3 != 0) state.x.col(i) = state.x.col(i / 3 * 3);
+        }
+        Random later(46);
+        state.v = later.points<TestType, 3>(system.size(), -1, 1);
+        const auto plain = by_the_plain_path(system);
+        taut::SymplecticEuler fast_stepper(system);
+        taut::SymplecticEuler plain_stepper(plain);
+        auto expected = state;
+        const auto start = state;
+        REQUIRE(fast_stepper.step(state, TestType(0.001)));
+        REQUIRE(plain_stepper.step(expected, TestType(0.001)));
+        CHECK(distance(state.v, expected.v) <= Tolerance<TestType>::rounding);
+        CHECK(distance(state.v, start.v) > 1e-3);
+    }
+}
+
+TEST_CASE("plane_steps: divergence late in a long call names the plain path's step and particle",
+          "[integrator]") {
+    Random random(47);
+    auto system = net<double, 2>(random, 30, 30);
+    auto start = random_state(random, system);
+    const auto plain = by_the_plain_path(system);
+    taut::SymplecticEuler fast_stepper(system);
+    taut::SymplecticEuler plain_stepper(plain);
+    auto state = start;
+    const auto report = fast_stepper.step(state, 1.0, 5000);
+    const auto expected = plain_stepper.step(start, 1.0, 5000);
+    CHECK(report.status == taut::Status::diverged);
+    CHECK(report.iterations == expected.iterations);
+    CHECK(report.where == expected.where);
+    CHECK(same_bits(state, start));
+}
+
+TEST_CASE("plane_steps: a number of threads below one is refused", "[integrator][bad_input]") {
+    const auto cloth = taut::hanging_cloth<double>({3, 3});
+    CHECK_THROWS_WITH(taut::SymplecticEuler(cloth, {0}),
+                      ContainsSubstring("threads is 0; it must be >= 1"));
+}
