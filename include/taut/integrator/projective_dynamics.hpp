@@ -13,15 +13,6 @@
 #include "detail/step_objective.hpp"
 
 namespace taut {
-namespace detail {
-
-template <class System>
-inline constexpr bool is_spring_system_v = false;
-template <class Scalar, int Dim, class... Laws>
-inline constexpr bool is_spring_system_v<SpringSystem<Scalar, Dim, Laws...>> = true;
-
-}  // namespace detail
-
 /// Implicit Euler with the true, nonlinear spring forces, approached by iterations that share one
 /// constant n × n matrix P = M + hL_c + h²L_k, factorised once for an h and a scene:
 ///     M(v⁺ − v) = h(f(x⁺) − D(x)v⁺),  x⁺ = x + hv⁺;   x ← x − P⁻¹∇φ(x), all Dim columns at once.

@@ -95,10 +95,14 @@ auto ConjugateGradient<Scalar_, Dim, Preconditioner>::iterate(const Vector& b) c
     A_.multiply(x_, q_);
     r_ = b - q_;
     error_ = r_.norm() / norm;
+    if (!(error_ <= 1)) {  // a guess worse than none
+        x_.setZero();
+        r_ = b;
+        error_ = 1;
+    }
     const Index cap = max_iterations_ > 0 ? max_iterations_ : 2 * b.size();
     Scalar rz = 0;
-    // Written so that a NaN goes on to the checks below.
-    while (!(error_ <= tolerance_)) {
+    while (!(error_ <= tolerance_)) {  // a NaN goes on to the checks below
         preconditioner_.apply(A_, r_, z_);
         const Scalar next = r_.dot(z_);
         if (iterations_ == 0) {

@@ -10,6 +10,11 @@
 
 namespace taut::detail {
 
+template <class System>
+inline constexpr bool is_spring_system_v = false;
+template <class Scalar, int Dim, class... Laws>
+inline constexpr bool is_spring_system_v<SpringSystem<Scalar, Dim, Laws...>> = true;
+
 /// What the nonlinear implicit Euler step of a spring system minimises over the new positions x:
 ///     φ(x) = ½(x − y)ᵀM(x − y) + h²U(x) + ½h(x − x₀)ᵀD(x₀)(x − x₀),
 /// y = x₀ + hv₀ + h²M⁻¹f the inertial positions, f gravity and external force at the start, U the
@@ -33,6 +38,8 @@ public:
     Scalar scale() const { return scale_; }
     /// @param g  ← ∇φ(x), Dim × n, kg·m, zero for pinned particles   @returns φ(x), kg·m²
     Scalar evaluate(const System& system, const Positions& x, Positions& g) const;
+    /// What the rounding of x makes of ∇φ(x), relative to scale().
+    double rounding(const System& system, const Positions& x) const;
     /// Whether `next` is no larger than `value` but for the rounding of such sums.
     static bool not_above(Scalar next, Scalar value) {
         return next <= value + 64 * std::numeric_limits<Scalar>::epsilon() * std::abs(value);
@@ -89,6 +96,18 @@ void StepObjective<System>::set_dampers(const System& system, const State& state
                 {static_cast<int>(t.a), static_cast<int>(t.b), axial, transverse, t.d});
         }
     });
+}
+
+template <class System>
+double StepObjective<System>::rounding(const System& system, const Positions& x) const {
+    Scalar squares = 0;
+    system.for_each_tangent(x, [&](const SpringTangent<Scalar, Dim>& t) {
+        const Scalar stiffness = h_ * h_ * t.bound + h_ * t.damping;
+        squares += 2 * stiffness * stiffness;
+    });
+    for (Index i = 0; i < system.size(); ++i) squares += system.mass(i) * system.mass(i);
+    return static_cast<double>(8 * std::numeric_limits<Scalar>::epsilon() * std::sqrt(squares) *
+                               x.cwiseAbs().maxCoeff() / scale_);
 }
 
 template <class System>
