@@ -15,7 +15,7 @@
 namespace taut {
 /// Implicit Euler with the true, nonlinear spring forces, approached by iterations that share one
 /// constant n × n matrix P = M + hL_c + h²L_k, factorised once for an h and a scene:
-///     M(v⁺ − v) = h(f(x⁺) − D(x)v⁺),  x⁺ = x + hv⁺;   x ← x − P⁻¹∇φ(x), all Dim columns at once.
+///     M(v⁺ − v) = h(f(x⁺) − D(x)v⁺),  x⁺ = x + u,  u = hv⁺;   u ← u − P⁻¹∇φ(u).
 ///
 /// φ is the objective of the step (detail/step_objective.hpp). For Hooke's law an iteration is the
 /// local/global one of T. Liu, A. Bargteil, J. O'Brien, L. Kavan, "Fast simulation of mass-spring
@@ -91,9 +91,9 @@ private:
     bool prepared_ = false;
     int iterations_ = 0;
     Columns columns_;              // n × Dim, the free columns of what P is solved for
-    Points<Scalar, Dim> x_, g_;    // iterate, m, and its gradient, kg·m
-    Points<Scalar, Dim> dx_;       // the next move
-    Points<Scalar, Dim> x1_, g1_;  // a trial
+    Points<Scalar, Dim> u_, g_;    // iterate, m, and its gradient, kg·m
+    Points<Scalar, Dim> du_;       // its next change
+    Points<Scalar, Dim> u1_, g1_;  // a trial
 };
 
 template <class System, class Solver>
@@ -142,31 +142,31 @@ void ProjectiveDynamics<System, Solver>::solve(Points<Scalar, Dim>& q) {
     }
 }
 
-/// One iteration on x_, g_ and φ; false when no shorter step lowers φ: what is left is rounding.
+/// One iteration on u_, g_ and φ; false when no shorter step lowers φ: what is left is rounding.
 template <class System, class Solver>
 bool ProjectiveDynamics<System, Solver>::descend(Scalar& value) {
     const auto by_p = [this](Points<Scalar, Dim>& q) { solve(q); };
-    dx_ = -g_;
-    memory_.apply(dx_, by_p);
-    Scalar slope = dx_.cwiseProduct(g_).sum();
+    du_ = -g_;
+    memory_.apply(du_, by_p);
+    Scalar slope = du_.cwiseProduct(g_).sum();
     if (!(slope < 0)) {
         memory_.clear();
-        dx_ = -g_;
-        solve(dx_);
-        slope = dx_.cwiseProduct(g_).sum();
+        du_ = -g_;
+        solve(du_);
+        slope = du_.cwiseProduct(g_).sum();
     }
     Scalar t = 1;
     for (int halving = 0; halving < 8; ++halving, t /= 2) {
-        x1_ = x_ + t * dx_;
-        const Scalar next = objective_.evaluate(*system_, x1_, g1_);
+        u1_ = u_ + t * du_;
+        const Scalar next = objective_.evaluate(*system_, u1_, g1_);
         if (!objective_.not_above(next, value + Scalar(1e-4) * t * slope)) continue;
-        x_.swap(x1_);
+        u_.swap(u1_);
         g_.swap(g1_);
         value = next;
         if (options_.window > 0) {
-            x1_ = x_ - x1_;
+            u1_ = u_ - u1_;
             g1_ = g_ - g1_;
-            memory_.add(x1_, g1_);
+            memory_.add(u1_, g1_);
         }
         return true;
     }
@@ -178,20 +178,19 @@ Report ProjectiveDynamics<System, Solver>::advance(State& state, Scalar h) {
     if (const Status status = prepare(h); status != Status::ok) return {status};
     objective_.begin(*system_, state, h);
     memory_.clear();
-    x_ = objective_.inertial();
-    Scalar value = objective_.evaluate(*system_, x_, g_);
-    const auto residual = [this] {
-        const Scalar norm = g_.norm();
-        return norm > 0 ? static_cast<double>(norm / objective_.scale()) : 0;
-    };
+    u_ = objective_.inertial();
+    Scalar value = objective_.evaluate(*system_, u_, g_);
     iterations_ = 0;
-    while (iterations_ < options_.iterations && residual() > options_.tolerance && descend(value)) {
+    while (iterations_ < options_.iterations && objective_.residual(g_) > options_.tolerance) {
         ++iterations_;
+        if (descend(value)) continue;
+        if (memory_.empty()) break;
+        memory_.clear();  // plain P descends wherever anything does
     }
-    for (const Index i : free_) state.v.col(i) = (x_.col(i) - state.x.col(i)) / h;
-    state.x = x_;
+    for (const Index i : free_) state.v.col(i) = u_.col(i) / h;
+    state.x += u_;
     Report report;
-    report.residual = residual();
+    report.residual = objective_.residual(g_);
     return report;
 }
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 #include "../../core/types.hpp"
@@ -19,6 +18,7 @@ public:
 
     explicit LimitedMemory(int window) : pairs_(static_cast<std::size_t>(window)) {}
     void clear() { count_ = 0; }
+    bool empty() const { return count_ == 0; }
     /// Takes up a move and the change of the gradient over it, unless their product is not
     /// positive.
     void add(const Vector& move, const Vector& change) {

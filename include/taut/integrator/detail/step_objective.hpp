@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "../../model/spring_system.hpp"
@@ -15,31 +16,34 @@ inline constexpr bool is_spring_system_v = false;
 template <class Scalar, int Dim, class... Laws>
 inline constexpr bool is_spring_system_v<SpringSystem<Scalar, Dim, Laws...>> = true;
 
-/// What the nonlinear implicit Euler step of a spring system minimises over the new positions x:
-///     φ(x) = ½(x − y)ᵀM(x − y) + h²U(x) + ½h(x − x₀)ᵀD(x₀)(x − x₀),
-/// y = x₀ + hv₀ + h²M⁻¹f the inertial positions, f gravity and external force at the start, U the
-/// energy of the springs. ∇φ = 0 is M(v⁺ − v₀) = h(f − ∇U(x) − D(x₀)v⁺) with x = x₀ + hv⁺. D is
-/// held at the start, as ImplicitEuler's one linearised solve holds it. Pinned particles are not
-/// variables: they are at x₀ + hv₀.
+/// What the nonlinear implicit Euler step of a spring system minimises over the moves u = x⁺ − x:
+///     φ(u) = ½(u − w)ᵀM(u − w) + h²U(x + u) + ½h uᵀD(x)u,
+/// w = hv + h²M⁻¹f the inertial move, f gravity and external force at the start, U the energy of
+/// the springs. ∇φ = 0 is M(v⁺ − v) = h(f − ∇U(x⁺) − D(x)v⁺) with u = hv⁺. D is held at the start,
+/// as ImplicitEuler's one linearised solve holds it. Pinned particles are not variables: they move
+/// by hv. (Moves and not positions, since a float's position has no digits left for a velocity.)
 template <class System>
 class StepObjective {
 public:
     using Scalar = typename System::Scalar;
     using State = typename System::State;
     static constexpr int Dim = System::Dim;
-    using Positions = Points<Scalar, Dim>;
+    using Moves = Points<Scalar, Dim>;
     using Vector = Eigen::Matrix<Scalar, Dim, 1>;
 
     /// A step of h, s, from `state`.
     void begin(const System& system, const State& state, Scalar h);
-    /// y, Dim × n, m: with the pinned particles where they will be.
-    const Positions& inertial() const { return y_; }
-    /// ∇φ is judged by this norm: that of ∇φ at the inertial positions, or of M(y − x₀). kg·m
-    Scalar scale() const { return scale_; }
-    /// @param g  ← ∇φ(x), Dim × n, kg·m, zero for pinned particles   @returns φ(x), kg·m²
-    Scalar evaluate(const System& system, const Positions& x, Positions& g) const;
-    /// What the rounding of x makes of ∇φ(x), relative to scale().
-    double rounding(const System& system, const Positions& x) const;
+    /// w, Dim × n, m, and hv for pinned particles.
+    const Moves& inertial() const { return w_; }
+    /// ‖∇φ‖ relative to that of the inertial move or to ‖Mw‖.
+    double residual(const Moves& g) const {
+        const Scalar norm = g.norm();
+        return norm > 0 ? static_cast<double>(norm / scale_) : 0;
+    }
+    /// @param g  ← ∇φ(u), Dim × n, kg·m, zero for pinned particles   @returns φ(u), kg·m²
+    Scalar evaluate(const System& system, const Moves& u, Moves& g);
+    /// What the rounding of positions makes of residual().
+    double rounding(const System& system) const;
     /// Whether `next` is no larger than `value` but for the rounding of such sums.
     static bool not_above(Scalar next, Scalar value) {
         return next <= value + 64 * std::numeric_limits<Scalar>::epsilon() * std::abs(value);
@@ -55,28 +59,29 @@ private:
     };
     void set_dampers(const System& system, const State& state);
 
-    Scalar h_ = 0;
-    Positions x0_;
-    Positions y_;
-    Positions f_;                  // external force, N; then ∇φ at the start
+    Scalar h_ = 0;                 // s
+    Moves start_;                  // x, Dim × n, m
+    Moves x_;                      // x + u of the last evaluation
+    Moves w_;                      // the inertial move
+    Moves f_;                      // external force, N; then ∇φ(w)
     std::vector<Damper> dampers_;  // of D without its mass-proportional part
-    Scalar scale_ = 0;
+    Scalar scale_ = 0;             // what ‖∇φ‖ is relative to, kg·m
 };
 
 template <class System>
 void StepObjective<System>::begin(const System& system, const State& state, Scalar h) {
     h_ = h;
-    x0_ = state.x;
+    start_ = state.x;
     system.external_force(state, f_);
-    y_ = state.x + h * state.v;
+    w_ = h * state.v;
     scale_ = 0;
     for (Index i = 0; i < system.size(); ++i) {
         if (system.is_pinned(i)) continue;
-        y_.col(i) += h * h * (system.gravity() + f_.col(i) / system.mass(i));
-        scale_ += (system.mass(i) * (y_.col(i) - x0_.col(i))).squaredNorm();
+        w_.col(i) += h * h * (system.gravity() + f_.col(i) / system.mass(i));
+        scale_ += (system.mass(i) * w_.col(i)).squaredNorm();
     }
     set_dampers(system, state);
-    evaluate(system, y_, f_);
+    evaluate(system, w_, f_);
     scale_ = std::max(std::sqrt(scale_), f_.norm());
 }
 
@@ -99,27 +104,27 @@ void StepObjective<System>::set_dampers(const System& system, const State& state
 }
 
 template <class System>
-double StepObjective<System>::rounding(const System& system, const Positions& x) const {
+double StepObjective<System>::rounding(const System& system) const {
     Scalar squares = 0;
-    system.for_each_tangent(x, [&](const SpringTangent<Scalar, Dim>& t) {
+    system.for_each_tangent(x_, [&](const SpringTangent<Scalar, Dim>& t) {
         const Scalar stiffness = h_ * h_ * t.bound + h_ * t.damping;
         squares += 2 * stiffness * stiffness;
     });
     for (Index i = 0; i < system.size(); ++i) squares += system.mass(i) * system.mass(i);
     return static_cast<double>(8 * std::numeric_limits<Scalar>::epsilon() * std::sqrt(squares) *
-                               x.cwiseAbs().maxCoeff() / scale_);
+                               x_.cwiseAbs().maxCoeff() / scale_);
 }
 
 template <class System>
-auto StepObjective<System>::evaluate(const System& system, const Positions& x, Positions& g) const
-    -> Scalar {
-    g.setZero(Dim, x.cols());
+auto StepObjective<System>::evaluate(const System& system, const Moves& u, Moves& g) -> Scalar {
+    x_ = start_ + u;
+    g.setZero(Dim, u.cols());
     const Scalar h2 = h_ * h_;
     Scalar energy = 0;  // J
     system.for_each_set([&](const auto& set) {
         using Law = typename std::decay_t<decltype(set)>::Law;
         for (std::size_t s = 0; s < set.a.size(); ++s) {
-            const Vector dx = x.col(set.b[s]) - x.col(set.a[s]);
+            const Vector dx = x_.col(set.b[s]) - x_.col(set.a[s]);
             const Scalar l = dx.norm();
             const Scalar L = set.rest_length[s];
             energy += Law::energy(set.parameters[s], L, l);
@@ -131,8 +136,7 @@ auto StepObjective<System>::evaluate(const System& system, const Positions& x, P
     });
     Scalar value = h2 * energy;
     for (const Damper& damper : dampers_) {
-        const Vector move =
-            (x.col(damper.b) - x0_.col(damper.b)) - (x.col(damper.a) - x0_.col(damper.a));
+        const Vector move = u.col(damper.b) - u.col(damper.a);
         const Scalar along = damper.d.dot(move);
         const Vector pull =
             damper.transverse * move + (damper.axial - damper.transverse) * along * damper.d;
@@ -146,11 +150,10 @@ auto StepObjective<System>::evaluate(const System& system, const Positions& x, P
             g.col(i).setZero();
             continue;
         }
-        const Vector from_inertial = x.col(i) - y_.col(i);
-        const Vector from_start = x.col(i) - x0_.col(i);
-        g.col(i) += system.mass(i) * (from_inertial + drag * from_start);
+        const Vector from_inertial = u.col(i) - w_.col(i);
+        g.col(i) += system.mass(i) * (from_inertial + drag * u.col(i));
         value += Scalar(0.5) * system.mass(i) *
-                 (from_inertial.squaredNorm() + drag * from_start.squaredNorm());
+                 (from_inertial.squaredNorm() + drag * u.col(i).squaredNorm());
     }
     return value;
 }
