@@ -179,7 +179,7 @@ void steps() {
         row("ImplicitEuler, ConjugateGradient 1e-3, block Jacobi", cloth, by(jacobi));
         taut::ImplicitEuler<Cloth, Gradients> gradients(cloth);
         row("ImplicitEuler, ConjugateGradient 1e-3", cloth, by(gradients));
-        gradients.solver().setTolerance(1e-6);
+        gradients.configure([](auto& solver) { solver.setTolerance(1e-6); });
         row("ImplicitEuler, ConjugateGradient 1e-6", cloth, by(gradients));
         Projective::Options options;
         options.window = 0;

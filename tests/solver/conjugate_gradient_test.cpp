@@ -50,29 +50,32 @@ void check_solves(Random& random, Scalar h) {
         const double residual = static_cast<double>((b - A * x).norm() / b.norm());
         CHECK(residual <= 1.01 * tolerance + Tolerance<Scalar>::rounding);
     }
-    // From the solution there is nothing left to do, and a guess of no use does no harm.
+    // From the solution, or a multiple of it, there is nothing left to do.
     const taut::VectorX<Scalar> x = solver.solve(b);
     solver.setTolerance(Scalar(1e-3));
-    CHECK(taut::VectorX<Scalar>(solver.solveWithGuess(b, x)) == x);
-    CHECK(solver.iterations() == 0);
-    solver.solveWithGuess(b, taut::VectorX<Scalar>::Constant(b.size(), Scalar(1e6)));
-    const Index from_far = solver.iterations();
     solver.solve(b);
-    CHECK(solver.iterations() == from_far);
+    const Index cold = solver.iterations();
+    CHECK(distance(solver.solveWithGuess(b, 100 * x), x) <=
+          Tolerance<Scalar>::accumulated * largest(x));
+    CHECK(solver.iterations() == 0);
+    // A guess that is no number does no harm.
+    solver.solveWithGuess(
+        b, taut::VectorX<Scalar>::Constant(b.size(), std::numeric_limits<Scalar>::quiet_NaN()));
+    CHECK(solver.info() == Eigen::Success);
+    CHECK(solver.iterations() == cold);
 }
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("conjugate_gradient: the residual it promises is the true one", "[solver]",
-                   float, double) {
+TEST_CASE("conjugate_gradient: the residual it promises is the true one", "[solver]") {
     for (std::uint32_t seed = 1; seed <= 10; ++seed) {
         INFO("seed " << seed);
         Random random(seed);
-        const auto h = static_cast<TestType>(seed % 2 == 0 ? 0.01 : 0.3);
-        check_solves<IncompleteCholesky<TestType, 3>, 3>(random, h);
-        check_solves<BlockJacobi<TestType, 3>, 3>(random, h);
-        check_solves<IncompleteCholesky<TestType, 1>, 1>(random, h);
-        check_solves<BlockJacobi<TestType, 2>, 2>(random, h);
+        const double h = seed % 2 == 0 ? 0.01 : 0.3;
+        check_solves<IncompleteCholesky<double, 3>, 3>(random, h);
+        check_solves<IncompleteCholesky<double, 1>, 1>(random, h);
+        check_solves<BlockJacobi<double, 2>, 2>(random, h);
+        check_solves<IncompleteCholesky<float, 3>, 3>(random, static_cast<float>(h));
     }
 }
 
@@ -140,11 +143,11 @@ TEST_CASE("conjugate_gradient: the cap of iterations is reported and the state u
     ImplicitEuler<System, ConjugateGradient<double, 3>> stepper(cloth);
     REQUIRE(stepper.step(state, 1.0 / 60, 3));
     const auto before = state;
-    stepper.solver().setTolerance(1e-10);
-    stepper.solver().setMaxIterations(2);
+    stepper.configure([](auto& solver) { solver.setTolerance(1e-10); });
+    stepper.configure([](auto& solver) { solver.setMaxIterations(2); });
     CHECK(stepper.step(state, 1.0 / 60).status == Status::not_converged);
     CHECK(same_bits(state, before));
-    stepper.solver().setMaxIterations(1000);
+    stepper.configure([](auto& solver) { solver.setMaxIterations(1000); });
     CHECK(stepper.step(state, 1.0 / 60));
 }
 
@@ -156,7 +159,7 @@ TEST_CASE("conjugate_gradient: a step follows Cholesky's within its tolerance, a
     auto by_gradients = cloth.initial_state();
     auto by_factors = by_gradients;
     Stepper gradients(cloth);
-    gradients.solver().setTolerance(1e-10);
+    gradients.configure([](auto& solver) { solver.setTolerance(1e-10); });
     ImplicitEuler factors(cloth);
     Index warm = 0;
     Index cold = 0;
@@ -167,7 +170,7 @@ TEST_CASE("conjugate_gradient: a step follows Cholesky's within its tolerance, a
         CHECK(report.residual <= 1.1e-10);
         REQUIRE(factors.step(by_factors, 1.0 / 60));
         Stepper fresh(cloth);
-        fresh.solver().setTolerance(1e-10);
+        fresh.configure([](auto& solver) { solver.setTolerance(1e-10); });
         REQUIRE(fresh.step(copy, 1.0 / 60));
         warm += gradients.solver().iterations();
         cold += fresh.solver().iterations();

@@ -74,8 +74,13 @@ public:
     Report step(State& state, Scalar h, Index count = 1) {
         return loop_.run(*system_, state, h, count, [&] { return advance(state, h); });
     }
-    /// The solver used last; set a tolerance or a cap of iterations here.
-    Solver& solver() { return factors_.solver(); }
+    /// change(solver) for every solver that the stepper keeps: to set a tolerance, a cap of
+    /// iterations.
+    template <class Change>
+    void configure(Change&& change) {
+        factors_.configure(change);
+    }
+    /// The solver used last.
     const Solver& solver() const { return factors_.solver(); }
     /// Factorisations so far.
     std::int64_t factorizations() const { return factors_.count(); }

@@ -60,6 +60,7 @@ public:
         x_.setZero();
         return iterate(b);
     }
+    /// Starts from the best multiple of `guess`.
     const Vector& solveWithGuess(const Vector& b, const Vector& guess) const {
         if (&guess != &x_) x_ = guess;
         return iterate(b);
@@ -92,14 +93,18 @@ auto ConjugateGradient<Scalar_, Dim, Preconditioner>::iterate(const Vector& b) c
         x_.setZero();
         return x_;
     }
+    // The best multiple of the guess in the norm that the iterations minimise: no worse than zero.
     A_.multiply(x_, q_);
-    r_ = b - q_;
-    error_ = r_.norm() / norm;
-    if (!(error_ <= 1)) {  // a guess worse than none
+    const Scalar length = x_.dot(q_);
+    const Scalar scale = length > 0 ? b.dot(x_) / length : Scalar(0);
+    if (std::isfinite(scale) && scale != 0) {
+        x_ *= scale;
+        r_ = b - scale * q_;
+    } else {
         x_.setZero();
         r_ = b;
-        error_ = 1;
     }
+    error_ = r_.norm() / norm;
     const Index cap = max_iterations_ > 0 ? max_iterations_ : 2 * b.size();
     Scalar rz = 0;
     while (!(error_ <= tolerance_)) {  // a NaN goes on to the checks below

@@ -21,6 +21,11 @@ public:
     void forget_values() {
         for (Slot& slot : slots_) slot.factorized = false;
     }
+    /// change(solver) for every solver kept.
+    template <class Change>
+    void configure(Change&& change) {
+        for (Slot& slot : slots_) change(slot.solver);
+    }
     /// The solver that was used last.
     Solver& solver() { return slots_[current_].solver; }
     const Solver& solver() const { return slots_[current_].solver; }

@@ -50,7 +50,7 @@ public:
     }
 
 private:
-    struct Damper {  // h·block of D(x₀) = axial·d dᵀ + transverse·(I − d dᵀ)
+    struct Damper {  // h·block of D(x) = axial·d dᵀ + transverse·(I − d dᵀ)
         int a;
         int b;
         Scalar axial;
