@@ -155,6 +155,7 @@ Report ImplicitEuler<System, Solver>::solve_linearised(const State& state, Scala
         factors_.forget_pattern();
         dv_.setZero(equation_.matrix().rows());
     }
+    if (dv_.size() == 0) return {};  // nothing free; not every solver takes 0 × 0
     equation_.update_values(*system_, state, h);
     equation_.load(*system_, state, h, b_);
     Report report{factorize(h)};

@@ -25,9 +25,13 @@ public:
 
     /// @param A  compressed, with both triangles
     void analyzePattern(const SparseMatrix<Scalar>& A);
+    void factorize(const SparseMatrix<Scalar>& A) {
+        // Where the analysis ran out of memory, info() says so already.
+        if (this->m_cholmodFactor) Base::factorize(A);
+    }
     Cholmod& compute(const SparseMatrix<Scalar>& A) {
         analyzePattern(A);
-        this->factorize(A);
+        factorize(A);
         return *this;
     }
 };
@@ -51,7 +55,7 @@ void Cholmod<Scalar>::analyzePattern(const SparseMatrix<Scalar>& A) {
     this->m_cholmodFactor = cholmod_analyze_p(&matrix, columns.data(), nullptr, 0, &common);
     this->m_isInitialized = true;
     this->m_analysisIsOk = this->m_cholmodFactor != nullptr;
-    this->m_info = this->m_analysisIsOk ? Eigen::Success : Eigen::InvalidInput;
+    this->m_info = this->m_analysisIsOk ? Eigen::Success : Eigen::NumericalIssue;
     this->m_factorizationIsOk = false;
 }
 
