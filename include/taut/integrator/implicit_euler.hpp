@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "../core/method.hpp"
+#include "../solver/block_ordering.hpp"
 #include "detail/factor_cache.hpp"
 #include "detail/newton.hpp"
 #include "detail/step_equation.hpp"
@@ -37,7 +38,8 @@ struct NoNewton {};
 ///                 SimplicialLDLT: it calls an indefinite matrix a success. One with Eigen's
 ///                 solveWithGuess starts from the last Δv, so that its steps depend on the last
 ///                 ones within its tolerance.
-template <class System, class Solver = Eigen::SimplicialLLT<SparseMatrix<typename System::Scalar>>>
+template <class System, class Solver = Eigen::SimplicialLLT<SparseMatrix<typename System::Scalar>,
+                                                            Eigen::Lower, BlockOrdering<>>>
 class ImplicitEuler {
 public:
     using Scalar = typename System::Scalar;
