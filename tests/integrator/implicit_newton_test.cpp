@@ -17,7 +17,9 @@ using taut::Status;
 
 namespace {
 
-template <class System, class Solver = Eigen::SimplicialLLT<taut::SparseMatrix<double>>>
+/// With the stepper's own default solver.
+template <class System, class Solver = Eigen::SimplicialLLT<taut::SparseMatrix<double>,
+                                                            Eigen::Lower, taut::BlockOrdering<>>>
 ImplicitEuler<System, Solver> newton(const System& system, int iterations = 60,
                                      double tolerance = 1e-11) {
     typename ImplicitEuler<System, Solver>::Options options;
