@@ -60,3 +60,28 @@ TEST_CASE("cholmod: an indefinite matrix is reported and the state is untouched"
     CHECK(same_bits(u, before));
     CHECK(stepper.step(u, 0.25));
 }
+
+TEST_CASE(
+    "cholmod: the order of particles fills in no more than CHOLMOD's own, and nothing free is "
+    "no failure",
+    "[solver]") {
+    const auto cloth = taut::hanging_cloth<double>({30, 30});
+    const taut::TangentMatrix<double, 3> tangent(cloth);
+    auto A = tangent.zero();
+    tangent.assemble(cloth, cloth.initial_state().x, {1, 1e-4, 0}, A);
+    taut::Cholmod<> ours;
+    Eigen::CholmodSupernodalLLT<Sparse> plain;
+    for (int again = 0; again < 2; ++again) {
+        ours.analyzePattern(A);
+        plain.analyzePattern(A);
+        CHECK(ours.cholmod().lnz <= 1.1 * plain.cholmod().lnz);
+        ours.factorize(A);
+        CHECK(ours.info() == Eigen::Success);
+    }
+    auto pinned = taut::hanging_cloth<double>({2, 2});
+    pinned.pin(2);
+    pinned.pin(3);
+    auto state = pinned.initial_state();
+    taut::ImplicitEuler<std::decay_t<decltype(pinned)>, taut::Cholmod<>> stepper(pinned);
+    CHECK(stepper.step(state, 0.01));
+}

@@ -162,6 +162,14 @@ private:
     std::uint64_t force_revision_ = 0;  // of gravity and the external force
 };
 
+namespace detail {
+
+template <class System>
+inline constexpr bool is_spring_system_v = false;
+template <class Scalar, int Dim, class... Laws>
+inline constexpr bool is_spring_system_v<SpringSystem<Scalar, Dim, Laws...>> = true;
+
+}  // namespace detail
 }  // namespace taut
 
 #include "detail/spring_system_build.ipp"

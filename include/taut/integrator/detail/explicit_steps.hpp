@@ -20,11 +20,6 @@ struct ExplicitOptions {
 
 namespace detail {
 
-template <class System>
-inline constexpr bool is_spring_system_v = false;
-template <class Scalar, int Dim, class... Laws>
-inline constexpr bool is_spring_system_v<SpringSystem<Scalar, Dim, Laws...>> = true;
-
 /// Steps of an explicit method: springs in planes, whatever else by System::force.
 template <class System>
 class ExplicitSteps {

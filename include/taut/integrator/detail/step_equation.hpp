@@ -17,6 +17,7 @@ class StepEquation {
 public:
     using Scalar = typename System::Scalar;
     using State = typename System::State;
+    static constexpr bool constant = true;  ///< for one h the values never change
 
     /// @returns whether the sparsity pattern is new
     bool update_pattern(const System& system) {
@@ -29,9 +30,8 @@ public:
         A_.makeCompressed();
         return true;
     }
-    /// @returns whether the values are new
-    bool update_values(const System& system, const State&, Scalar h) {
-        if (h == h_) return false;
+    void update_values(const System& system, const State&, Scalar h) {
+        if (h == h_) return;
         SparseMatrix<Scalar> mass(system.size(), system.size());
         mass.setIdentity();
         mass.diagonal() = system.mass();
@@ -39,7 +39,6 @@ public:
         A_ += mass;
         A_.makeCompressed();
         h_ = h;
-        return true;
     }
     const SparseMatrix<Scalar>& matrix() const { return A_; }
 
@@ -66,6 +65,7 @@ class StepEquation<SpringSystem<Scalar, Dim, Laws...>> {
 public:
     using System = SpringSystem<Scalar, Dim, Laws...>;
     using State = typename System::State;
+    static constexpr bool constant = false;
 
     bool update_pattern(const System& system) {
         if (pattern_ && topology_ == system.topology_revision()) return false;
@@ -74,10 +74,20 @@ public:
         topology_ = system.topology_revision();
         return true;
     }
-    bool update_values(const System& system, const State& state, Scalar h) {
+    void update_values(const System& system, const State& state, Scalar h) {
         const double step = static_cast<double>(h);
         pattern_->assemble(system, state.x, {1, step * step, step}, A_);
-        return true;
+    }
+    /// A ← M + hD(x₀) + h²K(x), the second derivative of the step's objective at x; K⁺ for K if
+    /// `project`.
+    void update_values(const System& system, const Points<Scalar, Dim>& x0,
+                       const Points<Scalar, Dim>& x, Scalar h, bool project) {
+        const double step = static_cast<double>(h);
+        if (B_.nonZeros() != A_.nonZeros()) B_ = A_;
+        pattern_->assemble(system, x0, {1, 0, step}, B_);
+        pattern_->assemble(system, x, {0, step * step, 0, project}, A_);
+        Eigen::Map<VectorX<Scalar>>(A_.valuePtr(), A_.nonZeros()) +=
+            Eigen::Map<const VectorX<Scalar>>(B_.valuePtr(), B_.nonZeros());
     }
     const SparseMatrix<Scalar>& matrix() const { return A_; }
 
@@ -91,16 +101,23 @@ public:
             f_.col(t.a) += pull;
             f_.col(t.b) -= pull;
         });
+        f_ *= h;
+        gather(f_, b);
+    }
+    /// b ← the columns of the free particles.
+    void gather(const Points<Scalar, Dim>& p, VectorX<Scalar>& b) const {
         const auto& free = pattern_->free();
         b.resize(pattern_->size());
         for (std::size_t j = 0; j < free.size(); ++j) {
-            b.template segment<Dim>(Dim * static_cast<Index>(j)) = h * f_.col(free[j]);
+            b.template segment<Dim>(Dim * static_cast<Index>(j)) = p.col(free[j]);
         }
     }
-    void add_to_velocity(const VectorX<Scalar>& dv, State& state) const {
+    void add_to_velocity(const VectorX<Scalar>& dv, State& state) const { scatter(1, dv, state.v); }
+    /// p ← p + t b on the columns of the free particles.
+    void scatter(Scalar t, const VectorX<Scalar>& b, Points<Scalar, Dim>& p) const {
         const auto& free = pattern_->free();
         for (std::size_t j = 0; j < free.size(); ++j) {
-            state.v.col(free[j]) += dv.template segment<Dim>(Dim * static_cast<Index>(j));
+            p.col(free[j]) += t * b.template segment<Dim>(Dim * static_cast<Index>(j));
         }
     }
     Index particle(Index dof) const { return pattern_->free()[dof / Dim]; }
@@ -109,7 +126,8 @@ private:
     std::optional<TangentMatrix<Scalar, Dim>> pattern_;
     std::uint64_t topology_ = 0;
     SparseMatrix<Scalar> A_;  // M + hD + h²K⁺
-    Points<Scalar, Dim> f_;   // Dim × n, N
+    SparseMatrix<Scalar> B_;  // its part M + hD, for Newton's method
+    Points<Scalar, Dim> f_;   // Dim × n, N, then N·s
 };
 
 }  // namespace taut::detail

@@ -1,0 +1,327 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+
+// Implicit steps of h = 1/60 s on the hanging cloth, beside what one would write with Eigen and
+// CHOLMOD alone: time and outcome. Prints Markdown; times are CPU ms of this process, so run it
+// with OPENBLAS_NUM_THREADS=1.
+
+#include <Eigen/CholmodSupport>
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <functional>
+#include <string>
+#include <taut/integrator/projective_dynamics.hpp>
+#include <taut/solver/cholmod.hpp>
+#include <taut/solver/conjugate_gradient.hpp>
+#include <taut/taut.hpp>
+#include <vector>
+
+namespace {
+
+using taut::Index;
+using Cloth = taut::SpringSystem<double, 3>;
+using State = Cloth::State;
+using Sparse = taut::SparseMatrix<double>;
+using Tangent = taut::SpringTangent<double, 3>;
+using Gradients = taut::ConjugateGradient<double, 3>;
+using JacobiGradients = taut::ConjugateGradient<double, 3, taut::BlockJacobi<double, 3>>;
+using Projective = taut::ProjectiveDynamics<Cloth>;
+
+constexpr double h = 1.0 / 60;
+constexpr double budget = 60;  // s of CPU that a row may take
+
+double now() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }  // ms
+
+struct Times {
+    std::vector<double> all;  // ms
+
+    template <class Job>
+    void add(Job&& job) {
+        const double start = now();
+        job();
+        all.push_back(now() - start);
+    }
+    double least() const { return *std::min_element(all.begin(), all.end()); }
+    double median() const {
+        auto sorted = all;
+        std::sort(sorted.begin(), sorted.end());
+        return sorted[sorted.size() / 2];
+    }
+};
+
+double largest_stretch(const Cloth& cloth, const State& state) {
+    const auto& set = cloth.springs();
+    double stretch = 0;
+    for (std::size_t s = 0; s < set.a.size(); ++s) {
+        const double l = (state.x.col(set.b[s]) - state.x.col(set.a[s])).norm();
+        stretch = std::max(stretch, l / set.rest_length[s]);
+    }
+    return stretch;
+}
+
+/// One row: a second of free swing, or as much of it as the budget allows.
+void row(const char* name, const Cloth& cloth, const std::function<bool(State&)>& step) {
+    State state = cloth.initial_state();
+    const double first = cloth.energy(state);
+    Times times;
+    double kinetic = 0;
+    double stretch = 1;
+    double late = 0;  // energy of the last 0.1 s, summed
+    bool alive = true;
+    const double start = now();
+    int k = 0;
+    for (; k < 60 && alive && now() - start < 1e3 * budget; ++k) {
+        times.add([&] { alive = step(state) && state.finite(); });
+        kinetic = std::max(kinetic, cloth.kinetic_energy(state));
+        stretch = std::max(stretch, largest_stretch(cloth, state));
+        if (k >= 54) late += cloth.energy(state) / 6;
+    }
+    std::string outcome;
+    char text[80];
+    if (!alive || stretch > 10) {
+        outcome = "explodes | explodes";
+    } else if (k < 60) {
+        std::snprintf(text, sizeof text, "– (%d steps) | –", k);
+        outcome = text;
+    } else {
+        std::snprintf(text, sizeof text, "%.2f | %.3f", std::abs(late - first) / kinetic, stretch);
+        outcome = text;
+    }
+    std::printf("| %s | %.2f | %.2f | %s |\n", name, times.least(), times.median(),
+                outcome.c_str());
+    std::fflush(stdout);
+}
+
+/// The tutorials' step: triplets and a factorisation from nothing every time.
+class TripletStep {
+public:
+    /// @param project  leave the negative transverse stiffness out of the matrix
+    TripletStep(const Cloth& cloth, bool project) : cloth_(cloth), project_(project) {
+        for (Index i = 0; i < cloth.size(); ++i) {
+            row_.push_back(cloth.is_pinned(i) ? -1 : free_);
+            if (!cloth.is_pinned(i)) ++free_;
+        }
+    }
+    bool operator()(State& state) {
+        std::vector<Eigen::Triplet<double>> triplets;
+        Eigen::VectorXd b = Eigen::VectorXd::Zero(3 * free_);
+        cloth_.force(state, f_);
+        const auto add = [&](int i, int j, const Eigen::Matrix3d& block) {
+            if (i < 0 || j < 0) return;
+            for (int r = 0; r < 3; ++r) {
+                for (int c = 0; c < 3; ++c)
+                    triplets.emplace_back(3 * i + r, 3 * j + c, block(r, c));
+            }
+        };
+        cloth_.for_each_tangent(state.x, [&](const Tangent& raw) {
+            const auto t = project_ ? raw.projected() : raw;
+            const int i = row_[static_cast<std::size_t>(t.a)];
+            const int j = row_[static_cast<std::size_t>(t.b)];
+            const Eigen::Matrix3d K = t.transverse * Eigen::Matrix3d::Identity() +
+                                      (t.axial - t.transverse) * t.d * t.d.transpose();
+            const Eigen::Vector3d pull = h * h * K * (state.v.col(t.b) - state.v.col(t.a));
+            add(i, i, h * h * K);
+            add(j, j, h * h * K);
+            add(i, j, -h * h * K);
+            add(j, i, -h * h * K);
+            if (i >= 0) b.segment<3>(3 * i) += pull;
+            if (j >= 0) b.segment<3>(3 * j) -= pull;
+        });
+        for (Index i = 0; i < cloth_.size(); ++i) {
+            const int r = row_[static_cast<std::size_t>(i)];
+            if (r < 0) continue;
+            add(r, r, cloth_.mass(i) * Eigen::Matrix3d::Identity());
+            b.segment<3>(3 * r) += h * f_.col(i);
+        }
+        Sparse A(3 * free_, 3 * free_);
+        A.setFromTriplets(triplets.begin(), triplets.end());
+        Eigen::SimplicialLDLT<Sparse> solver;
+        solver.compute(A);
+        const Eigen::VectorXd dv = solver.solve(b);
+        for (Index i = 0; i < cloth_.size(); ++i) {
+            const int r = row_[static_cast<std::size_t>(i)];
+            if (r >= 0) state.v.col(i) += dv.segment<3>(3 * r);
+        }
+        state.x += h * state.v;
+        return solver.info() == Eigen::Success;
+    }
+
+private:
+    const Cloth& cloth_;
+    bool project_;
+    std::vector<int> row_;  // particle → free particle, or −1
+    int free_ = 0;
+    Eigen::Matrix3Xd f_;
+};
+
+template <class Stepper>
+auto by(Stepper& stepper) {
+    return [&stepper](State& state) { return static_cast<bool>(stepper.step(state, h)); };
+}
+
+void steps(const std::vector<Index>& sizes) {
+    for (const Index n : sizes) {
+        const Cloth cloth = taut::hanging_cloth<double>({n, n});
+        std::printf(
+            "## hanging_cloth %lld, a second of free swing in steps of 1/60 s\n\n"
+            "| step | ms: min | median | energy drift | largest l/L |\n|---|---|---|---|---|\n",
+            static_cast<long long>(n));
+        row("Eigen: triplets, LDLT.compute, plain K", cloth, TripletStep(cloth, false));
+        row("Eigen: triplets, LDLT.compute, K⁺", cloth, TripletStep(cloth, true));
+        taut::ImplicitEuler<Cloth, Eigen::SimplicialLDLT<Sparse>> ldlt(cloth);
+        row("pattern analysed once, SimplicialLDLT", cloth, by(ldlt));
+        taut::ImplicitEuler<Cloth> llt(cloth);
+        row("ImplicitEuler (SimplicialLLT)", cloth, by(llt));
+        taut::ImplicitEuler<Cloth, taut::Cholmod<>> cholmod(cloth);
+        row("ImplicitEuler, Cholmod", cloth, by(cholmod));
+        taut::ImplicitEuler<Cloth, JacobiGradients> jacobi(cloth);
+        row("ImplicitEuler, ConjugateGradient 1e-3, block Jacobi", cloth, by(jacobi));
+        taut::ImplicitEuler<Cloth, Gradients> gradients(cloth);
+        row("ImplicitEuler, ConjugateGradient 1e-3", cloth, by(gradients));
+        gradients.configure([](auto& solver) { solver.setTolerance(1e-6); });
+        row("ImplicitEuler, ConjugateGradient 1e-6", cloth, by(gradients));
+        Projective::Options options;
+        options.window = 0;
+        Projective plain(cloth, options);
+        row("ProjectiveDynamics, 10 iterations, window 0", cloth, by(plain));
+        Projective fast(cloth);
+        row("ProjectiveDynamics, 10 iterations", cloth, by(fast));
+        std::printf("\n");
+    }
+}
+
+/// The same poses for all: each way solves the step from every pose of one trajectory.
+void ratios() {
+    const Cloth cloth = taut::hanging_cloth<double>({100, 100});
+    State state = cloth.initial_state();
+    taut::ImplicitEuler<Cloth, taut::Cholmod<>> leader(cloth);
+    taut::ImplicitEuler<Cloth, taut::Cholmod<>> cholmod(cloth);
+    taut::ImplicitEuler<Cloth, Gradients> gradients(cloth);
+    const taut::TangentMatrix<double, 3> tangent(cloth);
+    Sparse A = tangent.zero();
+    Eigen::SimplicialLDLT<Sparse> ldlt;
+    Eigen::CholmodSupernodalLLT<Sparse> bare;
+    ldlt.analyzePattern(A);
+    bare.analyzePattern(A);
+    Eigen::VectorXd x;
+    Eigen::VectorXd b = Eigen::VectorXd::Ones(A.rows());
+    Times assembly, by_ldlt, by_bare, by_cholmod, by_gradients;
+    double residual = 0;
+    Index iterations = 0;
+    for (int k = 0; k < 60; ++k) {
+        State copy = state;
+        by_gradients.add([&] {  // every step, to start warm as it would
+            const auto report = gradients.step(copy, h);
+            residual = std::max(residual, report ? report.residual : 1);
+        });
+        iterations = std::max(iterations, gradients.solver().iterations());
+        if (k % 6 == 3) {
+            assembly.add([&] { tangent.assemble(cloth, state.x, {1, h * h, h}, A); });
+            by_ldlt.add([&] {
+                ldlt.factorize(A);
+                x = ldlt.solve(b);
+            });
+            for (int repeat = 0; repeat < 2; ++repeat) {
+                by_bare.add([&] {
+                    bare.factorize(A);
+                    x = bare.solve(b);
+                });
+                copy = state;
+                by_cholmod.add([&] { residual += cholmod.step(copy, h) ? 0 : 1; });
+            }
+        }
+        if (!leader.step(state, h)) return;
+    }
+    const auto print = [](const char* what, const Times& ours, const Times& theirs) {
+        std::printf("| %s | %.2f (%.2f) | %.2f (%.2f) | %.3f (%.3f) |\n", what, ours.least(),
+                    ours.median(), theirs.least(), theirs.median(), ours.least() / theirs.least(),
+                    ours.median() / theirs.median());
+    };
+    std::printf(
+        "## Ratios in one run, hanging_cloth 100, poses of one trajectory\n\n"
+        "| | ms: min (median) | baseline | ratio |\n|---|---|---|---|\n");
+    print("whole step with Cholmod / bare CHOLMOD factorise + solve", by_cholmod, by_bare);
+    print("whole step with ConjugateGradient / SimplicialLDLT factorise + solve", by_gradients,
+          by_ldlt);
+    print("assembly / whole step with Cholmod", assembly, by_cholmod);
+    print("assembly / whole step with ConjugateGradient", assembly, by_gradients);
+    std::printf("\nConjugateGradient: true relative residual ≤ %.1e, at most %lld iterations.\n\n",
+                residual, static_cast<long long>(iterations));
+}
+
+/// One iteration of projective dynamics beside a plain local step and three of Eigen's solves.
+void projective() {
+    const Cloth cloth = taut::hanging_cloth<double>({100, 100});
+    const Sparse P = taut::SpringPencil<1>::any_pose(cloth).assemble({1, h * h, h});
+    const Eigen::SimplicialLLT<Sparse> llt(P);
+    const auto& set = cloth.springs();
+    State state = cloth.initial_state();
+    Eigen::Matrix3Xd rhs(3, cloth.size());
+    Eigen::MatrixXd columns(P.rows(), 3), solution(P.rows(), 3);
+    const auto plain_iteration = [&] {
+        rhs.setZero();
+        for (std::size_t s = 0; s < set.a.size(); ++s) {
+            const double* a = state.x.data() + 3 * set.a[s];
+            const double* b = state.x.data() + 3 * set.b[s];
+            const double dx = b[0] - a[0];
+            const double dy = b[1] - a[1];
+            const double dz = b[2] - a[2];
+            const double pull = h * h * set.parameters[s].stiffness * set.rest_length[s] /
+                                std::sqrt(dx * dx + dy * dy + dz * dz);
+            double* at_a = rhs.data() + 3 * set.a[s];
+            double* at_b = rhs.data() + 3 * set.b[s];
+            at_a[0] -= pull * dx;
+            at_a[1] -= pull * dy;
+            at_a[2] -= pull * dz;
+            at_b[0] += pull * dx;
+            at_b[1] += pull * dy;
+            at_b[2] += pull * dz;
+        }
+        Index j = 0;
+        for (Index i = 0; i < cloth.size(); ++i) {
+            if (!cloth.is_pinned(i)) columns.row(j++) = rhs.col(i).transpose();
+        }
+        for (int c = 0; c < 3; ++c) solution.col(c) = llt.solve(columns.col(c));
+    };
+    std::printf(
+        "## One iteration of projective dynamics, hanging_cloth 100\n\n"
+        "| | ms: min (median) | three LLT solves and a local step | ratio |\n|---|---|---|---|\n");
+    for (const int window : {0, 5}) {
+        Projective::Options options;
+        options.window = window;
+        options.iterations = 20;
+        Projective long_steps(cloth, options);
+        options.iterations = 10;
+        Projective short_steps(cloth, options);
+        state = cloth.initial_state();
+        Times ten, twenty, baseline;
+        for (int k = 0; k < 60; ++k) {
+            for (int repeat = 0; repeat < 5; ++repeat) baseline.add(plain_iteration);
+            State copy = state;
+            bool good = true;
+            twenty.add([&] { good = bool(long_steps.step(copy, h)); });
+            ten.add([&] { good = bool(short_steps.step(state, h)) && good; });
+            if (!good) return;
+        }
+        // The difference leaves out what a step costs apart from its iterations.
+        const double least = (twenty.least() - ten.least()) / 10;
+        const double median = (twenty.median() - ten.median()) / 10;
+        std::printf("| window %d | %.2f (%.2f) | %.2f (%.2f) | %.3f (%.3f) |\n", window, least,
+                    median, baseline.least(), baseline.median(), least / baseline.least(),
+                    median / baseline.median());
+    }
+    std::printf("\n");
+}
+
+}  // namespace
+
+/// Arguments: sizes of the cloth; 32 64 100 200 if there are none.
+int main(int argc, char** argv) {
+    std::vector<Index> sizes;
+    for (int i = 1; i < argc; ++i) sizes.push_back(std::atoi(argv[i]));
+    ratios();
+    projective();
+    steps(sizes.empty() ? std::vector<Index>{32, 64, 100, 200} : sizes);
+}

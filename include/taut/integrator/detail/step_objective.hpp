@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "../../model/spring_system.hpp"
+
+namespace taut::detail {
+
+/// What the nonlinear implicit Euler step of a spring system minimises over the moves u = x⁺ − x:
+///     φ(u) = ½(u − w)ᵀM(u − w) + h²U(x + u) + ½h uᵀD(x)u,
+/// w = hv + h²M⁻¹f the inertial move, f gravity and external force at the start, U the energy of
+/// the springs. ∇φ = 0 is M(v⁺ − v) = h(f − ∇U(x⁺) − D(x)v⁺) with u = hv⁺. D is held at the start,
+/// as ImplicitEuler's one linearised solve holds it. Pinned particles are not variables: they move
+/// by hv. (Moves and not positions, since a float's position has no digits left for a velocity.)
+template <class System>
+class StepObjective {
+public:
+    using Scalar = typename System::Scalar;
+    using State = typename System::State;
+    static constexpr int Dim = System::Dim;
+    using Moves = Points<Scalar, Dim>;
+    using Vector = Eigen::Matrix<Scalar, Dim, 1>;
+
+    /// A step of h, s, from `state`.
+    void begin(const System& system, const State& state, Scalar h);
+    /// w, Dim × n, m, and hv for pinned particles.
+    const Moves& inertial() const { return w_; }
+    /// ‖∇φ‖ relative to that of the inertial move or to ‖Mw‖.
+    double residual(const Moves& g) const {
+        const Scalar norm = g.norm();
+        return norm > 0 ? static_cast<double>(norm / scale_) : 0;
+    }
+    /// @param g  ← ∇φ(u), Dim × n, kg·m, zero for pinned particles   @returns φ(u), kg·m²
+    Scalar evaluate(const System& system, const Moves& u, Moves& g);
+    /// What the rounding of positions makes of residual().
+    double rounding(const System& system) const;
+    /// Whether `next` is no larger than `value` but for the rounding of such sums.
+    static bool not_above(Scalar next, Scalar value) {
+        return next <= value + 64 * std::numeric_limits<Scalar>::epsilon() * std::abs(value);
+    }
+
+private:
+    struct Damper {  // h·block of D(x) = axial·d dᵀ + transverse·(I − d dᵀ)
+        int a;
+        int b;
+        Scalar axial;
+        Scalar transverse;
+        Vector d;
+    };
+    void set_dampers(const System& system, const State& state);
+
+    Scalar h_ = 0;                 // s
+    Moves start_;                  // x, Dim × n, m
+    Moves x_;                      // x + u of the last evaluation
+    Moves w_;                      // the inertial move
+    Moves f_;                      // external force, N; then ∇φ(w)
+    std::vector<Damper> dampers_;  // of D without its mass-proportional part
+    Scalar scale_ = 0;             // what ‖∇φ‖ is relative to, kg·m
+};
+
+template <class System>
+void StepObjective<System>::begin(const System& system, const State& state, Scalar h) {
+    h_ = h;
+    start_ = state.x;
+    system.external_force(state, f_);
+    w_ = h * state.v;
+    scale_ = 0;
+    for (Index i = 0; i < system.size(); ++i) {
+        if (system.is_pinned(i)) continue;
+        w_.col(i) += h * h * (system.gravity() + f_.col(i) / system.mass(i));
+        scale_ += (system.mass(i) * w_.col(i)).squaredNorm();
+    }
+    set_dampers(system, state);
+    evaluate(system, w_, f_);
+    scale_ = std::max(std::sqrt(scale_), f_.norm());
+}
+
+template <class System>
+void StepObjective<System>::set_dampers(const System& system, const State& state) {
+    dampers_.clear();
+    const auto alpha = static_cast<Scalar>(system.rayleigh().stiffness_proportional);
+    bool damped = alpha > 0;
+    system.for_each_set([&](const auto& set) { damped = damped || !set.damping.empty(); });
+    if (!damped) return;
+    system.for_each_tangent(state.x, [&](const SpringTangent<Scalar, Dim>& raw) {
+        const auto t = raw.projected();
+        const Scalar axial = h_ * (alpha * t.axial + t.damping);
+        const Scalar transverse = h_ * alpha * t.transverse;
+        if (axial > 0 || transverse > 0) {
+            dampers_.push_back(
+                {static_cast<int>(t.a), static_cast<int>(t.b), axial, transverse, t.d});
+        }
+    });
+}
+
+template <class System>
+double StepObjective<System>::rounding(const System& system) const {
+    Scalar squares = 0;
+    system.for_each_tangent(x_, [&](const SpringTangent<Scalar, Dim>& t) {
+        const Scalar stiffness = h_ * h_ * t.bound + h_ * t.damping;
+        squares += 2 * stiffness * stiffness;
+    });
+    for (Index i = 0; i < system.size(); ++i) squares += system.mass(i) * system.mass(i);
+    return static_cast<double>(8 * std::numeric_limits<Scalar>::epsilon() * std::sqrt(squares) *
+                               x_.cwiseAbs().maxCoeff() / scale_);
+}
+
+template <class System>
+auto StepObjective<System>::evaluate(const System& system, const Moves& u, Moves& g) -> Scalar {
+    x_ = start_ + u;
+    g.setZero(Dim, u.cols());
+    const Scalar h2 = h_ * h_;
+    Scalar energy = 0;  // J
+    system.for_each_set([&](const auto& set) {
+        using Law = typename std::decay_t<decltype(set)>::Law;
+        for (std::size_t s = 0; s < set.a.size(); ++s) {
+            const Vector dx = x_.col(set.b[s]) - x_.col(set.a[s]);
+            const Scalar l = dx.norm();
+            const Scalar L = set.rest_length[s];
+            energy += Law::energy(set.parameters[s], L, l);
+            if (!(l > 0)) continue;
+            const Vector pull = h2 * Law::tension(set.parameters[s], L, l) / l * dx;
+            g.col(set.a[s]) -= pull;
+            g.col(set.b[s]) += pull;
+        }
+    });
+    Scalar value = h2 * energy;
+    for (const Damper& damper : dampers_) {
+        const Vector move = u.col(damper.b) - u.col(damper.a);
+        const Scalar along = damper.d.dot(move);
+        const Vector pull =
+            damper.transverse * move + (damper.axial - damper.transverse) * along * damper.d;
+        value += Scalar(0.5) * pull.dot(move);
+        g.col(damper.a) -= pull;
+        g.col(damper.b) += pull;
+    }
+    const Scalar drag = h_ * static_cast<Scalar>(system.rayleigh().mass_proportional);
+    for (Index i = 0; i < system.size(); ++i) {
+        if (system.is_pinned(i)) {
+            g.col(i).setZero();
+            continue;
+        }
+        const Vector from_inertial = u.col(i) - w_.col(i);
+        g.col(i) += system.mass(i) * (from_inertial + drag * u.col(i));
+        value += Scalar(0.5) * system.mass(i) *
+                 (from_inertial.squaredNorm() + drag * u.col(i).squaredNorm());
+    }
+    return value;
+}
+
+}  // namespace taut::detail

@@ -1,0 +1,7 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+// EXPECT: taut::ProjectiveDynamics: needs a SpringSystem
+
+#include <taut/integrator/projective_dynamics.hpp>
+
+void step(const taut::LinearSystem<double>& system) { taut::ProjectiveDynamics stepper(system); }

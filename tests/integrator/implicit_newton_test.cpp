@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+// Implicit Euler solved by Newton's method, and what its factorisations cost.
+#include <cmath>
+#include <taut/integrator/implicit_euler.hpp>
+#include <taut/solver/conjugate_gradient.hpp>
+
+#include "../support/catch.hpp"
+#include "../support/dense.hpp"
+#include "../support/message.hpp"
+#include "../support/random_system.hpp"
+#include "../support/tolerance.hpp"
+
+using namespace taut_test;
+using taut::ImplicitEuler;
+using taut::Status;
+
+namespace {
+
+/// With the stepper's own default solver.
+template <class System, class Solver = Eigen::SimplicialLLT<taut::SparseMatrix<double>,
+                                                            Eigen::Lower, taut::BlockOrdering<>>>
+ImplicitEuler<System, Solver> newton(const System& system, int iterations = 60,
+                                     double tolerance = 1e-11) {
+    typename ImplicitEuler<System, Solver>::Options options;
+    options.newton_iterations = iterations;
+    options.tolerance = tolerance;
+    return ImplicitEuler<System, Solver>(system, options);
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("implicit_newton: a step satisfies the nonlinear equation", "[integrator]",
+                   (taut::SpringSystem<double, 1>),
+                   (taut::SpringSystem<double, 3, taut::Hookean, Glue>)) {
+    for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+        for (const double h : {0.01, 0.3}) {
+            INFO("seed " << seed << ", h " << h);
+            Random random(seed);
+            RandomOptions options;
+            options.rayleigh = true;
+            options.dampers = true;
+            auto system = random_like<TestType>(random, options);
+            system.pin(5);
+            auto state = random_state(random, system);
+            const auto before = state;
+            auto stepper = newton(system);
+            REQUIRE(stepper.step(state, h));
+
+            // M(v⁺ − v) = h(f(x⁺) − D(x)v⁺) on the free particles.
+            const auto dense = dense_matrices(system, before);
+            auto undamped = system;
+            undamped.set_rayleigh({});
+            auto still = state;
+            still.v.setZero();
+            const auto free = free_dofs(system);
+            const Eigen::VectorXd impulse =
+                dense.M * (flat(state.v) - flat(before.v)) -
+                h * (flat_force(undamped, still) - dense.D * flat(state.v));
+            const double size = largest(Eigen::VectorXd(dense.M * flat(state.v)));
+            CHECK(largest(Eigen::VectorXd(impulse(free))) <= 1e-8 * size);
+            CHECK(distance(state.x, before.x + h * state.v) <= Tolerance<double>::rounding * 10);
+        }
+    }
+}
+
+TEST_CASE("implicit_newton: with a convex energy no step raises the energy, at any h",
+          "[integrator]") {
+    for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+        Random random(seed);
+        auto system = random_system<double, 3, TensionOnly>(random);  // [T24]
+        for (const double h : {0.01, 0.1, 1.0}) {
+            INFO("seed " << seed << ", h " << h);
+            auto state = random_state(random, system);
+            state.v.leftCols(2).setZero();  // fixed pins
+            auto stepper = newton(system);
+            double energy = system.energy(state);
+            const double size = std::abs(energy) + 100;
+            for (int i = 0; i < 20; ++i) {
+                REQUIRE(stepper.step(state, h));
+                const double next = system.energy(state);
+                CHECK(next <= energy + 1e-9 * (size + std::abs(energy)));
+                energy = next;
+            }
+        }
+    }
+}
+
+TEST_CASE("implicit_newton: one iteration is the linearised step, and matrices need no more",
+          "[integrator]") {
+    Random random(3);
+    const auto system = random_system<double, 3>(random);
+    const auto start = random_state(random, system);
+    auto linearised = start;
+    auto by_one = start;
+    ImplicitEuler stepper(system);
+    auto one = newton(system, 1);
+    REQUIRE(stepper.step(linearised, 0.01, 3));
+    REQUIRE(one.step(by_one, 0.01, 3));
+    CHECK(same_bits(linearised, by_one));
+
+    const auto linear = system.linearize(start);
+    auto u = linear.initial_state();
+    auto w = u;
+    ImplicitEuler plain(linear);
+    auto many = newton(linear, 20);
+    REQUIRE(plain.step(u, 0.01, 3));
+    REQUIRE(many.step(w, 0.01, 3));
+    CHECK(same_bits(u, w));
+}
+
+TEST_CASE("implicit_newton: too few iterations are reported and the state is untouched",
+          "[integrator]") {
+    Random random(4);
+    const auto system = random_system<double, 3>(random);
+    auto state = random_state(random, system);
+    const auto before = state;
+    auto stepper = newton(system, 2, 1e-10);
+    const taut::Report report = stepper.step(state, 0.1);
+    CHECK(report.status == Status::not_converged);
+    CHECK(report.residual > 1e-10);
+    CHECK(same_bits(state, before));
+    auto patient = newton(system);
+    CHECK(patient.step(state, 0.1));
+}
+
+TEST_CASE("implicit_newton: float reaches what its rounding admits", "[integrator]") {
+    Random random(5);
+    const auto system = random_system<float, 2>(random);
+    auto state = random_state(random, system);
+    ImplicitEuler<std::decay_t<decltype(system)>>::Options options;
+    options.newton_iterations = 60;
+    options.tolerance = 1e-12;  // out of reach
+    ImplicitEuler<std::decay_t<decltype(system)>> stepper(system, options);
+    const taut::Report report = stepper.step(state, 0.05F, 5);
+    CHECK(report);
+    CHECK(report.residual < 1e-3);
+}
+
+TEST_CASE("implicit_newton: an inexact solver converges to the same step", "[integrator]") {
+    Random random(6);
+    const auto system = random_system<double, 3>(random);
+    using System = std::decay_t<decltype(system)>;
+    auto by_factors = random_state(random, system);
+    auto by_gradients = by_factors;
+    auto factors = newton(system);
+    auto gradients = newton<System, taut::ConjugateGradient<double, 3>>(system);
+    REQUIRE(factors.step(by_factors, 0.02, 3));
+    REQUIRE(gradients.step(by_gradients, 0.02, 3));
+    CHECK(distance(by_factors.x, by_gradients.x) <= 1e-8);
+}
+
+TEST_CASE("implicit_euler: matrices are factorised once for each of the last two h",
+          "[integrator]") {
+    Random random(7);
+    const auto springs = random_system<double, 3>(random);
+    const auto linear = springs.linearize(springs.initial_state());
+    auto u = linear.initial_state();
+    ImplicitEuler stepper(linear);
+    for (const auto& [h, expected] : {std::pair(0.01, 1),
+                                      {0.01, 1},
+                                      {0.005, 2},
+                                      {0.01, 2},
+                                      {0.005, 2},
+                                      {0.002, 3},
+                                      {0.005, 3},
+                                      {0.01, 4}}) {
+        REQUIRE(stepper.step(u, h, 2));
+        CHECK(stepper.factorizations() == expected);
+        auto again = u;
+        auto by_fresh = u;
+        ImplicitEuler fresh(linear);
+        REQUIRE(stepper.step(again, h));
+        REQUIRE(fresh.step(by_fresh, h));
+        CHECK(same_bits(again, by_fresh));
+    }
+    auto state = springs.initial_state();
+    ImplicitEuler moving(springs);
+    REQUIRE(moving.step(state, 0.01, 3));
+    CHECK(moving.factorizations() == 3);
+}
+
+TEST_CASE("implicit_newton: wrong options are refused by name", "[integrator][bad_input]") {
+    Random random(8);
+    const auto system = random_system<double, 2>(random);
+    CHECK(missing(message_of([&] { newton(system, 0); }), {"newton_iterations is 0", ">= 1"})
+              .empty());
+    CHECK(missing(message_of([&] { newton(system, 5, 0); }), {"tolerance is 0", "> 0"}).empty());
+}

@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#include <Eigen/SparseCholesky>
+#include <limits>
+#include <taut/integrator/implicit_euler.hpp>
+#include <taut/scene/cloth.hpp>
+#include <taut/solver/conjugate_gradient.hpp>
+
+#include "../support/catch.hpp"
+#include "../support/message.hpp"
+#include "../support/random_system.hpp"
+#include "../support/tolerance.hpp"
+
+using namespace taut_test;
+using taut::BlockJacobi;
+using taut::ConjugateGradient;
+using taut::ImplicitEuler;
+using taut::IncompleteCholesky;
+using taut::Status;
+
+namespace {
+
+/// M + h²K⁺ of a random scene in a crumpled pose.
+template <class Scalar, int Dim>
+taut::SparseMatrix<Scalar> draw_matrix(Random& random, Scalar h) {
+    RandomOptions options;
+    options.particles = 20;
+    options.springs = 60;
+    const auto system = random_system<Scalar, Dim>(random, options);
+    const taut::TangentMatrix<Scalar, Dim> tangent(system);
+    auto A = tangent.zero();
+    const double step = static_cast<double>(h);
+    tangent.assemble(system, random_state(random, system).x, {1, step * step, 0}, A);
+    return A;
+}
+
+template <class Preconditioner, int Dim, class Scalar>
+void check_solves(Random& random, Scalar h) {
+    const auto A = draw_matrix<Scalar, Dim>(random, h);
+    const taut::VectorX<Scalar> b = random.points<Scalar, 1>(A.rows(), -1, 1).transpose();
+    ConjugateGradient<Scalar, Dim, Preconditioner> solver;
+    solver.analyzePattern(A);
+    solver.factorize(A);
+    REQUIRE(solver.info() == Eigen::Success);
+    for (const double tolerance : {0.1, 1e-3, 1e3 * Tolerance<Scalar>::epsilon}) {
+        solver.setTolerance(static_cast<Scalar>(tolerance));
+        const taut::VectorX<Scalar> x = solver.solve(b);
+        CHECK(solver.info() == Eigen::Success);
+        CHECK(solver.iterations() > 0);
+        const double residual = static_cast<double>((b - A * x).norm() / b.norm());
+        CHECK(residual <= 1.01 * tolerance + Tolerance<Scalar>::rounding);
+    }
+    // From the solution there is nothing left to do, and a guess of no use does no harm.
+    const taut::VectorX<Scalar> x = solver.solve(b);
+    solver.setTolerance(Scalar(1e-3));
+    solver.solve(b);
+    const Index cold = solver.iterations();
+    CHECK(solver.solveWithGuess(b, x) == x);
+    CHECK(solver.iterations() == 0);
+    for (const Scalar far : {Scalar(1e6), std::numeric_limits<Scalar>::quiet_NaN()}) {
+        solver.solveWithGuess(b, taut::VectorX<Scalar>::Constant(b.size(), far));
+        CHECK(solver.info() == Eigen::Success);
+        CHECK(solver.iterations() == cold);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("conjugate_gradient: the residual it promises is the true one", "[solver]") {
+    for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+        INFO("seed " << seed);
+        Random random(seed);
+        const double h = seed % 2 == 0 ? 0.01 : 0.3;
+        check_solves<IncompleteCholesky<double, 3>, 3>(random, h);
+        check_solves<IncompleteCholesky<double, 1>, 1>(random, h);
+        check_solves<BlockJacobi<double, 2>, 2>(random, h);
+        check_solves<IncompleteCholesky<float, 3>, 3>(random, static_cast<float>(h));
+    }
+}
+
+TEST_CASE("conjugate_gradient: incomplete Cholesky is exact where factors have no fill",
+          "[solver]") {
+    taut::SpringSystem<double, 3> chain;
+    for (int i = 0; i < 30; ++i) chain.add_particle({double(i), 0, 0}, 1);
+    for (int i = 0; i < 29; ++i) {
+        chain.add_spring(taut::Spring<double, taut::Hookean>{i, i + 1, {1000}, 0.5});
+    }
+    const taut::TangentMatrix<double, 3> tangent(chain);
+    auto A = tangent.zero();
+    tangent.assemble(chain, chain.initial_state().x, {1, 1, 0}, A);
+    Random random(2);
+    const Eigen::VectorXd b = random.points<double, 1>(A.rows(), -1, 1).transpose();
+    ConjugateGradient<double, 3> solver;
+    solver.setTolerance(1e-9);
+    solver.analyzePattern(A);
+    solver.factorize(A);
+    solver.solve(b);
+    CHECK(solver.info() == Eigen::Success);
+    CHECK(solver.iterations() <= 2);
+    ConjugateGradient<double, 3, BlockJacobi<double, 3>> plain;
+    plain.setTolerance(1e-9);
+    plain.analyzePattern(A);
+    plain.factorize(A);
+    plain.solve(b);
+    CHECK(plain.iterations() > 10);
+}
+
+TEST_CASE("conjugate_gradient: an indefinite matrix is reported, in the blocks or on the way",
+          "[solver]") {
+    taut::SparseMatrix<double> A(4, 4);
+    A.setIdentity();
+    A.coeffRef(0, 1) = A.coeffRef(1, 0) = 3;  // eigenvalues 4 and −2
+    A.makeCompressed();
+    ConjugateGradient<double, 1> solver;
+    solver.analyzePattern(A);
+    solver.factorize(A);
+    CHECK(solver.info() == Eigen::Success);
+    Eigen::Vector4d b(1, -1, 0, 0);
+    solver.solve(b);
+    CHECK(solver.info() == Eigen::NumericalIssue);
+    A.coeffRef(2, 2) = -1;
+    solver.factorize(A);
+    CHECK(solver.info() == Eigen::NumericalIssue);
+
+    taut::SparseMatrix<double> K(3, 3);
+    K.setIdentity();
+    K.coeffRef(1, 1) = -4;
+    const taut::LinearSystem<double> system(Eigen::VectorXd::Ones(3), {}, K);
+    taut::State<double, 1> u{Eigen::MatrixXd::Ones(1, 3), Eigen::MatrixXd::Ones(1, 3)};
+    const auto before = u;
+    ImplicitEuler<taut::LinearSystem<double>, ConjugateGradient<double, 1>> stepper(system);
+    CHECK(stepper.step(u, 1.0).status == Status::not_positive_definite);
+    CHECK(same_bits(u, before));
+    CHECK(stepper.step(u, 0.25));
+}
+
+TEST_CASE("conjugate_gradient: the cap of iterations is reported and the state untouched",
+          "[solver]") {
+    const auto cloth = taut::hanging_cloth<double>({12, 12});
+    using System = std::decay_t<decltype(cloth)>;
+    auto state = cloth.initial_state();
+    ImplicitEuler<System, ConjugateGradient<double, 3>> stepper(cloth);
+    REQUIRE(stepper.step(state, 1.0 / 60, 3));
+    const auto before = state;
+    stepper.configure([](auto& solver) { solver.setTolerance(1e-10); });
+    stepper.configure([](auto& solver) { solver.setMaxIterations(2); });
+    CHECK(stepper.step(state, 1.0 / 60).status == Status::not_converged);
+    CHECK(same_bits(state, before));
+    stepper.configure([](auto& solver) { solver.setMaxIterations(1000); });
+    CHECK(stepper.step(state, 1.0 / 60));
+}
+
+TEST_CASE("conjugate_gradient: a step follows Cholesky's within its tolerance, and starts warm",
+          "[solver]") {
+    const auto cloth = taut::hanging_cloth<double>({16, 16});
+    using System = std::decay_t<decltype(cloth)>;
+    using Stepper = ImplicitEuler<System, ConjugateGradient<double, 3>>;
+    auto by_gradients = cloth.initial_state();
+    auto by_factors = by_gradients;
+    Stepper gradients(cloth);
+    gradients.configure([](auto& solver) { solver.setTolerance(1e-10); });
+    ImplicitEuler factors(cloth);
+    Index warm = 0;
+    Index cold = 0;
+    for (int i = 0; i < 20; ++i) {
+        auto copy = by_gradients;
+        const taut::Report report = gradients.step(by_gradients, 1.0 / 60);
+        REQUIRE(report);
+        CHECK(report.residual <= 1.1e-10);
+        REQUIRE(factors.step(by_factors, 1.0 / 60));
+        Stepper fresh(cloth);
+        fresh.configure([](auto& solver) { solver.setTolerance(1e-10); });
+        REQUIRE(fresh.step(copy, 1.0 / 60));
+        warm += gradients.solver().iterations();
+        cold += fresh.solver().iterations();
+    }
+    CHECK(distance(by_gradients.x, by_factors.x) <= 1e-6);
+    CHECK(warm < cold);
+}
+
+TEST_CASE("conjugate_gradient: a wrong setting and a matrix without blocks are refused by name",
+          "[solver][bad_input]") {
+    ConjugateGradient<double, 3> solver;
+    CHECK(missing(message_of([&] { solver.setTolerance(0); }),
+                  {"ConjugateGradient", "tolerance is 0", "> 0"})
+              .empty());
+    CHECK_FALSE(
+        message_of([&] { solver.setTolerance(std::numeric_limits<double>::quiet_NaN()); }).empty());
+    CHECK(missing(message_of([&] { solver.setMaxIterations(0); }), {"iterations is 0", ">= 1"})
+              .empty());
+    taut::SparseMatrix<double> A(6, 6);
+    A.setIdentity();
+    CHECK(missing(message_of([&] { solver.analyzePattern(A); }),
+                  {"column 0", "no full 3 by 3 blocks"})
+              .empty());
+    CHECK_FALSE(
+        message_of([&] { solver.analyzePattern(taut::SparseMatrix<double>(4, 4)); }).empty());
+}
