@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "../core/assert.hpp"
+#include "block_pattern.hpp"
 #include "spring_set.hpp"
 
 namespace taut {
@@ -38,7 +39,7 @@ public:
     Index size() const { return Dim * static_cast<Index>(free_.size()); }
 
     /// An N × N matrix of zeros with this pattern.
-    Matrix zero() const;
+    Matrix zero() const { return pattern_.template zero<Scalar, Dim>(); }
 
     /// A ← c.mass·M + c.stiffness·K(x) + c.damping·D(x), into a matrix made by zero().
     template <class System>
@@ -46,22 +47,13 @@ public:
                   Matrix& A) const;
 
 private:
-    void add(Scalar* values, Index row_slot, Index column, const Block& block) const {
-        const Index blocks = first_[column + 1] - first_[column];
-        Scalar* target = values + Dim * Dim * first_[column] + Dim * row_slot;
-        for (int c = 0; c < Dim; ++c, target += Dim * blocks) {
-            for (int r = 0; r < Dim; ++r) target[r] += block(r, c);
-        }
-    }
-
     struct Slots {
         int ab;  // place of block (a, b) in column b, or -1 when an end is pinned
         int ba;  // place of block (b, a) in column a
     };
     std::vector<Index> free_;    // free particles, ascending
     std::vector<Index> column_;  // particle → block column, or -1
-    std::vector<Index> first_;   // block column → number of blocks before it
-    std::vector<int> rows_;      // block rows of all columns, ascending in each
+    BlockPattern pattern_;
     std::vector<int> diagonal_;  // block column → place of its diagonal block
     std::vector<Slots> slots_;   // one for each spring, in the order of for_each_spring
 };
@@ -75,62 +67,28 @@ TangentMatrix<Scalar, Dim>::TangentMatrix(const System& system) {
         column_[i] = static_cast<Index>(free_.size());
         free_.push_back(i);
     }
-    std::vector<std::vector<int>> neighbours(free_.size());
-    for (std::size_t j = 0; j < free_.size(); ++j) neighbours[j].push_back(static_cast<int>(j));
     const auto both_free = [this](Index a, Index b) { return column_[a] >= 0 && column_[b] >= 0; };
-    system.for_each_spring([&](Index a, Index b) {
-        if (!both_free(a, b)) return;
-        neighbours[column_[a]].push_back(static_cast<int>(column_[b]));
-        neighbours[column_[b]].push_back(static_cast<int>(column_[a]));
+    pattern_ = BlockPattern(static_cast<Index>(free_.size()), [&](const auto& visit) {
+        system.for_each_spring([&](Index a, Index b) {
+            if (both_free(a, b)) visit(column_[a], column_[b]);
+        });
     });
-    first_.push_back(0);
-    for (auto& list : neighbours) {
-        std::sort(list.begin(), list.end());
-        list.erase(std::unique(list.begin(), list.end()), list.end());
-        first_.push_back(first_.back() + static_cast<Index>(list.size()));
-        rows_.insert(rows_.end(), list.begin(), list.end());
-    }
-    const auto place = [this](Index row, Index column) {
-        const auto begin = rows_.begin() + first_[column];
-        const auto end = rows_.begin() + first_[column + 1];
-        return static_cast<int>(std::lower_bound(begin, end, static_cast<int>(row)) - begin);
-    };
     for (std::size_t j = 0; j < free_.size(); ++j) {
-        diagonal_.push_back(place(static_cast<Index>(j), static_cast<Index>(j)));
+        diagonal_.push_back(pattern_.place(static_cast<Index>(j), static_cast<Index>(j)));
     }
     system.for_each_spring([&](Index a, Index b) {
-        slots_.push_back(both_free(a, b)
-                             ? Slots{place(column_[a], column_[b]), place(column_[b], column_[a])}
-                             : Slots{-1, -1});
+        slots_.push_back(both_free(a, b) ? Slots{pattern_.place(column_[a], column_[b]),
+                                                 pattern_.place(column_[b], column_[a])}
+                                         : Slots{-1, -1});
     });
-}
-
-template <class Scalar, int Dim>
-auto TangentMatrix<Scalar, Dim>::zero() const -> Matrix {
-    Matrix A(size(), size());
-    A.resizeNonZeros(Dim * Dim * static_cast<Index>(rows_.size()));
-    Index next = 0;
-    for (std::size_t j = 0; j < free_.size(); ++j) {
-        for (int c = 0; c < Dim; ++c) {
-            A.outerIndexPtr()[Dim * j + c] = static_cast<int>(next);
-            for (Index slot = first_[j]; slot < first_[j + 1]; ++slot) {
-                for (int r = 0; r < Dim; ++r) A.innerIndexPtr()[next++] = Dim * rows_[slot] + r;
-            }
-        }
-    }
-    A.outerIndexPtr()[size()] = static_cast<int>(next);
-    std::fill_n(A.valuePtr(), next, Scalar(0));
-    return A;
 }
 
 template <class Scalar, int Dim>
 template <class System>
 void TangentMatrix<Scalar, Dim>::assemble(const System& system, const Points<Scalar, Dim>& x,
                                           const Combination& c, Matrix& A) const {
-    TAUT_ASSERT(A.nonZeros() == Dim * Dim * static_cast<Index>(rows_.size()),
-                "the matrix must be made by zero()");
-    Scalar* values = A.valuePtr();
-    std::fill_n(values, A.nonZeros(), Scalar(0));
+    TAUT_ASSERT(A.nonZeros() == Dim * Dim * pattern_.blocks(), "the matrix must be made by zero()");
+    std::fill_n(A.valuePtr(), A.nonZeros(), Scalar(0));
     const auto rayleigh = system.rayleigh();
     const Scalar on_mass = static_cast<Scalar>(c.mass + c.damping * rayleigh.mass_proportional);
     const Scalar on_k = static_cast<Scalar>(c.stiffness);
@@ -148,16 +106,16 @@ void TangentMatrix<Scalar, Dim>::assemble(const System& system, const Points<Sca
         const Block dd = raw.d * raw.d.transpose();  // first, so that P is symmetric to the bit
         Block P = (axial - transverse) * dd;
         P.diagonal().array() += transverse;
-        if (a >= 0) add(values, diagonal_[a], a, P);
-        if (b >= 0) add(values, diagonal_[b], b, P);
+        if (a >= 0) pattern_.add(A, diagonal_[a], a, P);
+        if (b >= 0) pattern_.add(A, diagonal_[b], b, P);
         if (slots.ab >= 0) {
-            add(values, slots.ab, b, -P);
-            add(values, slots.ba, a, -P);
+            pattern_.template add<Scalar, Dim>(A, slots.ab, b, -P);
+            pattern_.template add<Scalar, Dim>(A, slots.ba, a, -P);
         }
     });
     for (std::size_t j = 0; j < free_.size(); ++j) {
         const Block diagonal = on_mass * system.mass(free_[j]) * Block::Identity();
-        add(values, diagonal_[j], static_cast<Index>(j), diagonal);
+        pattern_.add(A, diagonal_[j], static_cast<Index>(j), diagonal);
     }
 }
 
