@@ -38,8 +38,8 @@ struct Spy {
     taut::ImplicitEuler<Springs>& stepper;
     const Springs& system;
     double worst_kept = 0;
-    taut::State<double, 2> start;
-    taut::State<double, 2> end;
+    taut::State<double, 2> start{};
+    taut::State<double, 2> end{};
     int calls = 0;
 
     taut::Report step(taut::State<double, 2>& state, double h) {
