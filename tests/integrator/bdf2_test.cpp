@@ -217,6 +217,22 @@ TEST_CASE("bdf2: the energy norm of two successive states never rises, at any st
     }
 }
 
+TEST_CASE("bdf2: the artificial damping ratio of a mode is (h omega)^3/4", "[integrator]") {
+    const auto oscillator = taut::chain<double, 1>({1, taut::ChainEnds::fixed_free, 1, 4});
+    for (const double z : {0.05, 0.1}) {  // hω, ω = 2/s
+        auto state = oscillator.initial_state();
+        state.x(0, 0) += 0.0625;
+        Bdf2 stepper(oscillator);
+        const auto size = [&] { return std::hypot(state.x(0, 0), state.v(0, 0) / 2); };
+        REQUIRE(stepper.step(state, z / 2, 10));  // past the first step
+        const double before = size();
+        const int steps = static_cast<int>(2 / (z * z * z));
+        REQUIRE(stepper.step(state, z / 2, steps));
+        const double ratio = std::log(before / size()) / (steps * z);
+        CHECK_THAT(ratio, WithinRel(z * z * z / 4, 0.05));
+    }
+}
+
 TEST_CASE("bdf2: an unsymmetric system is stepped by SparseLU, as a dense solve does",
           "[integrator]") {
     Random random(6);

@@ -5,6 +5,7 @@
 #include <Eigen/SparseCholesky>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 
 #include "detail/multistep_equation.hpp"
@@ -18,10 +19,11 @@ namespace taut {
 /// f linearised about (x, v) with K⁺ for K on springs. K.-J. Choi, H.-S. Ko, "Stable but responsive
 /// cloth", SIGGRAPH 2002, at variable steps (E. Hairer, G. Wanner, "Solving ODEs II", V.5).
 ///
-/// A-stable: where M ≻ 0 and D, K ⪰ 0 every h is stable, with far less artificial damping than
-/// implicit Euler: of order (hω)³, not hω. Order 2 on linear systems and where no spring is
-/// compressed; the part of K that K⁺ leaves out lags by a step, which is of order 1. One solve does
-/// not see a slack spring that becomes taut within the step, so energy may rise for a while.
+/// A-stable: at equal steps every h is stable where M ≻ 0 and D, K ⪰ 0, with an artificial damping
+/// ratio of (hω)³/4 in place of implicit Euler's hω/2. Order 2 on linear systems and where no
+/// spring is compressed; the part of K that K⁺ leaves out lags by a step, which is of order 1. One
+/// solve does not see a slack spring that becomes taut within the step, so energy may rise for a
+/// while: Guarded takes such a step back.
 ///
 /// The first step is implicit Euler (ω = 0 in the formula). So is the next one after the system or
 /// the state was changed from outside, and after a failure; and one that is more than `max_ratio`
