@@ -160,9 +160,7 @@ Report ConstrainedImplicitEuler<System, Solver>::advance(State& state, Scalar h)
     forces_.setZero(Dim, system_->size());
     for (const auto& [particle, held] : constraints_.held()) {
         const Index j = block_[static_cast<std::size_t>(particle)];
-        if (j < 0) continue;
-        const Vector impulse = b_.template segment<Dim>(Dim * j);
-        forces_.col(particle) = (impulse - held.free() * impulse) / h;
+        if (j >= 0) forces_.col(particle) = b_.template segment<Dim>(Dim * j) / h;
     }
     equation_.add_to_velocity(dv_, state);
     state.x += h * state.v;
