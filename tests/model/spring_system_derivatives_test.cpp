@@ -81,6 +81,7 @@ TEMPLATE_TEST_CASE("spring_system: force is -grad(energy), K is -df/dx and D is 
 TEMPLATE_TEST_CASE("spring_system: the same derivatives hold with several laws in one system",
                    "[model]", (SpringSystem<double, 1, Glue>),
                    (SpringSystem<double, 2, TensionOnly, Hookean>),
+                   (SpringSystem<double, 2, Buckling>),
                    (SpringSystem<double, 3, Hookean, TensionOnly, Glue>)) {
     for (std::uint32_t seed = 1; seed <= 10; ++seed) {
         Random random(seed);

@@ -3,45 +3,16 @@
 #pragma once
 
 #include <cmath>
+#include <taut/model/buckling.hpp>
 #include <taut/model/hookean.hpp>
+#include <taut/model/tension_only.hpp>
 
 #include "random.hpp"
 
 namespace taut_test {
 
-/// A string: T = k·max(l − L, 0). Its energy is convex in the positions.
-struct TensionOnly {
-    static constexpr bool convex = true;
-
-    template <class Scalar>
-    struct Parameters {
-        Scalar stiffness;  // N/m
-
-        void require_valid(const char* where) const {
-            taut::require_non_negative(where, "stiffness", stiffness);
-        }
-        template <class Other>
-        Parameters<Other> cast() const {
-            return {static_cast<Other>(stiffness)};
-        }
-    };
-    template <class Scalar>
-    static Scalar tension(const Parameters<Scalar>& p, Scalar L, Scalar l) {
-        return l > L ? p.stiffness * (l - L) : Scalar(0);
-    }
-    template <class Scalar>
-    static Scalar tension_slope(const Parameters<Scalar>& p, Scalar L, Scalar l) {
-        return l > L ? p.stiffness : Scalar(0);
-    }
-    template <class Scalar>
-    static Scalar energy(const Parameters<Scalar>& p, Scalar L, Scalar l) {
-        return l > L ? Scalar(0.5) * p.stiffness * (l - L) * (l - L) : Scalar(0);
-    }
-    template <class Scalar>
-    static Scalar stiffness_bound(const Parameters<Scalar>& p, Scalar) {
-        return p.stiffness;
-    }
-};
+using taut::Buckling;
+using taut::TensionOnly;
 
 /// Glue: T = k·u·exp(−u²/w²), u = l − L. Pulled far, it lets go: T′ < 0 beyond u = w/√2.
 struct Glue {
@@ -94,6 +65,12 @@ taut::Hookean::Parameters<Scalar> draw_parameters(Random& random, taut::Hookean)
 template <class Scalar>
 TensionOnly::Parameters<Scalar> draw_parameters(Random& random, TensionOnly) {
     return {static_cast<Scalar>(random.uniform(20, 200))};
+}
+template <class Scalar>
+Buckling::Parameters<Scalar> draw_parameters(Random& random, Buckling) {
+    const auto stiffness = static_cast<Scalar>(random.uniform(20, 200));
+    const auto bending = static_cast<Scalar>(random.uniform(0.01, 2));
+    return {stiffness, bending, static_cast<Scalar>(random.uniform(20, 400))};
 }
 template <class Scalar>
 Glue::Parameters<Scalar> draw_parameters(Random& random, Glue) {

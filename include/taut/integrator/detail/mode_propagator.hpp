@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+
+namespace taut::detail {
+
+/// The exact motion of q̈ + d q̇ + k q = p over one step, p constant:
+///     (q⁺, q̇⁺) = A (q, q̇) + p·b,   A = e^(hC),  b = ∫₀ʰ e^(tC) dt·(0, 1),  C = [0 1; −k −d].
+struct ModePropagator {
+    double a11, a12, a21, a22;
+    double b1, b2;
+
+    /// By series over h/2^m and m doublings A(2t) = A², b(2t) = b + A b: underdamped, critical,
+    /// overdamped, rigid and buckled modes are one case.
+    static ModePropagator over(double h, double k, double d) {
+        const double rate = std::sqrt(std::abs(k)) + std::abs(d);  // 1/s, of the scaled C
+        int doublings = 0;
+        double t = h;
+        for (; rate * t > 0.5 && doublings < 1000; t /= 2) ++doublings;
+
+        // Row n of the series is (q, q̇) after n derivatives, for the starts (1, 0) and (0, 1).
+        ModePropagator m{1, 0, 0, 1, 0, 0};
+        double u1 = 1, v1 = 0, u2 = 0, v2 = 1;
+        double factor = 1;  // tⁿ/n!
+        for (int n = 1; n <= 16; ++n) {
+            m.b1 += factor * t / n * u2;  // the integral lags by one power of t
+            m.b2 += factor * t / n * v2;
+            factor *= t / n;
+            const double next1 = -k * u1 - d * v1;
+            const double next2 = -k * u2 - d * v2;
+            u1 = v1;
+            v1 = next1;
+            u2 = v2;
+            v2 = next2;
+            m.a11 += factor * u1;
+            m.a21 += factor * v1;
+            m.a12 += factor * u2;
+            m.a22 += factor * v2;
+        }
+        for (int i = 0; i < doublings; ++i) m = m.twice();
+        return m;
+    }
+
+private:
+    ModePropagator twice() const {
+        return {a11 * a11 + a12 * a21, a11 * a12 + a12 * a22,    a21 * a11 + a22 * a21,
+                a21 * a12 + a22 * a22, b1 + a11 * b1 + a12 * b2, b2 + a21 * b1 + a22 * b2};
+    }
+};
+
+}  // namespace taut::detail

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "../core/error.hpp"
+#include "../core/types.hpp"
+
+namespace taut {
+
+/// Velocities that single particles must have along single directions: Nᵀv = s, N orthonormal. The
+/// constraints of D. Baraff, A. Witkin, "Large steps in cloth simulation", SIGGRAPH 1998, section
+/// 5: a particle held in a plane, on a line, at a point, or moved.
+///
+/// Constraints on one particle add up: two planes make a line, three a point. One that contradicts
+/// those before it is refused, and names the particle.
+template <class Scalar, int Dim>
+class ParticleConstraints {
+public:
+    using Vector = Eigen::Matrix<Scalar, Dim, 1>;
+    using Block = Eigen::Matrix<Scalar, Dim, Dim>;
+
+    /// The constrained directions of a particle, and its speeds along them.
+    struct Held {
+        int count = 0;
+        Block directions = Block::Zero();  ///< its first `count` columns are orthonormal
+        Vector speeds = Vector::Zero();    ///< m/s
+
+        /// S = I − NNᵀ: what is left free.
+        Block free() const { return Block::Identity() - directions * directions.transpose(); }
+        /// N s, m/s.
+        Vector velocity() const { return directions * speeds; }
+    };
+
+    /// v·direction = speed, m/s. @param direction  of any length but 0
+    void hold(Index particle, const Vector& direction, Scalar speed = 0);
+    /// In the plane across `normal`, which itself moves along it with `speed`, m/s.
+    void hold_in_plane(Index particle, const Vector& normal, Scalar speed = 0) {
+        hold(particle, normal, speed);
+    }
+    /// On the line along `direction`.
+    void hold_on_line(Index particle, const Vector& direction);
+    /// In all directions: v = velocity, m/s.
+    void prescribe(Index particle, const Vector& velocity) {
+        for (int d = 0; d < Dim; ++d) hold(particle, Vector::Unit(d), velocity[d]);
+    }
+    void fix(Index particle) { prescribe(particle, Vector::Zero()); }
+    void release(Index particle) { held_.erase(particle); }
+    void clear() { held_.clear(); }
+
+    const std::map<Index, Held>& held() const { return held_; }
+
+    /// Takes the constrained part out of a vector for each particle, Dim × n: the filter of their
+    /// conjugate gradients.
+    void filter(Points<Scalar, Dim>& values) const {
+        for (const auto& [particle, at] : held_) {
+            values.col(particle) = (at.free() * values.col(particle)).eval();
+        }
+    }
+
+private:
+    std::map<Index, Held> held_;
+};
+
+template <class Scalar, int Dim>
+void ParticleConstraints<Scalar, Dim>::hold(Index particle, const Vector& direction, Scalar speed) {
+    if (particle < 0) fail("ParticleConstraints: particle is ", particle, "; it must be >= 0");
+    if (!direction.allFinite() || !(direction.stableNorm() > 0) || !std::isfinite(speed)) {
+        fail("ParticleConstraints: particle ", particle,
+             ": the direction must be finite and not zero, and the speed finite; it is ", speed);
+    }
+    const auto found = held_.find(particle);
+    Held at = found == held_.end() ? Held{} : found->second;
+    const Vector n = direction.stableNormalized();
+    const Vector known = at.directions.transpose() * n;
+    Vector rest = n - at.directions * known;
+    const Scalar size = rest.norm();
+    const Scalar implied = known.dot(at.speeds);
+    const Scalar parallel = std::sqrt(std::numeric_limits<Scalar>::epsilon());
+    if (size <= parallel) {
+        const Scalar scale = std::abs(speed) + at.speeds.cwiseAbs().maxCoeff();
+        if (std::abs(speed - implied) > 4 * parallel * scale) {
+            fail("ParticleConstraints: particle ", particle, " is held to a speed of ", implied,
+                 " along this direction; ", speed, " contradicts it");
+        }
+        return;
+    }
+    rest /= size;
+    rest = (rest - at.directions * (at.directions.transpose() * rest)).normalized();
+    at.directions.col(at.count) = rest;
+    at.speeds[at.count] = (speed - implied) / size;
+    ++at.count;
+    held_[particle] = at;
+}
+
+template <class Scalar, int Dim>
+void ParticleConstraints<Scalar, Dim>::hold_on_line(Index particle, const Vector& direction) {
+    // The axes, least aligned first, less their part along the line, span its complement.
+    if (!direction.allFinite() || !(direction.stableNorm() > 0)) {
+        fail("ParticleConstraints: particle ", particle,
+             ": the direction of a line must be finite and not zero");
+    }
+    const Vector d = direction.stableNormalized();
+    Index along = 0;
+    d.cwiseAbs().maxCoeff(&along);
+    for (int axis = 0; axis < Dim; ++axis) {
+        if (axis == along) continue;
+        const Vector across = Vector::Unit(axis) - d[axis] * d;
+        hold(particle, across);
+    }
+}
+
+}  // namespace taut

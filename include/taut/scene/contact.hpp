@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+
+#include "obstacle.hpp"
+
+namespace taut {
+
+struct ContactOptions {
+    double friction = 0;   ///< Coulomb's μ, ≥ 0
+    double thickness = 0;  ///< kept between particles and the surface, m, ≥ 0
+};
+
+/// What resolve_contacts met.
+template <class Scalar, int Dim>
+struct ContactReport {
+    Index contacts = 0;  ///< particles at or below the surface
+    Index deepest = -1;  ///< the one that was farthest in, or −1
+    Scalar depth = 0;    ///< how far, m
+    Eigen::Matrix<Scalar, Dim, 1> impulse =
+        Eigen::Matrix<Scalar, Dim,
+                      1>::Zero();  ///< Σ m(v⁺ − v), N·s: over h, what the obstacle bears
+};
+
+/// Puts the free particles of a state out of an obstacle at rest, after each step: a particle below
+/// the surface goes to it along the normal n, loses its velocity into the obstacle, v_n = n·v < 0,
+/// and of its tangential velocity v_t what Coulomb allows:
+///     v⁺ = v_t·max(0, 1 − μ|v_n|/|v_t|).
+///
+/// No particle gains speed. One that starts inside is moved out at once, and without a velocity
+/// from it; the springs bear what that stretches. An explicit or one-step method goes on as if
+/// nothing had happened; Bdf2 starts anew. Nothing is seen between steps: a step must be short
+/// against the obstacle. For several obstacles call it for each; in a wedge, twice.
+/// @param obstacle  `Surface surface(point) const`: HalfSpace, Sphere or your own
+/// @throws when friction or thickness is negative or not finite, or the state does not fit
+template <class System, class Obstacle>
+ContactReport<typename System::Scalar, System::Dim> resolve_contacts(
+    const System& system, const Obstacle& obstacle, typename System::State& state,
+    const ContactOptions& options = {}) {
+    using Scalar = typename System::Scalar;
+    using Vector = Eigen::Matrix<Scalar, System::Dim, 1>;
+    require_non_negative("resolve_contacts", "friction", options.friction);
+    require_non_negative("resolve_contacts", "thickness", options.thickness);
+    if (state.x.cols() != system.size() || state.v.cols() != system.size()) {
+        fail("resolve_contacts: the state has ", state.x.cols(), " positions and ", state.v.cols(),
+             " velocities; the system has ", system.size(), " particles");
+    }
+    const auto friction = static_cast<Scalar>(options.friction);
+    const auto thickness = static_cast<Scalar>(options.thickness);
+    ContactReport<Scalar, System::Dim> report;
+    for (Index i = 0; i < system.size(); ++i) {
+        if (system.is_pinned(i)) continue;
+        const auto surface = obstacle.surface(state.x.col(i));
+        const Scalar depth = thickness - surface.distance;
+        if (!(depth >= 0)) continue;
+        ++report.contacts;
+        if (report.deepest < 0 || depth > report.depth) {
+            report.deepest = i;
+            report.depth = depth;
+        }
+        state.x.col(i) += depth * surface.normal;
+        const Scalar into = -surface.normal.dot(state.v.col(i));
+        if (!(into > 0)) continue;
+        const Vector before = state.v.col(i);
+        const Vector along = before + into * surface.normal;
+        const Scalar speed = along.norm();
+        const Scalar kept =
+            speed > 0 ? std::max(Scalar(0), 1 - friction * into / speed) : Scalar(0);
+        state.v.col(i) = kept * along;
+        report.impulse += system.mass(i) * (state.v.col(i) - before);
+    }
+    return report;
+}
+
+}  // namespace taut
