@@ -7,21 +7,21 @@
 set -eu
 
 # libopenblas-dev comes with SuiteSparse: on the reference BLAS, CHOLMOD is slower than Eigen.
-packages="cmake ninja-build g++ libeigen3-dev libsuitesparse-dev libopenblas-dev catch2
+packages="cmake ninja-build g++ libeigen3-dev libsuitesparse-dev libopenblas-dev libspectra-dev catch2
 libcli11-dev libtinyobjloader-dev nlohmann-json3-dev"
 
 case "${1-}" in
     '') ;;
     --ci) packages="$packages git clang-format-14" ;;
-    --bench) packages="$packages libspectra-dev libboost-dev" ;;
+    --bench) packages="$packages libboost-dev" ;;
     *) echo "install-deps: unknown option '$1'; there are --ci and --bench" >&2; exit 1 ;;
 esac
 
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
     cat >&2 <<'END'
 install-deps: there is no apt-get here. Install these yourself, then run the cmake command:
-  brew install cmake ninja eigen suite-sparse openblas catch2 cli11 tinyobjloader nlohmann-json
-  vcpkg install eigen3 suitesparse openblas catch2 cli11 tinyobjloader nlohmann-json
+  brew install cmake ninja eigen suite-sparse openblas spectra catch2 cli11 tinyobjloader nlohmann-json
+  vcpkg install eigen3 suitesparse openblas spectra catch2 cli11 tinyobjloader nlohmann-json
 END
     exit 1
 fi

@@ -3,18 +3,29 @@
 #pragma once
 
 // Everything that needs Eigen alone. Opt-in headers: solver/cholmod.hpp, solver/umfpack.hpp,
-// solver/cholmod_simplicial.hpp.
+// solver/cholmod_simplicial.hpp; solver/modal_analysis.hpp, which needs Spectra.
 
 #include "core/version.hpp"
+#include "integrator/adaptive.hpp"
+#include "integrator/bdf2.hpp"
+#include "integrator/constrained_implicit_euler.hpp"
 #include "integrator/explicit_euler.hpp"
+#include "integrator/guarded.hpp"
 #include "integrator/implicit_euler.hpp"
+#include "integrator/modal_dynamics.hpp"
 #include "integrator/projective_dynamics.hpp"
 #include "integrator/symplectic_euler.hpp"
 #include "integrator/velocity_verlet.hpp"
 #include "io/obj.hpp"
+#include "model/buckling.hpp"
+#include "model/energy_guarantee.hpp"
+#include "model/particle_constraints.hpp"
+#include "model/tension_only.hpp"
 #include "scene/chain.hpp"
 #include "scene/cloth.hpp"
+#include "scene/contact.hpp"
 #include "scene/mesh.hpp"
+#include "scene/obstacle.hpp"
 #include "solver/conjugate_gradient.hpp"
 #include "solver/interleaved_llt.hpp"
 #include "solver/static_equilibrium.hpp"
