@@ -231,3 +231,25 @@ TEST_CASE("modal_dynamics: bad input is reported or refused by name, and nothing
     CHECK((growing.amplitudes() == start).all());
     CHECK(growing.time() == 0);
 }
+
+TEMPLATE_TEST_CASE(
+    "modal_dynamics: at rest, and in modes that are nearly zero, nothing is denormal",
+    "[integrator]", float, double) {
+    const auto chain = taut::chain<double, 1>({6, taut::ChainEnds::fixed_free, 2, 50});
+    const auto pose = chain.initial_state();
+    const auto linear = chain.linearize(pose);
+    auto basis = dense_basis(linear, 6);
+    basis.d.setConstant(3);
+    basis.shapes.row(2) *= 1e-30;
+    ModalDynamics<TestType, 1> modal(linear, {pose.x, pose.v}, basis);
+    auto state = modal.state();
+    state.v.setConstant(1);
+    modal.set_state(state);
+    const auto normal = [](TestType v) { return v == 0 || std::isnormal(v); };
+    for (int i = 0; i < 1000; ++i) {
+        REQUIRE(modal.step(1));
+        modal.velocities(state.v);
+        REQUIRE(std::all_of(state.v.data(), state.v.data() + state.v.size(), normal));
+    }
+    CHECK((state.v.array() == 0).all());
+}

@@ -3,9 +3,7 @@
 #pragma once
 
 #include <cmath>
-#include <tuple>
-#include <utility>
-#include <vector>
+#include <limits>
 
 #include "../core/status.hpp"
 #include "../model/linear_system.hpp"
@@ -53,7 +51,7 @@ public:
     double time() const { return time_; }
     const Eigen::ArrayXd& amplitudes() const { return q_; }       ///< r, m·√kg
     const Eigen::ArrayXd& amplitude_rates() const { return v_; }  ///< r, m·√kg/s
-    /// x ← pose + Φq, m, Dim × n.
+    /// x ← pose + Φq, m, Dim × n; allocates r numbers.
     void positions(Points<Shape, Dim>& x) const { expand(q_, &pose_, x); }
     /// v ← Φq̇, m/s, Dim × n.
     void velocities(Points<Shape, Dim>& v) const { expand(v_, nullptr, v); }
@@ -73,13 +71,13 @@ private:
     Shapes shapes_;         // Φ with a row for every coordinate, zero where pinned; row-major, so
                             // that positions read it once and write once
     Eigen::VectorXd mass_;  // Dim·n, kg, 0 where pinned
-    Points<Shape, Dim> pose_;      // m
-    Eigen::ArrayXd k_, d_;         // r, 1/s² and 1/s
-    Eigen::ArrayXd load_, force_;  // r, of the load and of the force set, m·√kg/s²
-    Eigen::ArrayXd q_, v_;         // r
-    Eigen::ArrayXd next_;          // r
-    double time_ = 0;              // s
-    double h_ = 0;                 // of the propagators, s
+    Points<Shape, Dim> pose_;              // m
+    Eigen::ArrayXd k_, d_;                 // r, 1/s² and 1/s
+    Eigen::ArrayXd load_, p_;              // r, of the load alone and with the force, m·√kg/s²
+    Eigen::ArrayXd q_, v_;                 // r
+    Eigen::ArrayXd next_, old_q_, old_v_;  // r
+    double time_ = 0;                      // s
+    double h_ = 0;                         // of the propagators, s
     Eigen::ArrayXd a11_, a12_, a21_, a22_, b1_, b2_;
 };
 
@@ -106,8 +104,15 @@ ModalDynamics<Shape, Dim>::ModalDynamics(const LinearSystem<Real>& linear,
         shapes_.row(to) = basis.shapes.row(row).template cast<Shape>();
         mass_[to] = static_cast<double>(linear.mass()[row]);
     }
+    // What is below the rounding of its mode is noise, and slow where it meets denormal numbers.
+    constexpr auto epsilon = static_cast<Shape>(std::numeric_limits<double>::epsilon());
+    for (Index j = 0; j < basis.size(); ++j) {
+        const Shape noise = epsilon * shapes_.col(j).cwiseAbs().maxCoeff();
+        shapes_.col(j) = (shapes_.col(j).array().abs() < noise).select(Shape(0), shapes_.col(j));
+    }
     pose_ = pose.x.template cast<Shape>();
-    force_ = q_ = v_ = Eigen::ArrayXd::Zero(basis.size());
+    p_ = load_;
+    q_ = v_ = Eigen::ArrayXd::Zero(basis.size());
     time_ = static_cast<double>(pose.time);
 }
 
@@ -115,15 +120,16 @@ template <class Shape, int Dim>
 Report ModalDynamics<Shape, Dim>::step(double h, Index count) {
     if (!(h > 0) || !std::isfinite(h)) return {Status::invalid_step};
     set_step(h);
-    const Eigen::ArrayXd p = load_ + force_;
-    const auto before = std::make_pair(q_, v_);
+    old_q_ = q_;
+    old_v_ = v_;
     for (Index i = 0; i < count; ++i) {
-        next_ = a11_ * q_ + a12_ * v_ + b1_ * p;
-        v_ = a21_ * q_ + a22_ * v_ + b2_ * p;
+        next_ = a11_ * q_ + a12_ * v_ + b1_ * p_;
+        v_ = a21_ * q_ + a22_ * v_ + b2_ * p_;
         q_.swap(next_);
     }
     if (!q_.allFinite() || !v_.allFinite()) {
-        std::tie(q_, v_) = before;
+        q_ = old_q_;
+        v_ = old_v_;
         return {Status::diverged};
     }
     time_ += h * static_cast<double>(count);
@@ -182,7 +188,7 @@ template <class Shape, int Dim>
 void ModalDynamics<Shape, Dim>::set_force(const Points<Shape, Dim>& force) {
     require_size("set_force", force.cols());
     if (!force.allFinite()) fail("ModalDynamics::set_force: a force is not finite");
-    force_ = project(force, false);
+    p_ = load_ + project(force, false);
 }
 
 template <class Shape, int Dim>
@@ -191,7 +197,9 @@ void ModalDynamics<Shape, Dim>::expand(const Eigen::ArrayXd& amplitudes,
                                        Points<Shape, Dim>& out) const {
     out.resize(Dim, pose_.cols());
     Eigen::Map<Flat> flat(out.data(), out.size());
-    const Flat q = amplitudes.matrix().template cast<Shape>();
+    // A scene that has come to rest must not go on in denormal numbers.
+    const double rest = std::sqrt(static_cast<double>(std::numeric_limits<Shape>::min()));
+    const Flat q = (amplitudes.abs() < rest).select(0, amplitudes).matrix().template cast<Shape>();
     flat.noalias() = shapes_ * q;
     if (offset != nullptr) out += *offset;
 }
