@@ -97,7 +97,7 @@ void conditioned_pairs() {
 }
 
 double uniform(std::mt19937& random, double low, double high) {
-    return low + (high - low) * (random() * 0x1p-32);
+    return low + (high - low) * (static_cast<double>(random()) * 0x1p-32);
 }
 
 /// 1–20 particles in one to three dimensions: N up to 60.

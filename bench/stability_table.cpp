@@ -104,12 +104,12 @@ void memory() {
     const auto bytes = [](const taut::SparseMatrix<double>& A) {
         return static_cast<double>(A.nonZeros() * 12 + A.cols() * 4);
     };
-    Eigen::SimplicialLLT<taut::SparseMatrix<double>> llt(
-        taut::SpringPencil<3>::at_pose(cloth, state.x).assemble({1e9, 1, 0}));
-    taut::SparseMatrix<double> L = llt.matrixL();
-    const double factor = bytes(L);
-    L.resize(0, 0);
-    llt = {};
+    const double factor = [&] {
+        const Eigen::SimplicialLLT<taut::SparseMatrix<double>> llt(
+            taut::SpringPencil<3>::at_pose(cloth, state.x).assemble({1e9, 1, 0}));
+        const taut::SparseMatrix<double> L = llt.matrixL();
+        return bytes(L);
+    }();
     const auto analysis = [&](double tightness) {
         return bench::peak_bytes([&] {
             taut::Stability<double>(cloth, state).max_step(Method::symplectic_euler, tightness);

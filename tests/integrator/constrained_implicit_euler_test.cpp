@@ -181,3 +181,14 @@ TEST_CASE("particle_constraints: contradictions and bad values are named by thei
     CHECK(report.where == 8);
     CHECK(same_bits(state, before));
 }
+
+TEST_CASE("particle_constraints: what is refused changes nothing", "[integrator][bad_input]") {
+    taut::ParticleConstraints<double, 3> constraints;
+    CHECK_THROWS_AS(constraints.prescribe(3, {1, std::nan(""), 0}), std::invalid_argument);
+    CHECK(constraints.held().empty());
+    constraints.hold(3, {0, 1, 0}, 2);
+    CHECK_THROWS_AS(constraints.fix(3), std::invalid_argument);
+    CHECK(constraints.held().at(3).count == 1);
+    CHECK_THROWS_AS(constraints.hold_on_line(3, {1, 0, 0}), std::invalid_argument);
+    CHECK(constraints.held().at(3).count == 1);
+}

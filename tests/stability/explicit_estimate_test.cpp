@@ -60,8 +60,7 @@ TEST_CASE("explicit_estimate: near the dense answer under dampers", "[stability]
     }
 }
 
-TEST_CASE("explicit_estimate: no number where K is indefinite, infinity for zero modes alone",
-          "[stability]") {
+TEST_CASE("explicit_estimate: no number where K is indefinite", "[stability]") {
     const auto cloth = taut::hanging_cloth<double>({6, 6});
     const auto squeezed = deformed(cloth, 0.5, 0, 1);
     const auto buckled = Pencil3::at_pose(cloth, squeezed.x);

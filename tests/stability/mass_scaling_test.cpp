@@ -225,3 +225,10 @@ TEST_CASE("mass_scaling: frequencies of a large cloth change as those of a dense
         CHECK_THAT(added.frequency_change[j], WithinAbs(after[j] / before[j] - 1, 1e-3));
     }
 }
+
+TEST_CASE("mass_scaling: masses beyond float are not reached", "[stability]") {
+    const auto cloth = taut::hanging_cloth<float>({4, 4});
+    const auto added = added_mass(cloth, cloth.initial_state(), 1e21);
+    CHECK_FALSE(added.reached);
+    for (const double mass : added.mass) CHECK(mass == 0);
+}

@@ -270,3 +270,16 @@ TEST_CASE("narrow: the tightness is what was asked for", "[stability]") {
         CHECK_THROWS_AS(taut::any_pose_limit(cloth, wrong), std::invalid_argument);
     }
 }
+
+TEST_CASE("narrow: a stiffness that overflows is named, by every method", "[stability]") {
+    Eigen::Matrix2d K;
+    K << 1.5e308, -1.5e308, -1.5e308, 1.5e308;
+    K(0, 0) = -1.5e308;
+    const taut::LinearSystem<double> system(Eigen::Vector2d(1, 1), {}, K.sparseView());
+    const taut::Stability<double> stability(system);
+    for (const auto method : {taut::Method::symplectic_euler, taut::Method::implicit_euler,
+                              taut::Method::explicit_euler}) {
+        const auto limit = stability.max_step(method, 1e-3);
+        CHECK(limit.certified == 0);
+    }
+}

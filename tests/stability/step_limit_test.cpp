@@ -151,6 +151,8 @@ TEST_CASE("step_limit: after update() the limit is that of a new analysis, and h
     };
     cloth.add_spring(30, 45, 1e6);
     check("a spring added");
+    cloth.add_spring(150, 165, 1e7);  // the mode of the last one is still there, and leads no more
+    check("a stiffer one elsewhere");
     cloth.set_mass(100, 1e-5);
     check("a lighter particle");
     cloth.pin(7);

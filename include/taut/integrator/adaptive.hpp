@@ -109,8 +109,9 @@ AdaptiveReport<typename System::Scalar> Adaptive<Stepper, System>::advance(State
         report.status = Status::invalid_step;
         return report;
     }
-    while (report.advanced < duration) {
-        const Scalar left = duration - report.advanced;
+    double advanced = 0;  // in float a small step would be lost beside a long time
+    while (advanced < static_cast<double>(duration)) {
+        const auto left = static_cast<Scalar>(static_cast<double>(duration) - advanced);
         // A last step is cut to what is left, and a rest too small for a step goes with it.
         const bool last = left <= h_ * (1 + 16 * std::numeric_limits<Scalar>::epsilon());
         const Scalar h = last ? left : h_;
@@ -119,7 +120,7 @@ AdaptiveReport<typename System::Scalar> Adaptive<Stepper, System>::advance(State
         const Index spring = step ? overstretched(state) : Index(-1);
         if (step && spring < 0) {
             ++report.steps;
-            report.advanced = last ? duration : report.advanced + h;
+            advanced = last ? static_cast<double>(duration) : advanced + static_cast<double>(h);
             if (++successes_ >= options_.successes) {
                 h_ = std::min(2 * h_, options_.max_step);
                 successes_ = 0;
@@ -135,7 +136,7 @@ AdaptiveReport<typename System::Scalar> Adaptive<Stepper, System>::advance(State
             // A stretch at the smallest step is the scene's own: let it pass.
             if (step) {
                 ++report.steps;
-                report.advanced = last ? duration : report.advanced + h;
+                advanced = last ? static_cast<double>(duration) : advanced + static_cast<double>(h);
                 continue;
             }
             report.status = step.status;
@@ -145,6 +146,7 @@ AdaptiveReport<typename System::Scalar> Adaptive<Stepper, System>::advance(State
         h_ = std::max(h / 2, options_.min_step);
     }
     report.h = h_;
+    report.advanced = static_cast<Scalar>(advanced);
     return report;
 }
 

@@ -21,7 +21,8 @@ namespace taut {
 ///
 /// A-stable: at equal steps every h is stable where M ≻ 0 and D, K ⪰ 0, with an artificial damping
 /// ratio of (hω)³/4 in place of implicit Euler's hω/2. Order 2 on linear systems and where no
-/// spring is compressed; the part of K that K⁺ leaves out lags by a step, which is of order 1. One
+/// spring is compressed, damped, or moved by an external force that changes with time: the part of
+/// K that K⁺ leaves out, D's dependence on x and that force lag by a step, which is of order 1. One
 /// solve does not see a slack spring that becomes taut within the step, so energy may rise for a
 /// while: Guarded takes such a step back.
 ///

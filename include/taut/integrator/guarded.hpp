@@ -23,6 +23,8 @@ struct stepped_system<Stepper<System, Policies...>> {
 
 template <class Stepper>
 using method_of = decltype(Stepper::method);
+template <class Stepper>
+using constraint_forces_of = decltype(std::declval<const Stepper&>().constraint_forces());
 
 /// What the guard takes a stepper for; one without a `method` counts as implicit.
 template <class Stepper>
@@ -83,13 +85,16 @@ public:
                   "taut::Guarded: explicit Euler has no limit that holds at every pose; guard "
                   "SymplecticEuler, which costs the same");
 
+    static_assert(!detail::is_detected_v<detail::constraint_forces_of, Stepper>,
+                  "taut::Guarded: the energy audit does not know the work of constraints");
+
     struct Options {
         Scalar safety = static_cast<Scalar>(0.95);  ///< of the any-pose limit, in (0, 1]
         Scalar max_step = std::numeric_limits<Scalar>::infinity();  ///< s, > 0
         /// A frame that needs more is shortened to this many steps, so that a late frame does not
         /// make the next one later. Retries go beyond it.
         Index max_substeps = 1000;
-        int max_retries = 3;  ///< each with twice the substeps
+        int max_retries = 6;  ///< each with twice the substeps
         /// Admitted rise of the energy in a frame, relative to kinetic and elastic energy at its
         /// start and the work done in it.
         double energy_slack = 0.01;

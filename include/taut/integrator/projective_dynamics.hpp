@@ -60,7 +60,7 @@ public:
     /// Takes `count` steps of h, s, finite and > 0. On failure the state is as it was before.
     /// The report's residual is ‖∇φ‖ after the last step, relative to that at its inertial start or
     /// to the momentum that the start gives. A spent budget is no failure: φ is no larger than at
-    /// the inertial start in any case.
+    /// the inertial start, but for rounding.
     Report step(State& state, Scalar h, Index count = 1) {
         return loop_.run(*system_, state, h, count, [&] { return advance(state, h); });
     }

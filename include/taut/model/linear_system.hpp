@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "../core/error.hpp"
+#include "../core/revision.hpp"
 #include "state.hpp"
 
 namespace taut {
@@ -46,9 +47,9 @@ public:
     const Matrix& damping() const { return damping_; }
     const Matrix& stiffness() const { return stiffness_; }
     const Vector& load() const { return load_; }
-    /// Always 0: the matrices do not change after construction.
-    std::uint64_t revision() const { return 0; }
-    std::uint64_t force_revision() const { return 0; }
+    /// Changes when another system is assigned to this one; nothing else changes the matrices.
+    std::uint64_t revision() const { return revision_; }
+    std::uint64_t force_revision() const { return revision_; }
 
     State initial_state() const { return {State::zero(size()), State::zero(size()), Scalar(0)}; }
 
@@ -77,6 +78,7 @@ private:
     Matrix stiffness_;     // N × N, N/m
     Vector load_;          // N, N
     FreeMap<Scalar> map_;
+    Revision revision_;
 };
 
 /// The paper's M, D, K, f with symmetric D and K, checked at construction [T1].

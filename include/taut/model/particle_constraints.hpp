@@ -35,8 +35,13 @@ public:
         Vector velocity() const { return directions * speeds; }
     };
 
-    /// v·direction = speed, m/s. @param direction  of any length but 0
-    void hold(Index particle, const Vector& direction, Scalar speed = 0);
+    /// v·direction = speed, m/s. What contradicts earlier constraints goes to fail(), and then
+    /// nothing has changed; so with the functions below. @param direction  of any length but 0
+    void hold(Index particle, const Vector& direction, Scalar speed = 0) {
+        Held at = of(particle);
+        add(at, particle, direction, speed);
+        held_[particle] = at;
+    }
     /// In the plane across `normal`, which itself moves along it with `speed`, m/s.
     void hold_in_plane(Index particle, const Vector& normal, Scalar speed = 0) {
         hold(particle, normal, speed);
@@ -45,7 +50,9 @@ public:
     void hold_on_line(Index particle, const Vector& direction);
     /// In all directions: v = velocity, m/s.
     void prescribe(Index particle, const Vector& velocity) {
-        for (int d = 0; d < Dim; ++d) hold(particle, Vector::Unit(d), velocity[d]);
+        Held at = of(particle);
+        for (int d = 0; d < Dim; ++d) add(at, particle, Vector::Unit(d), velocity[d]);
+        held_[particle] = at;
     }
     void fix(Index particle) { prescribe(particle, Vector::Zero()); }
     void release(Index particle) { held_.erase(particle); }
@@ -62,18 +69,23 @@ public:
     }
 
 private:
+    Held of(Index particle) const {
+        const auto found = held_.find(particle);
+        return found == held_.end() ? Held{} : found->second;
+    }
+    static void add(Held& at, Index particle, const Vector& direction, Scalar speed);
+
     std::map<Index, Held> held_;
 };
 
 template <class Scalar, int Dim>
-void ParticleConstraints<Scalar, Dim>::hold(Index particle, const Vector& direction, Scalar speed) {
+void ParticleConstraints<Scalar, Dim>::add(Held& at, Index particle, const Vector& direction,
+                                           Scalar speed) {
     if (particle < 0) fail("ParticleConstraints: particle is ", particle, "; it must be >= 0");
     if (!direction.allFinite() || !(direction.stableNorm() > 0) || !std::isfinite(speed)) {
         fail("ParticleConstraints: particle ", particle,
              ": the direction must be finite and not zero, and the speed finite; it is ", speed);
     }
-    const auto found = held_.find(particle);
-    Held at = found == held_.end() ? Held{} : found->second;
     const Vector n = direction.stableNormalized();
     const Vector known = at.directions.transpose() * n;
     Vector rest = n - at.directions * known;
@@ -93,7 +105,6 @@ void ParticleConstraints<Scalar, Dim>::hold(Index particle, const Vector& direct
     at.directions.col(at.count) = rest;
     at.speeds[at.count] = (speed - implied) / size;
     ++at.count;
-    held_[particle] = at;
 }
 
 template <class Scalar, int Dim>
@@ -106,11 +117,13 @@ void ParticleConstraints<Scalar, Dim>::hold_on_line(Index particle, const Vector
     const Vector d = direction.stableNormalized();
     Index along = 0;
     d.cwiseAbs().maxCoeff(&along);
+    Held at = of(particle);
     for (int axis = 0; axis < Dim; ++axis) {
         if (axis == along) continue;
         const Vector across = Vector::Unit(axis) - d[axis] * d;
-        hold(particle, across);
+        add(at, particle, across, 0);
     }
+    held_[particle] = at;
 }
 
 }  // namespace taut

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "../core/error.hpp"
+#include "../core/revision.hpp"
 #include "damping.hpp"
 #include "hookean.hpp"
 #include "linear_system.hpp"
@@ -103,7 +104,8 @@ public:
     std::uint64_t revision() const { return revision_; }
     /// Changes whenever the force may have: with revision(), gravity and the external force.
     std::uint64_t force_revision() const { return revision_ + force_revision_; }
-    /// Changes whenever the sparsity pattern of the free matrices does.
+    /// Changes whenever particles, springs or pins are added or removed, and so with the sparsity
+    /// pattern of the free matrices.
     std::uint64_t topology_revision() const { return topology_revision_; }
 
     /// The positions given to add_particle, at rest.
@@ -157,9 +159,9 @@ private:
     Vector gravity_ = Vector::Zero();  // m/s²
     RayleighDamping rayleigh_;
     ExternalForce external_force_;
-    std::uint64_t revision_ = 0;
-    std::uint64_t topology_revision_ = 0;
-    std::uint64_t force_revision_ = 0;  // of gravity and the external force
+    Revision revision_;
+    Revision topology_revision_;
+    Revision force_revision_;  // of gravity and the external force
 };
 
 namespace detail {

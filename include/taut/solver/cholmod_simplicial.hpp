@@ -23,6 +23,7 @@ public:
     /// @returns the most nonzeros in a row of the factor, the diagonal counted
     Index analyze(const SparseMatrix<double>& A) {
         Base::analyzePattern(A);
+        if (this->m_cholmodFactor == nullptr) return A.rows();  // out of memory: factorize() fails
         const auto* row = static_cast<const int*>(this->m_cholmodFactor->Perm);
         Eigen::VectorXi place(A.rows());
         for (int k = 0; k < A.rows(); ++k) place[row[k]] = k;
@@ -30,6 +31,7 @@ public:
     }
     /// @returns whether the factorisation ran to completion
     bool factorize(const SparseMatrix<double>& A) {
+        if (this->m_cholmodFactor == nullptr) return false;
         Base::factorize(A);
         return Base::info() == Eigen::Success && std::isfinite(least_pivot());
     }

@@ -60,7 +60,7 @@ inline double explicit_estimate(const Pencil& pencil, double k_max) {
             if (pairs.residual[j] > good * std::abs(pairs.value[j])) continue;
             // The quotients of the vector are better than the real part of its value: they err in
             // proportion to themselves.
-            const Eigen::VectorXcd x = pairs.vector.col(j).head(N);
+            const Eigen::VectorXcd x = pairs.vector(j).head(N);
             const auto form = [&](const Combination& c) {
                 return pencil.quadratic(c, x.real().cwiseQuotient(root)).value +
                        pencil.quadratic(c, x.imag().cwiseQuotient(root)).value;

@@ -74,7 +74,14 @@ AddedMass added_mass(const SpringSystem<Scalar, Dim, Laws...>& system,
         }
     }
     added.reached = std::isfinite(best);
-    if (!added.reached) return added;
+    for (const Index i : free) {
+        const double sum = static_cast<double>(system.mass(i)) + added.mass[i];
+        added.reached = added.reached && std::isfinite(static_cast<Scalar>(sum));
+    }
+    if (!added.reached) {
+        added.mass.assign(added.mass.size(), 0);
+        return added;
+    }
     added.total = best;
     auto heavier = system;
     for (const Index i : free) {

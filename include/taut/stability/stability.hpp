@@ -67,6 +67,7 @@ public:
 
     explicit Stability(const LinearSystem<Scalar>& system)
         : pencil_(std::make_shared<MatrixPencil>(system)),
+          revision_(system.revision()),
           stiffest_(largest_ritz_pair(*pencil_, {0, 1, 0})) {}
 
     /// @param state  the pose; its velocity is taken as zero. Fails unless it is finite and fits.

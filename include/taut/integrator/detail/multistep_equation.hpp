@@ -22,7 +22,8 @@ public:
 
     /// @returns whether the sparsity pattern is new
     bool update_pattern(const System& system) {
-        if (A_.rows() == system.size()) return false;
+        if (A_.rows() == system.size() && revision_ == system.revision()) return false;
+        revision_ = system.revision();
         assemble(system, 1);
         tau_ = 0;
         return true;
@@ -58,9 +59,10 @@ private:
         A_.makeCompressed();
     }
 
-    Scalar tau_ = 0;          // of the values in A_, s
-    SparseMatrix<Scalar> A_;  // M + τD + τ²K
-    Points<Scalar, 1> f_;     // 1 × N, N
+    Scalar tau_ = 0;              // of the values in A_, s
+    std::uint64_t revision_ = 0;  // the system's
+    SparseMatrix<Scalar> A_;      // M + τD + τ²K
+    Points<Scalar, 1> f_;         // 1 × N, N
 };
 
 /// For springs: assembled in place at every pose; the pattern changes with the topology alone.

@@ -94,7 +94,10 @@ Report Newton<System>::step(const System& system, State& state, const VectorX<Sc
     Report report;
     report.residual = residual();
     const bool rounding = stuck && report.residual <= objective_.rounding(system);
-    if (report.residual > options.tolerance && !rounding) report.status = Status::not_converged;
+    if (!(report.residual <= options.tolerance) && !rounding) {  // NaN too
+        report.status = Status::not_converged;
+        return report;
+    }
     for (Index i = 0; i < system.size(); ++i) {
         if (!system.is_pinned(i)) state.v.col(i) = u_.col(i) / h;
     }

@@ -93,10 +93,14 @@ void PlaneSteps<System>::load(const System& system, const State& state) {
     plan_.update(system);
     const Index planes = Dim * plan_.stride();
     const bool moving = plan_.damped() || rayleigh_.stiffness_proportional > 0;
-    if (memory_.size() != (moving ? 4 : 3) * planes) {
-        memory_.setZero((moving ? 4 : 3) * planes);
-        inverse_mass_.setZero(plan_.stride());
+    memory_.resize((moving ? 4 : 3) * planes);
+    inverse_mass_.resize(plan_.stride());
+    // What whole registers touch beyond the last particle takes part in the steps: from rest.
+    const Index beyond = plan_.stride() - plan_.size();
+    for (Index end = plan_.stride(); end <= memory_.size(); end += plan_.stride()) {
+        memory_.segment(end - beyond, beyond).setZero();
     }
+    inverse_mass_.tail(beyond).setZero();
     const auto field = [&](Index which) {
         return Field{memory_.data() + which * planes, plan_.stride()};
     };
@@ -110,9 +114,15 @@ void PlaneSteps<System>::load(const System& system, const State& state) {
 template <class System>
 bool PlaneSteps<System>::finite() const {
     // x − x is 0, or NaN where x is not finite; and so is the sum.
-    const Eigen::Map<const VectorX<Scalar>> x(fields_.x.first, Dim * plan_.stride());
-    const Eigen::Map<const VectorX<Scalar>> v(fields_.v.first, Dim * plan_.stride());
-    return (x - x).sum() == Scalar(0) && (v - v).sum() == Scalar(0);
+    const auto all = [&](const Field& field) {
+        Scalar sum = 0;
+        for (int d = 0; d < Dim; ++d) {
+            const Eigen::Map<const VectorX<Scalar>> plane(field[d], plan_.size());
+            sum += (plane - plane).sum();
+        }
+        return sum == Scalar(0);
+    };
+    return all(fields_.x) && all(fields_.v);
 }
 
 template <class System>

@@ -21,7 +21,9 @@ public:
 
     /// @returns whether the sparsity pattern is new
     bool update_pattern(const System& system) {
-        if (A_.rows() == system.size()) return false;
+        if (A_.rows() == system.size() && revision_ == system.revision()) return false;
+        revision_ = system.revision();
+        h_ = 0;
         // A sum with unit factors, so that no entry of the pattern can be missing.
         A_ = system.damping() + system.stiffness();
         SparseMatrix<Scalar> mass(system.size(), system.size());
@@ -54,9 +56,10 @@ public:
     Index particle(Index dof) const { return dof; }
 
 private:
-    Scalar h_ = 0;            // of the values in A_, s
-    SparseMatrix<Scalar> A_;  // M + hD + h²K
-    Points<Scalar, 1> f_;     // 1 × N, N
+    Scalar h_ = 0;                // of the values in A_, s
+    std::uint64_t revision_ = 0;  // the system's
+    SparseMatrix<Scalar> A_;      // M + hD + h²K
+    Points<Scalar, 1> f_;         // 1 × N, N
 };
 
 /// For springs: assembled in place at every pose; the pattern changes with the topology alone.

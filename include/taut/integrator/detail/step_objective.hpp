@@ -32,8 +32,8 @@ public:
     const Moves& inertial() const { return w_; }
     /// ‖∇φ‖ relative to that of the inertial move or to ‖Mw‖.
     double residual(const Moves& g) const {
-        const Scalar norm = g.norm();
-        return norm > 0 ? static_cast<double>(norm / scale_) : 0;
+        const Scalar norm = g.stableNorm();
+        return norm == Scalar(0) ? 0 : static_cast<double>(norm / scale_);  // NaN stays
     }
     /// @param g  ← ∇φ(u), Dim × n, kg·m, zero for pinned particles   @returns φ(u), kg·m²
     Scalar evaluate(const System& system, const Moves& u, Moves& g);
@@ -69,15 +69,16 @@ void StepObjective<System>::begin(const System& system, const State& state, Scal
     start_ = state.x;
     system.external_force(state, f_);
     w_ = h * state.v;
-    scale_ = 0;
+    double momentum2 = 0;
     for (Index i = 0; i < system.size(); ++i) {
         if (system.is_pinned(i)) continue;
         w_.col(i) += h * h * (system.gravity() + f_.col(i) / system.mass(i));
-        scale_ += (system.mass(i) * w_.col(i)).squaredNorm();
+        momentum2 +=
+            (static_cast<double>(system.mass(i)) * w_.col(i).template cast<double>()).squaredNorm();
     }
     set_dampers(system, state);
     evaluate(system, w_, f_);
-    scale_ = std::max(std::sqrt(scale_), f_.norm());
+    scale_ = std::max(static_cast<Scalar>(std::sqrt(momentum2)), f_.stableNorm());
 }
 
 template <class System>

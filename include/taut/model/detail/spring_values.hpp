@@ -99,15 +99,17 @@ public:
         /// At spring i of the slice.
         Cursor(const SpringValues& values, const Slice& slice, std::size_t i)
             : rest_length_(values.stream(slice.rest_length, i)),
-              damping_(values.stream(slice.damping, i)),
-              parameters_(values.parameters_.data() + slice.parameters.at + i) {
+              damping_(values.stream(slice.damping, i)) {
+            if constexpr (!in_lanes) {
+                parameters_ = values.parameters_.data() + slice.parameters.at + i;
+            }
             for (std::size_t f = 0; f < fields; ++f) field_[f] = values.stream(slice.field[f], i);
         }
         EIGEN_ALWAYS_INLINE void next() {
             rest_length_.next();
             damping_.next();
             for (auto& field : field_) field.next();
-            parameters_ += in_lanes ? 0 : Pack::size;
+            if constexpr (!in_lanes) parameters_ += Pack::size;
         }
         EIGEN_ALWAYS_INLINE Pack damping() const { return damping_.load(); }
         /// `value` where there is a spring and 0 in the gaps.
@@ -125,7 +127,8 @@ public:
                 std::memcpy(&p, values.data(), sizeof p);
                 return function(p, L, more...);
             } else {
-                return one_by_one(function, Register(L), Register(more)...);
+                // A gap has a length that no spring has; a law must not see it.
+                return one_by_one(function, Register(max(L, Pack(Scalar(0)))), Register(more)...);
             }
         }
 
@@ -142,7 +145,7 @@ public:
         Stream rest_length_;
         Stream damping_;
         std::array<Stream, fields> field_;
-        const Parameters* parameters_;
+        const Parameters* parameters_ = nullptr;
     };
 
 private:

@@ -5,17 +5,20 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "../lanczos.hpp"
 
 namespace taut::detail {
 
-/// Approximate eigenpairs of a real n × n matrix: columns of `vector` of unit length, and the norm
-/// of what A leaves of them.
+/// Approximate eigenpairs of a real n × n matrix A.
 struct ComplexRitzPairs {
     Eigen::VectorXcd value;
-    Eigen::MatrixXcd vector;
-    Eigen::VectorXd residual;
+    Eigen::VectorXd residual;  ///< the norm of Az − value·z for each vector z of unit length
+    Eigen::MatrixXd basis;     ///< n × m, orthonormal
+    Eigen::MatrixXcd inner;    ///< m × m: the vectors in the basis
+
+    Eigen::VectorXcd vector(Index j) const { return basis * inner.col(j); }
 };
 
 /// Arnoldi's process without restart (W. E. Arnoldi 1951). @param apply  y = apply(q), both n
@@ -45,8 +48,13 @@ ComplexRitzPairs arnoldi(Apply&& apply, Index n, Index steps) {
         }
     }
     const Eigen::EigenSolver<Eigen::MatrixXd> projected(H.topLeftCorner(m, m));
-    const Eigen::MatrixXcd V = projected.eigenvectors();
-    return {projected.eigenvalues(), Q.leftCols(m) * V, next * V.row(m - 1).cwiseAbs()};
+    ComplexRitzPairs pairs;
+    pairs.value = projected.eigenvalues();
+    pairs.inner = projected.eigenvectors();
+    pairs.residual = next * pairs.inner.row(m - 1).cwiseAbs();
+    Q.conservativeResize(Eigen::NoChange, m);
+    pairs.basis = std::move(Q);
+    return pairs;
 }
 
 }  // namespace taut::detail

@@ -20,8 +20,8 @@ inline constexpr Index dense_low_modes = 600;  // unknowns up to which a dense e
 /// dense_low_modes unknowns, else about twenty.
 ///
 /// Large systems: Krylov vectors of B = K'(K' + σ)⁻², which is 0 on the zero modes, however many
-/// mechanisms a net has, and largest on the softest modes above them. One of several modes with the
-/// same frequency may stand for all of them.
+/// mechanisms a net has, and largest on the softest modes above them; modes softer than 1e-7·k_max
+/// are among these. One of several modes with the same frequency may stand for all of them.
 inline Eigen::MatrixXd low_modes(const Pencil& pencil) {
     const Index N = pencil.size();
     if (N == 0) return {};
@@ -60,7 +60,7 @@ inline Eigen::MatrixXd low_modes(const Pencil& pencil) {
     const Index r = std::min(most, static_cast<Index>(soft.size()));
     Eigen::MatrixXd U(N, r);
     for (Index j = 0; j < r; ++j) {
-        U.col(j) = pairs.vector.col(soft[static_cast<std::size_t>(j)].second).real();
+        U.col(j) = pairs.vector(soft[static_cast<std::size_t>(j)].second).real();
         U.col(j) = U.col(j).normalized().cwiseQuotient(root);
     }
     return U;

@@ -95,6 +95,7 @@ ProvedMaximum narrow_maximum(const Pencil& pencil, Prover<Cholesky>& prover, dou
 template <class Cholesky>
 double semidefinite_deficit(const Pencil& pencil, Prover<Cholesky>& prover, const Combination& c,
                             double norm) {
+    if (!(norm > 0) || !std::isfinite(norm)) return infinity;
     for (double epsilon = 1e-14 * norm; epsilon <= norm; epsilon *= 16) {
         Combination shifted = c;
         shifted.mass += epsilon;

@@ -113,21 +113,22 @@ Eigen::VectorXd SinglePrecisionSprings<Dim>::shape(const Eigen::VectorXf& q) con
 /// The plain Lanczos process [B. N. Parlett, The symmetric eigenvalue problem, ch. 13] until the
 /// largest Ritz value's residual is `tolerance` of it; at so rough a tolerance the basis needs no
 /// reorthogonalisation.
-/// @param start  N, an approximate mode to begin with; empty: a fixed scattered vector
+/// @param start  N, an approximate mode to begin with, or empty; a scattered vector is mixed in, or
+///               an eigenvector that no longer leads would be found again and nothing else
 /// @returns u, N, of any length; empty when the steps were not enough
 template <int Dim>
 Eigen::VectorXd quick_mode(const SpringPencil<Dim>& pencil, const Combination& c,
                            const Eigen::VectorXd& start = {}) {
     constexpr int most = 24;
-    constexpr int least = 8;  // steps before the first look, unless a start was given
+    constexpr int least = 8;  // steps before the first look
     constexpr float tolerance = 2e-2F;
     SinglePrecisionSprings<Dim> A(pencil, c);
     Eigen::MatrixXf Q(A.size(), most);
     Eigen::VectorXf alpha(most);  // diagonal of the tridiagonal QᵀAQ
     Eigen::VectorXf beta(most);   // beside it
-    const bool warm = start.size() == A.size();
     const Eigen::VectorXd scattered = scattered_vector(pencil.size());
-    Eigen::VectorXf q = warm ? A.coordinates(start) : Eigen::VectorXf(scattered.cast<float>());
+    Eigen::VectorXf q = scattered.cast<float>().normalized();
+    if (start.size() == A.size()) q += 4 * A.coordinates(start).normalized();
     q.normalize();
     Eigen::VectorXf w;
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> projected;
@@ -140,7 +141,7 @@ Eigen::VectorXd quick_mode(const SpringPencil<Dim>& pencil, const Combination& c
         beta[j] = w.norm();
         if (!(beta[j] > 0) || !std::isfinite(beta[j])) return {};
         q = w / beta[j];
-        if (j % 2 == 0 || (j + 1 < least && !warm)) continue;
+        if (j % 2 == 0 || j + 1 < least) continue;
         projected.computeFromTridiagonal(alpha.head(j + 1), beta.head(j));
         const float residual = beta[j] * std::abs(projected.eigenvectors()(j, j));
         if (residual <= tolerance * projected.eigenvalues()[j]) {

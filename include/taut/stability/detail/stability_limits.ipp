@@ -66,7 +66,11 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::explicit_limit(double tightness) 
                                      certified == 0 ? Cause::undamped_modes
                                      : by_damping   ? Cause::damping
                                                     : Cause::stiffness);
-    answer.estimate = estimate > 0 ? static_cast<Scalar>(estimate) : Scalar(0);
+    // Without a vibration found there is no estimate; with one it cannot lie where a vector
+    // refutes.
+    if (estimate > 0 && std::isfinite(estimate)) {
+        answer.estimate = std::min(static_cast<Scalar>(estimate), answer.refuted);
+    }
     if (up_to > certified) {
         answer.certified_up_to = detail::round_down<Scalar>(up_to);
         answer.admitted_growth = delta;
@@ -103,6 +107,7 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::implicit_limit() const {
     if (pencil.projects() || pencil.stiffness_semidefinite() || kappa == 0) {
         return limit(detail::infinity, detail::infinity, Cause::unconditional);
     }
+    if (!std::isfinite(kappa)) return limit(0, detail::infinity, Cause::overflow);
     // Bare matrices: the step matrix stays definite while 1 − h²κ > 0, and turns singular where a
     // vector says so [T21].
     const RitzPair softest = largest_ritz_pair(pencil, {0, -1, 0});
