@@ -19,7 +19,7 @@ using Cloth = taut::SpringSystem<double, 3>;
 Cloth cloth_of(double stiffness) {
     taut::ClothOptions options;
     options.rows = options.columns = 6;
-    options.stretch_stiffness = stiffness;
+    options.stretch = stiffness;
     return taut::hanging_cloth<double>(options);
 }
 
