@@ -30,7 +30,7 @@ protected:
         info.water_density = 0;
         info.m_gravity = vector(net_.gravity());
         body_ = std::make_unique<btSoftBody>(&info);
-        body_->appendMaterial();  // of m_kLST = 1
+        body_->appendMaterial()->m_kLST = 1;
         for (taut::Index i = 0; i < net_.size(); ++i) {
             body_->appendNode(vector(state_.x.col(i)),
                               net_.is_pinned(i) ? 0 : static_cast<btScalar>(net_.mass(i)));
@@ -107,6 +107,7 @@ public:
         btSoftBody* made = make_body(world_.getWorldInfo(), bending);
         world_.setImplicit(true);
         world_.setLineSearch(false);
+        world_.setUseProjection(true);  // its other solver gets NaN from pinned nodes: none moves
         world_.setGravity(vector(net.gravity()));
         world_.addSoftBody(made);
         world_.addForce(made, &springs_);
