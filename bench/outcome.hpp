@@ -6,10 +6,9 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <taut/model/spring_system.hpp>
 #include <utility>
 #include <vector>
-
-#include <taut/model/spring_system.hpp>
 
 namespace bench {
 
