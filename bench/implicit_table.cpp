@@ -6,20 +6,22 @@
 // with OPENBLAS_NUM_THREADS=1.
 
 #include <Eigen/CholmodSupport>
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <functional>
-#include <string>
 #include <taut/integrator/projective_dynamics.hpp>
 #include <taut/solver/cholmod.hpp>
 #include <taut/solver/conjugate_gradient.hpp>
 #include <taut/taut.hpp>
 #include <vector>
 
+#include "measure.hpp"
+#include "outcome.hpp"
+
 namespace {
 
+using bench::Stopwatch;
+using bench::Times;
 using taut::Index;
 using Cloth = taut::SpringSystem<double, 3>;
 using State = Cloth::State;
@@ -31,66 +33,28 @@ using Projective = taut::ProjectiveDynamics<Cloth>;
 
 constexpr double h = 1.0 / 60;
 constexpr double budget = 60;  // s of CPU that a row may take
-
-double now() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }  // ms
-
-struct Times {
-    std::vector<double> all;  // ms
-
-    template <class Job>
-    void add(Job&& job) {
-        const double start = now();
-        job();
-        all.push_back(now() - start);
-    }
-    double least() const { return *std::min_element(all.begin(), all.end()); }
-    double median() const {
-        auto sorted = all;
-        std::sort(sorted.begin(), sorted.end());
-        return sorted[sorted.size() / 2];
-    }
-};
-
-double largest_stretch(const Cloth& cloth, const State& state) {
-    const auto& set = cloth.springs();
-    double stretch = 0;
-    for (std::size_t s = 0; s < set.a.size(); ++s) {
-        const double l = (state.x.col(set.b[s]) - state.x.col(set.a[s])).norm();
-        stretch = std::max(stretch, l / set.rest_length[s]);
-    }
-    return stretch;
-}
+constexpr clockid_t clock_used = bench::process_time;
 
 /// One row: a second of free swing, or as much of it as the budget allows.
 void row(const char* name, const Cloth& cloth, const std::function<bool(State&)>& step) {
     State state = cloth.initial_state();
-    const double first = cloth.energy(state);
-    Times times;
-    double kinetic = 0;
-    double stretch = 1;
-    double late = 0;  // energy of the last 0.1 s, summed
-    bool alive = true;
-    const double start = now();
-    int k = 0;
-    for (; k < 60 && alive && now() - start < 1e3 * budget; ++k) {
-        times.add([&] { alive = step(state) && state.finite(); });
-        kinetic = std::max(kinetic, cloth.kinetic_energy(state));
-        stretch = std::max(stretch, largest_stretch(cloth, state));
-        if (k >= 54) late += cloth.energy(state) / 6;
+    bench::Outcome outcome(cloth);
+    Stopwatch watch(clock_used);
+    const double start = bench::now(clock_used);
+    int frames = 0;
+    while (frames < 60 && !outcome.lost() && bench::now(clock_used) - start < 1e3 * budget) {
+        bool alive = false;
+        watch.run([&] { alive = step(state); });
+        ++frames;
+        if (alive) {
+            outcome.see(frames * h, state);
+        } else {
+            outcome.explode();
+        }
     }
-    std::string outcome;
-    char text[80];
-    if (!alive || stretch > 10) {
-        outcome = "explodes | explodes";
-    } else if (k < 60) {
-        std::snprintf(text, sizeof text, "– (%d steps) | –", k);
-        outcome = text;
-    } else {
-        std::snprintf(text, sizeof text, "%.2f | %.3f", std::abs(late - first) / kinetic, stretch);
-        outcome = text;
-    }
-    std::printf("| %s | %.2f | %.2f | %s |\n", name, times.least(), times.median(),
-                outcome.c_str());
+    const Times times = watch.times();
+    std::printf("| %s | %.2f | %.2f | %d | %s |\n", name, times.least, times.median, frames,
+                outcome.cells().c_str());
     std::fflush(stdout);
 }
 
@@ -166,8 +130,8 @@ void steps(const std::vector<Index>& sizes) {
         const Cloth cloth = taut::hanging_cloth<double>({n, n});
         std::printf(
             "## hanging_cloth %lld, a second of free swing in steps of 1/60 s\n\n"
-            "| step | ms: min | median | energy drift | largest l/L |\n|---|---|---|---|---|\n",
-            static_cast<long long>(n));
+            "| step | ms: min | median | steps | %s |\n|---|---|---|---|---|---|---|\n",
+            static_cast<long long>(n), bench::Outcome::columns);
         row("Eigen: triplets, LDLT.compute, plain K", cloth, TripletStep(cloth, false));
         row("Eigen: triplets, LDLT.compute, K⁺", cloth, TripletStep(cloth, true));
         taut::ImplicitEuler<Cloth, Eigen::SimplicialLDLT<Sparse>> ldlt(cloth);
@@ -207,37 +171,40 @@ void ratios() {
     bare.analyzePattern(A);
     Eigen::VectorXd x;
     Eigen::VectorXd b = Eigen::VectorXd::Ones(A.rows());
-    Times assembly, by_ldlt, by_bare, by_cholmod, by_gradients;
+    Stopwatch assembly(clock_used), by_ldlt(clock_used), by_bare(clock_used);
+    Stopwatch by_cholmod(clock_used), by_gradients(clock_used);
     double residual = 0;
     Index iterations = 0;
     for (int k = 0; k < 60; ++k) {
         State copy = state;
-        by_gradients.add([&] {  // every step, to start warm as it would
+        by_gradients.run([&] {  // every step, to start warm as it would
             const auto report = gradients.step(copy, h);
             residual = std::max(residual, report ? report.residual : 1);
         });
         iterations = std::max(iterations, gradients.solver().iterations());
         if (k % 6 == 3) {
-            assembly.add([&] { tangent.assemble(cloth, state.x, {1, h * h, h}, A); });
-            by_ldlt.add([&] {
+            assembly.run([&] { tangent.assemble(cloth, state.x, {1, h * h, h}, A); });
+            by_ldlt.run([&] {
                 ldlt.factorize(A);
                 x = ldlt.solve(b);
             });
             for (int repeat = 0; repeat < 2; ++repeat) {
-                by_bare.add([&] {
+                by_bare.run([&] {
                     bare.factorize(A);
                     x = bare.solve(b);
                 });
                 copy = state;
-                by_cholmod.add([&] { residual += cholmod.step(copy, h) ? 0 : 1; });
+                by_cholmod.run([&] { residual += cholmod.step(copy, h) ? 0 : 1; });
             }
         }
         if (!leader.step(state, h)) return;
     }
-    const auto print = [](const char* what, const Times& ours, const Times& theirs) {
-        std::printf("| %s | %.2f (%.2f) | %.2f (%.2f) | %.3f (%.3f) |\n", what, ours.least(),
-                    ours.median(), theirs.least(), theirs.median(), ours.least() / theirs.least(),
-                    ours.median() / theirs.median());
+    const auto print = [](const char* what, const Stopwatch& us, const Stopwatch& them) {
+        const Times ours = us.times();
+        const Times theirs = them.times();
+        std::printf("| %s | %.2f (%.2f) | %.2f (%.2f) | %.3f (%.3f) |\n", what, ours.least,
+                    ours.median, theirs.least, theirs.median, ours.least / theirs.least,
+                    ours.median / theirs.median);
     };
     std::printf(
         "## Ratios in one run, hanging_cloth 100, poses of one trajectory\n\n"
@@ -296,21 +263,22 @@ void projective() {
         options.iterations = 10;
         Projective short_steps(cloth, options);
         state = cloth.initial_state();
-        Times ten, twenty, baseline;
+        Stopwatch ten(clock_used), twenty(clock_used), baseline(clock_used);
         for (int k = 0; k < 60; ++k) {
-            for (int repeat = 0; repeat < 5; ++repeat) baseline.add(plain_iteration);
+            for (int repeat = 0; repeat < 5; ++repeat) baseline.run(plain_iteration);
             State copy = state;
             bool good = true;
-            twenty.add([&] { good = bool(long_steps.step(copy, h)); });
-            ten.add([&] { good = bool(short_steps.step(state, h)) && good; });
+            twenty.run([&] { good = bool(long_steps.step(copy, h)); });
+            ten.run([&] { good = bool(short_steps.step(state, h)) && good; });
             if (!good) return;
         }
         // The difference leaves out what a step costs apart from its iterations.
-        const double least = (twenty.least() - ten.least()) / 10;
-        const double median = (twenty.median() - ten.median()) / 10;
+        const double least = (twenty.times().least - ten.times().least) / 10;
+        const double median = (twenty.times().median - ten.times().median) / 10;
+        const Times theirs = baseline.times();
         std::printf("| window %d | %.2f (%.2f) | %.2f (%.2f) | %.3f (%.3f) |\n", window, least,
-                    median, baseline.least(), baseline.median(), least / baseline.least(),
-                    median / baseline.median());
+                    median, theirs.least, theirs.median, least / theirs.least,
+                    median / theirs.median);
     }
     std::printf("\n");
 }

@@ -6,15 +6,17 @@
 // are of one thread's processor, ratios of runs side by side: the minimum and the median.
 
 #include <algorithm>
-#include <boost/numeric/odeint.hpp>
+#include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <ctime>
 #include <malloc.h>
 #include <taut/taut.hpp>
+#include <tuple>
 #include <vector>
 
 #include "../examples/common/mesh_file.hpp"
+#include "measure.hpp"
+#include "odeint.hpp"
+#include "outcome.hpp"
 #include "plain_loop.hpp"
 
 namespace {
@@ -23,16 +25,8 @@ using taut::Index;
 template <class Scalar>
 using Net = taut::SpringSystem<Scalar, 3>;
 
-/// ms on a clock of the system: a thread's own, which others on the machine disturb least, or the
-/// wall's.
-double now(clockid_t clock = CLOCK_THREAD_CPUTIME_ID) {
-    std::timespec time{};
-    clock_gettime(clock, &time);
-    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
 struct Comparison {
-    clockid_t clock = CLOCK_THREAD_CPUTIME_ID;
+    clockid_t clock = bench::thread_time;
     std::vector<double> ours, theirs, ratio;  // ms a step, sorted
 
     template <class Ours, class Theirs>
@@ -40,11 +34,11 @@ struct Comparison {
         our_steps(count);
         their_steps(count);
         for (int i = 0; i < runs; ++i) {
-            const double start = now(clock);
+            const double start = bench::now(clock);
             their_steps(count);
-            const double middle = now(clock);
+            const double middle = bench::now(clock);
             our_steps(count);
-            const double end = now(clock);
+            const double end = bench::now(clock);
             theirs.push_back((middle - start) / count);
             ours.push_back((end - middle) / count);
             ratio.push_back((end - middle) / (middle - start));
@@ -85,7 +79,7 @@ void compare_threads(const char* label, const Net<double>& net, int runs, int co
     auto state_of_one = net.initial_state();
     auto state_of_two = state_of_one;
     Comparison comparison;
-    comparison.clock = CLOCK_MONOTONIC;
+    comparison.clock = bench::wall;
     comparison.run(
         runs, count, [&](int steps) { std::ignore = two.step(state_of_two, h, steps); },
         [&](int steps) { std::ignore = one.step(state_of_one, h, steps); });
@@ -93,33 +87,15 @@ void compare_threads(const char* label, const Net<double>& net, int runs, int co
     if (state_of_one.x != state_of_two.x) std::printf("the bits differ\n");
 }
 
-/// Boost.odeint's symplectic Euler: q' = p, p' = M⁻¹f(q) by System::force.
 void compare_odeint(const char* label, const Net<double>& net, int runs, int count) {
-    using Vector = std::vector<double>;
     const double h = 0.9 * taut::any_pose_limit(net).certified;
-    auto state = net.initial_state();
-    Vector q(state.x.data(), state.x.data() + state.x.size());
-    Vector p(q.size(), 0);
-    auto given = state;
-    taut::Points<double, 3> f;
-    const auto velocity = [](const Vector& v, Vector& rate) { rate = v; };
-    const auto acceleration = [&](const Vector& x, Vector& rate) {
-        std::copy(x.begin(), x.end(), given.x.data());
-        net.force(given, f);
-        for (Index i = 0; i < net.size(); ++i) f.col(i) *= net.inverse_mass()[i];
-        std::copy(f.data(), f.data() + f.size(), rate.begin());
-    };
-    boost::numeric::odeint::symplectic_euler<Vector> peer;
+    bench::OdeintSymplectic peer(net);
     taut::SymplecticEuler stepper(net);
+    auto state = net.initial_state();
     Comparison comparison;
     comparison.run(
         runs, count, [&](int steps) { std::ignore = stepper.step(state, h, steps); },
-        [&](int steps) {
-            for (int i = 0; i < steps; ++i) {
-                peer.do_step(std::make_pair(velocity, acceleration),
-                             std::make_pair(std::ref(q), std::ref(p)), 0, h);
-            }
-        });
+        [&](int steps) { peer.step(h, steps); });
     comparison.print(label);
 }
 
@@ -149,16 +125,6 @@ Net<double> lattice(Index n) {
     return net;
 }
 
-double largest_stretch(const Net<double>& net, const Net<double>::State& state) {
-    const auto& springs = net.springs();
-    double stretch = 0;
-    for (std::size_t s = 0; s < springs.a.size(); ++s) {
-        const double l = (state.x.col(springs.b[s]) - state.x.col(springs.a[s])).norm();
-        stretch = std::max(stretch, l / springs.rest_length[s]);
-    }
-    return stretch;
-}
-
 /// One second in frames of 1/60 s: the time of a frame, and what became of the scene.
 void outcome(const char* label, const Net<double>& net) {
     const double limit = taut::any_pose_limit(net).certified;
@@ -167,29 +133,20 @@ void outcome(const char* label, const Net<double>& net) {
     const double h = frame / static_cast<double>(substeps);
     taut::SymplecticEuler stepper(net);
     auto state = net.initial_state();
-    const double start_energy = net.energy(state);
-    double largest_kinetic = 0;
-    double late_energy = 0;
-    int late = 0;
-    double stretch = 0;
-    bool exploded = false;
-    std::vector<double> times;
-    for (int i = 0; i < 60 && !exploded; ++i) {
-        const double start = now();
-        exploded = !stepper.step(state, h, substeps);
-        times.push_back(now() - start);
-        largest_kinetic = std::max(largest_kinetic, net.kinetic_energy(state));
-        stretch = std::max(stretch, largest_stretch(net, state));
-        if (i >= 54) {
-            late_energy += net.energy(state);
-            ++late;
+    bench::Outcome seen(net);
+    bench::Stopwatch watch(bench::thread_time);
+    for (int i = 1; i <= 60 && !seen.lost(); ++i) {
+        bool moved = false;
+        watch.run([&] { moved = bool(stepper.step(state, h, substeps)); });
+        if (moved) {
+            seen.see(i * frame, state);
+        } else {
+            seen.explode();
         }
     }
-    std::sort(times.begin(), times.end());
-    std::printf("| %s | %lld | %.2f (%.2f) | %.3f %% | %.3f | %s |\n", label,
-                static_cast<long long>(substeps), times.front(), times[times.size() / 2],
-                100 * std::abs(late_energy / late - start_energy) / largest_kinetic, stretch,
-                exploded ? "yes" : "no");
+    const auto times = watch.times();
+    std::printf("| %s | %lld | %.2f (%.2f) | %s |\n", label, static_cast<long long>(substeps),
+                times.least, times.median, seen.cells().c_str());
     std::fflush(stdout);
 }
 
@@ -222,7 +179,7 @@ int main(int argc, char** argv) {
         "| scene | plain loop | Taut: min (median) | ratio: of minima (median) |\n"
         "|---|---|---|---|\n");
     for (const Index n : {32, 64, 100, 200, 400}) {
-        const int count = n < 400 ? 100 : 30;
+        const int count = 100;
         const int runs = n < 200 ? 21 : 7;
         char label[64];
         std::snprintf(label, sizeof label, "hanging_cloth %d", static_cast<int>(n));
@@ -230,7 +187,8 @@ int main(int argc, char** argv) {
         std::snprintf(label, sizeof label, "hanging_cloth %d, float", static_cast<int>(n));
         compare<float>(label, taut::hanging_cloth<float>({n, n}), runs, count);
     }
-    compare<double>("free lattice 30³", lattice(30), 7, 100);
+    const auto free_lattice = lattice(30);
+    compare<double>("free lattice 30³", free_lattice, 7, 100);
     taut::SpringSystem<double, 3> mesh;
     if (argc > 1) {
         const auto file = example::read_obj(argv[1]);
@@ -245,17 +203,19 @@ int main(int argc, char** argv) {
 #ifdef _OPENMP
     std::printf("\n| scene | one thread | two: min (median) | ratio |\n|---|---|---|---|\n");
     compare_threads("hanging_cloth 100", cloth, 11, 100);
-    compare_threads("hanging_cloth 400", taut::hanging_cloth<double>({400, 400}), 7, 30);
+    compare_threads("hanging_cloth 400", taut::hanging_cloth<double>({400, 400}), 7, 100);
 #endif
     std::printf(
         "\n## One second in frames of 1/60 s at the any-pose limit\n\n"
-        "| scene | substeps | frame, ms: min (median) | energy drift | largest l/L | exploded |\n"
-        "|---|---|---|---|---|---|\n");
+        "| scene | substeps | frame, ms: min (median) | %s |\n"
+        "|---|---|---|---|---|---|\n",
+        bench::Outcome::columns);
     for (const Index n : {32, 64, 100}) {
         char label[64];
         std::snprintf(label, sizeof label, "hanging_cloth %d", static_cast<int>(n));
         outcome(label, taut::hanging_cloth<double>({n, n}));
     }
+    outcome("free lattice 30³", free_lattice);
     if (mesh.size() > 0) outcome("mesh", mesh);
     memory();
 }

@@ -5,8 +5,6 @@
 // costs beside a plain step in the same run, and what it keeps. Prints Markdown; times are the
 // minimum and the median of several runs, in ms.
 
-#include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <taut/integrator/bdf2.hpp>
@@ -18,36 +16,16 @@
 #include <taut/taut.hpp>
 #include <vector>
 
+#include "measure.hpp"
+
 namespace {
 
+using bench::Stopwatch;
+using bench::Times;
 using taut::Index;
 using Cloth = taut::SpringSystem<double, 3>;
 
 constexpr double frame = 1.0 / 60;  // s
-
-struct Times {
-    double least = 0;   // ms
-    double median = 0;  // ms
-};
-
-class Stopwatch {
-public:
-    template <class Job>
-    void run(Job&& job) {
-        const auto start = std::chrono::steady_clock::now();
-        job();
-        times_.push_back(
-            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-                .count());
-    }
-    Times times() {
-        std::sort(times_.begin(), times_.end());
-        return {times_.front(), times_[times_.size() / 2]};
-    }
-
-private:
-    std::vector<double> times_;
-};
 
 void require(bool ok) {
     if (!ok) std::printf("A STEP FAILED\n");
