@@ -107,7 +107,7 @@ public:
         btSoftBody* made = make_body(world_.getWorldInfo(), bending);
         world_.setImplicit(true);
         world_.setLineSearch(false);
-        world_.setUseProjection(true);  // its other solver gets NaN from pinned nodes: none moves
+        world_.setUseProjection(true);  // with its other solver nothing moves
         world_.setGravity(vector(net.gravity()));
         world_.addSoftBody(made);
         world_.addForce(made, &springs_);
