@@ -94,7 +94,7 @@ public:
         /// A frame that needs more is shortened to this many steps, so that a late frame does not
         /// make the next one later. Retries go beyond it.
         Index max_substeps = 1000;
-        int max_retries = 6;  ///< each with twice the substeps
+        int max_retries = 3;  ///< each with twice the substeps
         /// Admitted rise of the energy in a frame, relative to kinetic and elastic energy at its
         /// start and the work done in it.
         double energy_slack = 0.01;

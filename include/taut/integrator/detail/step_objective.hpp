@@ -32,8 +32,8 @@ public:
     const Moves& inertial() const { return w_; }
     /// ‖∇φ‖ relative to that of the inertial move or to ‖Mw‖.
     double residual(const Moves& g) const {
-        const Scalar norm = g.stableNorm();
-        return norm == Scalar(0) ? 0 : static_cast<double>(norm / scale_);  // NaN stays
+        const double norm = g.template cast<double>().norm();  // a float's square may overflow
+        return norm == 0 ? 0 : norm / scale_;                  // NaN stays
     }
     /// @param g  ← ∇φ(u), Dim × n, kg·m, zero for pinned particles   @returns φ(u), kg·m²
     Scalar evaluate(const System& system, const Moves& u, Moves& g);
@@ -60,7 +60,7 @@ private:
     Moves w_;                      // the inertial move
     Moves f_;                      // external force, N; then ∇φ(w)
     std::vector<Damper> dampers_;  // of D without its mass-proportional part
-    Scalar scale_ = 0;             // what ‖∇φ‖ is relative to, kg·m
+    double scale_ = 0;             // what ‖∇φ‖ is relative to, kg·m
 };
 
 template <class System>
@@ -78,7 +78,7 @@ void StepObjective<System>::begin(const System& system, const State& state, Scal
     }
     set_dampers(system, state);
     evaluate(system, w_, f_);
-    scale_ = std::max(static_cast<Scalar>(std::sqrt(momentum2)), f_.stableNorm());
+    scale_ = std::max(std::sqrt(momentum2), f_.template cast<double>().norm());
 }
 
 template <class System>
