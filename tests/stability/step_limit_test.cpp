@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include <set>
 #include <string>
-#include <taut/model/spring_system.hpp>
-#include <taut/stability/step_limit.hpp>
+#include <taut/scene/cloth.hpp>
+#include <taut/stability/stability.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/random.hpp"
