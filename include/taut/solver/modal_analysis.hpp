@@ -16,8 +16,8 @@
 #include "../model/linear_system.hpp"
 #include "../model/modal_basis.hpp"
 
-// Needs Spectra (Debian: libspectra-dev) and exceptions, which Spectra throws; no other header
-// does.
+// Needs Spectra (Debian: libspectra-dev) and exceptions, which Spectra throws; the only such
+// header.
 
 namespace taut {
 

@@ -156,9 +156,8 @@ Status EquilibriumSearch<System>::iterate() {
 /// Moves the free particles of `state` to a pose where no force is left: Newton's method and
 /// a line search on the potential energy. Velocities become 0. An external force is taken as
 /// constant within a line search.
-/// @returns not_converged after max_iterations (a scene that falls for ever has no equilibrium),
-/// with
-///          the state as it was; residual is the relative force left
+/// @returns not_converged after max_iterations (what falls for ever has no equilibrium),
+///          with the state as it was; residual is the relative force left
 template <class Scalar, int Dim, class... Laws>
 Report static_equilibrium(const SpringSystem<Scalar, Dim, Laws...>& system,
                           State<Scalar, Dim>& state, const EquilibriumOptions& options = {}) {

@@ -40,8 +40,7 @@ inline double cholesky_rounding(Index q) {
 template <class Cholesky = EigenCholesky>
 class Prover {
 public:
-    /// @param A          symmetric, both triangles stored, the same pattern at every call;
-    /// overwritten
+    /// @param A          symmetric, both triangles, one pattern for all calls; overwritten
     /// @param max_error  max_error(s): a bound on max_i Σ_j s_i |E_ij| s_j, where E are the errors
     ///                   with which A was formed and s > 0 a scaling of its rows and columns
     template <class Error>
@@ -76,8 +75,7 @@ DefinitenessProof Prover<Cholesky>::operator()(SparseMatrix<double>&& A, Error&&
     const double sum_rounding = 1 + static_cast<double>(N) * u;
     const double trace = A.diagonal().sum() * sum_rounding;
     const double slack = max_error(scale) * sum_rounding;
-    // The last two terms: rounding of A − cI on a diagonal below 4, and underflow in the
-    // factorisation.
+    // The last two terms: rounding of A − cI on a diagonal below 4, and underflow.
     const double underflow =
         static_cast<double>(N * (widest_ + 1)) * std::numeric_limits<double>::min();
     proof.shift =

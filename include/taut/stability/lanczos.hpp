@@ -82,8 +82,7 @@ RitzPair largest_ritz_pair(const Operator& pencil, const Combination& c,
             w.noalias() -= Q.leftCols(used) * h.head(used);
             beta = w.norm();
             if (!(beta > 1e-14 * H.col(j).head(used).norm())) {
-                // An invariant subspace, not always that of the largest eigenvalue: go on
-                // elsewhere.
+                // An invariant subspace, maybe not that of the largest eigenvalue.
                 beta = 0;
                 w = detail::scattered_vector(N, used);
                 for (int pass = 0; pass < 2; ++pass) {

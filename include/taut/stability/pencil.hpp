@@ -60,8 +60,8 @@ public:
     virtual double upper_bound(const Combination& c, double enough = 0) const = 0;
     /// S as a sparse matrix, both triangles.
     virtual SparseMatrix<double> assemble(const Combination& c) const = 0;
-    /// A bound on max_i Σ_j s_i |E_ij| s_j, E the rounding errors of assemble(c), tangents
-    /// included.
+    /// A bound on max_i Σ_j s_i |E_ij| s_j, E the rounding errors of assemble(c) and of
+    /// the tangents.
     virtual double assembly_error(const Combination& c, const Eigen::VectorXd& s) const = 0;
 
     /// Shares in the energy of mode u, in no order; empty without springs. Elastic energy by K⁺.

@@ -44,9 +44,8 @@ struct AlphaWindow {
 /// The feasible α of D' = d0 + αK' at step h, s, for eigenvalues of K' in [k_min, k_max] with
 /// 0 ≤ k_min, 1/s²: exact [T13]–[T16]. A mode with k = 0 and d0 = 0 is a zero mode and never
 /// counts against the window. With k_max = 0 or the implicit method the upper end is infinite.
-/// @param compression  a bound on M⁻¹(K⁺ − K), 1/s², 0 unless springs are compressed: explicit
-/// Euler
-///                     sees the true K, which weakens its second condition by that much [T17]
+/// @param compression  a bound on M⁻¹(K⁺ − K), 1/s², 0 unless springs are compressed: the true K,
+///                     which explicit Euler sees, weakens its second condition by that [T17]
 inline AlphaWindow rayleigh_window(Method method, double h, double d0, double k_min, double k_max,
                                    double compression = 0) {
     require_positive("rayleigh_window", "h", h);
@@ -77,8 +76,7 @@ inline AlphaWindow rayleigh_window(Method method, double h, double d0, double k_
     if (k_min > 0) window.upper = std::min(window.upper, upper_at(k_min));
     const double lower = is_explicit ? h - d0 / k_max : 0;
     window.lower = std::max(lower, 0.0);
-    // α = 0 is explicit Euler with d0 alone: stable when h k_max < d0. Symplectic: neutral at
-    // worst.
+    // α = 0 is explicit Euler with d0 alone: stable when h k_max < d0; symplectic is neutral.
     window.includes_zero = is_explicit ? lower < 0 : true;
     if (window.upper <= window.lower) return empty;
     return window;

@@ -149,8 +149,7 @@ void SpringPencil<Dim>::add_link(int a, int b, const Vector& d, double axial, do
     links_.push_back({free_[a], free_[b], d, axial, transverse, damping, bound});
     if (free_[a] >= 0) ++degree_[free_[a]];
     if (free_[b] >= 0) ++degree_[free_[b]];
-    // In one dimension there is no transverse direction; a few ulp below zero are rounding of l −
-    // L.
+    // One dimension has no transverse direction; a few ulp below zero are rounding of l − L.
     const double rounding = -16 * std::numeric_limits<double>::epsilon() * bound;
     compressed_ = compressed_ || axial < rounding || (Dim > 1 && transverse < rounding);
     damped_ = damped_ || damping > 0;

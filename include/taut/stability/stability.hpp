@@ -82,9 +82,8 @@ public:
     void update(const SpringSystem<Scalar, Dim, Laws...>& system, const State<Scalar, Dim>& state);
 
     /// The bracket of the largest stable step, s.
-    /// @param tightness  0: by bounds alone, O(springs) for each of a fixed number of passes [T26],
-    /// and
-    ///                   a Ritz vector. Above 0: narrowed by sparse factorisations until
+    /// @param tightness  0: by bounds alone, O(springs) for each of a few passes [T26], and a
+    ///                   Ritz vector. Above 0: narrowed by sparse factorisations until
     ///                   refuted/certified ≤ 1 + tightness where the method's conditions allow it
     ///                   (1e-6 is reachable; a factorisation or two) [T22].
     StepLimit<Scalar> max_step(Method method, double tightness = 0) const;

@@ -8,8 +8,7 @@
 #include "../certificate.hpp"
 #include "limits.hpp"
 
-// Brackets narrowed by factorisations: sharpen the vector that refutes, then prove a step just
-// below.
+// Brackets narrowed by factorisations: sharpen the vector that refutes, then prove below it.
 
 namespace taut::detail {
 
@@ -54,8 +53,7 @@ void narrow_symplectic(const Pencil& pencil, Prover<Cholesky>& prover, double ti
         sharpen_symplectic(pencil, sharp(share), 0.1 * share, b.refuted, b.vector);
     };
     narrow(bracket, tightness, sharpen, [&](double h) {
-        // Where K is indefinite the condition at h alone says nothing of smaller steps; hD ≺ 4M
-        // does.
+        // With an indefinite K the condition at h says nothing of smaller steps; hD ≺ 4M does.
         return prove(prover, pencil, {4, -h * h, -2 * h, false}).proved &&
                (pencil.stiffness_semidefinite() || prove(prover, pencil, {4, 0, -h}).proved);
     });

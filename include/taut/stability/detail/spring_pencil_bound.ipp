@@ -51,8 +51,8 @@ std::vector<double> SpringPencil<Dim>::loads(const Splitting& split) const {
     return load;
 }
 
-/// The largest load over mass, 1/s². In a regular scene most particles are settled by one small
-/// factorisation.
+/// The largest load over mass, 1/s². One small factorisation settles most particles of a
+/// regular scene.
 template <int Dim>
 double SpringPencil<Dim>::largest_quotient(const Splitting& split) const {
     double largest = 0;

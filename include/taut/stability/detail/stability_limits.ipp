@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-// Stability::max_step, method by method, and what K and D that are not known to be semi-definite
-// add.
+// Stability::max_step, method by method, and what an unproved K or D adds.
 
 namespace taut {
 
@@ -66,8 +65,7 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::explicit_limit(double tightness) 
                                      certified == 0 ? Cause::undamped_modes
                                      : by_damping   ? Cause::damping
                                                     : Cause::stiffness);
-    // Without a vibration found there is no estimate; with one it cannot lie where a vector
-    // refutes.
+    // Nothing found is no estimate, and none lies where a vector refutes.
     if (estimate > 0 && std::isfinite(estimate)) {
         answer.estimate = std::min(static_cast<Scalar>(estimate), answer.refuted);
     }
@@ -122,8 +120,8 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::implicit_limit() const {
     return limit(1 / std::sqrt(std::min(epsilon, kappa)), detail::infinity, Cause::stiffness);
 }
 
-/// D ⪰ −δM is enough for a limit whose multipliers stay below 1 + hδ [T17]; an answer with its own
-/// name.
+/// D ⪰ −δM is enough for a limit whose multipliers stay below 1 + hδ [T17]: an answer of
+/// another name.
 template <class Scalar, class Cholesky>
 void Stability<Scalar, Cholesky>::admit_negative_damping(StepLimit<Scalar>& limit) const {
     const Pencil& pencil = *pencil_;
