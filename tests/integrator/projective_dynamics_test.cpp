@@ -9,6 +9,7 @@
 #include "../support/check_stepper.hpp"
 #include "../support/message.hpp"
 #include "../support/random_system.hpp"
+#include "../support/returning_steps.hpp"
 #include "../support/tolerance.hpp"
 
 using namespace taut_test;
@@ -180,14 +181,7 @@ TEST_CASE("projective_dynamics: an h that returns costs no factorisation, a new 
     auto system = random_system<double, 3>(random);
     auto state = random_state(random, system);
     ProjectiveDynamics stepper(system);
-    for (const auto& [h, expected] : {std::pair(0.01, 1),
-                                      {0.01, 1},
-                                      {0.005, 2},
-                                      {0.01, 2},
-                                      {0.005, 2},
-                                      {0.002, 3},
-                                      {0.005, 3},
-                                      {0.01, 4}}) {
+    for (const auto& [h, expected] : returning_steps) {
         REQUIRE(stepper.step(state, h, 2));
         CHECK(stepper.factorizations() == expected);
     }

@@ -3,12 +3,11 @@
 #pragma once
 
 #include <Eigen/SparseCholesky>
-#include <cmath>
-#include <cstdint>
 #include <type_traits>
 #include <utility>
 
-#include "detail/multistep_equation.hpp"
+#include "detail/last_state.hpp"
+#include "detail/step_equation.hpp"
 #include "detail/step_loop.hpp"
 
 namespace taut {
@@ -53,42 +52,31 @@ public:
     /// Takes `count` steps of h, s, finite and > 0. On failure the state is as it was before.
     /// The report's residual is that of the last linear solve, relative to its right-hand side.
     Report step(State& state, Scalar h, Index count = 1) {
-        if (!continues(state)) last_step_ = 0;
+        if (!last_.is(*system_, state)) last_step_ = 0;
         const Report report = loop_.run(*system_, state, h, count, [&] {
             const Report advanced = advance(state, h);
             last_step_ = h;
             return advanced;
         });
-        if (report) {
-            last_ = state;
-            revision_ = system_->force_revision();
-        } else {
-            last_.x.resize(Eigen::NoChange, 0);
-        }
+        report ? last_.keep(*system_, state) : last_.forget();
         return report;
     }
     const Solver& solver() const { return solver_; }
 
 private:
     Report advance(State& state, Scalar h);
-    bool continues(const State& state) const {
-        return system_->force_revision() == revision_ && last_.x.cols() == state.x.cols() &&
-               state.x.cols() > 0 && state.time == last_.time && state.x == last_.x &&
-               state.v == last_.v;
-    }
 
     const System* system_;
     detail::StepLoop<State> loop_;
-    detail::MultistepEquation<System> equation_;
+    detail::StepEquation<System> equation_;
     Solver solver_;
-    bool factorized_ = false;  // solver_ holds the factors of equation_.matrix()
-    Scalar last_step_ = 0;     // h⁻, s; 0: there is no history
-    State past_;               // x⁻ and v⁻, and then what they have become: q and p
-    State now_;                // x and v
-    State last_;               // the state that the history belongs to
-    std::uint64_t revision_ = 0;
-    VectorX<Scalar> b_;   // N, N·s
-    VectorX<Scalar> dv_;  // N, m/s
+    bool factorized_ = false;        // solver_ holds the factors of equation_.matrix()
+    Scalar last_step_ = 0;           // h⁻, s; 0: there is no history
+    State past_;                     // x⁻ and v⁻, and then what they have become: q and p
+    State now_;                      // x and v
+    detail::LastState<State> last_;  // what the history belongs to
+    VectorX<Scalar> b_;              // N, N·s
+    VectorX<Scalar> dv_;             // N, m/s
 };
 
 template <class System, class Solver>
@@ -113,14 +101,13 @@ Report Bdf2<System, Solver>::advance(State& state, Scalar h) {
             return {symmetric ? Status::not_positive_definite : Status::solver_failed};
         }
     }
-    equation_.load(*system_, state, tau, past_.v, past_.x, b_);
+    equation_.load(*system_, state, tau, 1, past_.x, b_);
+    equation_.add_momentum(*system_, past_.v, b_);
     dv_ = solver_.solve(b_);
     Report report;
     if (solver_.info() != Eigen::Success || !dv_.allFinite()) {
         report.status = Status::solver_failed;
-        for (Index i = 0; i < dv_.size() && report.where < 0; ++i) {
-            if (!std::isfinite(dv_[i])) report.where = equation_.particle(i);
-        }
+        report.where = detail::first_not_finite(equation_, dv_);
         return report;
     }
     const Scalar norm = b_.norm();

@@ -9,7 +9,7 @@
 
 #include "../core/method.hpp"
 #include "../model/particle_constraints.hpp"
-#include "detail/multistep_equation.hpp"
+#include "detail/step_equation.hpp"
 #include "detail/step_loop.hpp"
 
 namespace taut {
@@ -68,7 +68,7 @@ private:
     const System* system_;
     Constraints constraints_;
     detail::StepLoop<State> loop_;
-    detail::MultistepEquation<System> equation_;
+    detail::StepEquation<System> equation_;
     Solver solver_;
     std::vector<Index> block_;     // particle → block of the matrix, or −1
     SparseMatrix<Scalar> matrix_;  // S A S + I − S
@@ -77,7 +77,6 @@ private:
     VectorX<Scalar> z_;            // m/s
     VectorX<Scalar> right_;        // S(b − A z), N·s
     VectorX<Scalar> dv_;           // m/s
-    decltype(State::x) p_, q_;     // Dim × n
     Points<Scalar, Dim> forces_;   // Dim × n, N
 };
 
@@ -126,9 +125,7 @@ Report ConstrainedImplicitEuler<System, Solver>::advance(State& state, Scalar h)
     }
     equation_.update_values(*system_, state, h);
     const auto& A = equation_.matrix();
-    p_.setZero(Dim, system_->size());
-    q_ = h * state.v;
-    equation_.load(*system_, state, h, p_, q_, b_);
+    equation_.load(*system_, state, h, h, state.v, b_);
 
     std::fill(free_.begin(), free_.end(), Block(Block::Identity()));
     z_.setZero(A.rows());

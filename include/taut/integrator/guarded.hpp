@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <optional>
 
 #include "../stability/any_pose.hpp"
 #include "detail/energy_audit.hpp"
+#include "detail/last_state.hpp"
 
 namespace taut {
 namespace detail {
@@ -125,9 +125,8 @@ private:
     Options options_;
     Stepper stepper_;
     std::optional<StepLimit<Scalar>> limit_;
-    State start_;  // the last good state, and its books
+    detail::LastState<State> start_;  // the last good one, and its books
     detail::EnergyBooks books_;
-    std::uint64_t revision_ = 0;
     typename System::Force force_;     // of springs and gravity at start_, N
     typename System::Force external_;  // N
     detail::EnergyBooks end_books_;
@@ -168,12 +167,8 @@ auto Guarded<Stepper, System>::largest_step() -> Scalar {
 
 template <class Stepper, class System>
 void Guarded<Stepper, System>::open_books(const State& state) {
-    const bool known = revision_ == system_->force_revision() &&
-                       start_.x.cols() == state.x.cols() && start_.time == state.time &&
-                       start_.x == state.x && start_.v == state.v;
-    if (known) return;
-    start_ = state;
-    revision_ = system_->force_revision();
+    if (start_.is(*system_, state)) return;
+    start_.keep(*system_, state);
     books_ = detail::energy_books(*system_, state, force_);
     system_->external_force(state, external_);
 }
@@ -184,7 +179,7 @@ template <class Stepper, class System>
 double Guarded<Stepper, System>::work(const State& state) const {
     double sum = 0;
     for (Index i = 0; i < system_->size(); ++i) {
-        const typename System::Vector path = state.x.col(i) - start_.x.col(i);
+        const typename System::Vector path = state.x.col(i) - start_.state().x.col(i);
         if (system_->is_pinned(i)) {
             sum -= 0.5 * static_cast<double>((force_.col(i) + end_force_.col(i)).dot(path));
         } else {
@@ -260,13 +255,13 @@ auto Guarded<Stepper, System>::advance(State& state, Scalar frame) -> GuardedRep
         }
         if (report.retries == options_.max_retries) {
             name_culprits(report, state);
-            state = start_;
+            state = start_.state();
             return report;
         }
-        state = start_;
+        state = start_.state();
     }
     report.advanced = span;
-    start_ = state;
+    start_.keep(*system_, state);
     std::swap(books_, end_books_);
     std::swap(force_, end_force_);
     std::swap(external_, end_external_);

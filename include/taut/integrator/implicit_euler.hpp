@@ -96,13 +96,6 @@ private:
     Report solve_linearised(const State& state, Scalar h);
     Status factorize(Scalar h);
     Status solve(const VectorX<Scalar>& b, VectorX<Scalar>& x);
-    /// The particle of the first entry that is not finite, or -1.
-    Index first_not_finite(const VectorX<Scalar>& b) const {
-        for (Index i = 0; i < b.size(); ++i) {
-            if (!std::isfinite(b[i])) return equation_.particle(i);
-        }
-        return -1;
-    }
 
     const System* system_;
     Options options_;
@@ -159,15 +152,15 @@ Report ImplicitEuler<System, Solver>::solve_linearised(const State& state, Scala
     }
     if (dv_.size() == 0) return {};  // nothing free; not every solver takes 0 × 0
     equation_.update_values(*system_, state, h);
-    equation_.load(*system_, state, h, b_);
+    equation_.load(*system_, state, h, h, state.v, b_);
     Report report{factorize(h)};
     if (!report) return report;
-    if (const Index where = first_not_finite(b_); where >= 0) {
+    if (const Index where = detail::first_not_finite(equation_, b_); where >= 0) {
         return {Status::solver_failed, 0, 0, where};
     }
     report.status = solve(b_, dv_);
     if (!report) {
-        report.where = first_not_finite(dv_);
+        report.where = detail::first_not_finite(equation_, dv_);
         return report;
     }
     const Scalar norm = b_.norm();

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
-
 #include "../core/method.hpp"
+#include "detail/last_state.hpp"
 #include "detail/step_loop.hpp"
 
 namespace taut {
@@ -30,7 +29,7 @@ public:
 
     /// Takes `count` steps of h, s, finite and > 0. On failure the state is as it was before.
     Report step(State& state, Scalar h, Index count = 1) {
-        bool known = force_is_known(state);
+        bool known = last_.is(*system_, state);
         const Report report = loop_.run(*system_, state, h, count, [&]() -> Report {
             if (!known) system_->force(state, f_);
             known = true;
@@ -41,12 +40,7 @@ public:
             kick(state, h / 2);
             return {};
         });
-        if (report) {
-            last_ = state;
-            revision_ = system_->force_revision();
-        } else {
-            last_.x.resize(Eigen::NoChange, 0);
-        }
+        report ? last_.keep(*system_, state) : last_.forget();
         return report;
     }
 
@@ -54,17 +48,11 @@ private:
     void kick(State& state, Scalar h) const {
         state.v.array() += h * (f_.array().rowwise() * system_->inverse_mass().transpose().array());
     }
-    bool force_is_known(const State& state) const {
-        return system_->force_revision() == revision_ && last_.x.cols() == state.x.cols() &&
-               state.x.cols() > 0 && state.time == last_.time && state.x == last_.x &&
-               state.v == last_.v;
-    }
 
     const System* system_;
     detail::StepLoop<State> loop_;
-    decltype(State::x) f_;        // force at the end of the last step, Dim × n, N
-    State last_;                  // the state that f_ belongs to
-    std::uint64_t revision_ = 0;  // and the system's force_revision()
+    decltype(State::x) f_;           // force at the end of the last step, Dim × n, N
+    detail::LastState<State> last_;  // what f_ belongs to
 };
 
 }  // namespace taut

@@ -39,6 +39,16 @@ struct SpringTangent {
     }
 };
 
+/// axial·d dᵀ + transverse·(I − d dᵀ), symmetric to the bit.
+template <class Vector, class Scalar = typename Vector::Scalar>
+auto spring_block(const Vector& d, Scalar axial, Scalar transverse) {
+    using Block = Eigen::Matrix<Scalar, Vector::RowsAtCompileTime, Vector::RowsAtCompileTime>;
+    Block P = d * d.transpose();  // before the factor, which would round the two triangles apart
+    P *= axial - transverse;
+    P.diagonal().array() += transverse;
+    return P;
+}
+
 /// The springs of one law: structure of arrays, without damping until a damped one is added.
 template <class Scalar, class Law_>
 struct SpringSet {

@@ -103,9 +103,7 @@ void TangentMatrix<Scalar, Dim>::assemble(const System& system, const Points<Sca
         const auto& k = c.project ? plus : raw;
         const Scalar axial = on_k * k.axial + on_k_plus * plus.axial + on_damper * raw.damping;
         const Scalar transverse = on_k * k.transverse + on_k_plus * plus.transverse;
-        const Block dd = raw.d * raw.d.transpose();  // first, so that P is symmetric to the bit
-        Block P = (axial - transverse) * dd;
-        P.diagonal().array() += transverse;
+        const Block P = spring_block(raw.d, axial, transverse);
         if (a >= 0) pattern_.add(A, diagonal_[a], a, P);
         if (b >= 0) pattern_.add(A, diagonal_[b], b, P);
         if (slots.ab >= 0) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "../core/error.hpp"
+#include "hookean.hpp"
 
 namespace taut {
 
@@ -14,17 +14,7 @@ struct TensionOnly {
     static constexpr bool convex = true;
 
     template <class Scalar>
-    struct Parameters {
-        Scalar stiffness;  ///< k, N/m, ≥ 0
-
-        void require_valid(const char* where) const {
-            require_non_negative(where, "stiffness", stiffness);
-        }
-        template <class Other>
-        Parameters<Other> cast() const {
-            return {static_cast<Other>(stiffness)};
-        }
-    };
+    using Parameters = Hookean::Parameters<Scalar>;
 
     /// T(l), N; never negative.
     template <class Scalar>

@@ -101,12 +101,6 @@ private:
         const double r = load / mass_[static_cast<Index>(Dim * i)];
         return load > 0 ? std::max(r, std::numeric_limits<double>::min()) : r;
     }
-    static Block block(const Vector& d, double axial, double transverse) {
-        Block P = d * d.transpose();  // first, so that P is symmetric to the bit
-        P *= axial - transverse;
-        P.diagonal().array() += transverse;
-        return P;
-    }
     Vector segment(const Eigen::VectorXd& u, int i) const {
         return i < 0 ? Vector(Vector::Zero()) : Vector(u.segment<Dim>(Dim * i));
     }
@@ -250,7 +244,7 @@ SparseMatrix<double> SpringPencil<Dim>::assemble(const Combination& c) const {
         if (row >= 0 && column >= 0) pattern.add(S, pattern.place(row, column), column, P);
     };
     for_each_link(c, [&](int a, int b, const Vector& d, double axial, double transverse) {
-        const Block P = block(d, axial, transverse);
+        const Block P = spring_block(d, axial, transverse);
         add(a, a, P);
         add(b, b, P);
         add(a, b, -P);

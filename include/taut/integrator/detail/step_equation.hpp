@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -9,45 +10,44 @@
 
 namespace taut::detail {
 
-/// The linear system of one implicit step for Δv = v⁺ − v [T6], [T27]:
-///     (M + hD + h²K) Δv = h (f(x, v) − hK v),  K⁺ for K where springs are behind it.
-/// This one is for matrices: constant, so the step matrix changes with h alone.
+/// The linear system of an implicit step x⁺ = x + su + τΔv for Δv = v⁺ − v [T6], [T27]:
+///     (M + τD + τ²K) Δv = τ (f(x, v) − sK u),  K⁺ for K where springs are behind it.
+/// Implicit Euler of step h has s = τ = h, u = v; BDF2 adds the momentum of its history.
+/// This one is for matrices: constant, so the step matrix changes with τ alone.
 template <class System>
 class StepEquation {
 public:
     using Scalar = typename System::Scalar;
     using State = typename System::State;
-    static constexpr bool constant = true;  ///< for one h the values never change
+    static constexpr bool constant = true;  ///< for one τ the values never change
 
     /// @returns whether the sparsity pattern is new
     bool update_pattern(const System& system) {
         if (A_.rows() == system.size() && revision_ == system.revision()) return false;
         revision_ = system.revision();
-        h_ = 0;
-        // A sum with unit factors, so that no entry of the pattern can be missing.
-        A_ = system.damping() + system.stiffness();
-        SparseMatrix<Scalar> mass(system.size(), system.size());
-        mass.setIdentity();
-        A_ += mass;
-        A_.makeCompressed();
+        assemble(system, 1);
+        tau_ = 0;
         return true;
     }
-    void update_values(const System& system, const State&, Scalar h) {
-        if (h == h_) return;
-        SparseMatrix<Scalar> mass(system.size(), system.size());
-        mass.setIdentity();
-        mass.diagonal() = system.mass();
-        A_ = h * system.damping() + (h * h) * system.stiffness();
-        A_ += mass;
-        A_.makeCompressed();
-        h_ = h;
+    /// @returns whether the values are new
+    bool update_values(const System& system, const State&, Scalar tau) {
+        if (tau == tau_) return false;
+        assemble(system, tau);
+        tau_ = tau;
+        return true;
     }
     const SparseMatrix<Scalar>& matrix() const { return A_; }
 
-    void load(const System& system, const State& state, Scalar h, VectorX<Scalar>& b) {
+    /// b ← τ (f − sK u).
+    void load(const System& system, const State& state, Scalar tau, Scalar s,
+              const Points<Scalar, 1>& u, VectorX<Scalar>& b) {
         system.force(state, f_);
-        b = h * f_.transpose();
-        b.noalias() -= (h * h) * (system.stiffness() * state.v.transpose());
+        b = tau * f_.transpose();
+        b.noalias() -= (tau * s) * (system.stiffness() * u.transpose());
+    }
+    /// b ← b + M p, p in m/s.
+    void add_momentum(const System& system, const Points<Scalar, 1>& p, VectorX<Scalar>& b) const {
+        b += system.mass().cwiseProduct(p.transpose());
     }
     void add_to_velocity(const VectorX<Scalar>& dv, State& state) const {
         state.v += dv.transpose();
@@ -56,9 +56,18 @@ public:
     Index particle(Index dof) const { return dof; }
 
 private:
-    Scalar h_ = 0;                // of the values in A_, s
+    void assemble(const System& system, Scalar tau) {
+        SparseMatrix<Scalar> mass(system.size(), system.size());
+        mass.setIdentity();
+        mass.diagonal() = system.mass();
+        A_ = tau * system.damping() + (tau * tau) * system.stiffness();
+        A_ += mass;
+        A_.makeCompressed();
+    }
+
+    Scalar tau_ = 0;              // of the values in A_, s
     std::uint64_t revision_ = 0;  // the system's
-    SparseMatrix<Scalar> A_;      // M + hD + h²K
+    SparseMatrix<Scalar> A_;      // M + τD + τ²K
     Points<Scalar, 1> f_;         // 1 × N, N
 };
 
@@ -77,9 +86,10 @@ public:
         topology_ = system.topology_revision();
         return true;
     }
-    void update_values(const System& system, const State& state, Scalar h) {
-        const double step = static_cast<double>(h);
+    bool update_values(const System& system, const State& state, Scalar tau) {
+        const double step = static_cast<double>(tau);
         pattern_->assemble(system, state.x, {1, step * step, step}, A_);
+        return true;
     }
     /// A ← M + hD(x₀) + h²K(x), the second derivative of the step's objective at x; K⁺ for K if
     /// `project`.
@@ -94,18 +104,27 @@ public:
     }
     const SparseMatrix<Scalar>& matrix() const { return A_; }
 
-    void load(const System& system, const State& state, Scalar h, VectorX<Scalar>& b) {
+    void load(const System& system, const State& state, Scalar tau, Scalar s,
+              const Points<Scalar, Dim>& u, VectorX<Scalar>& b) {
         system.force(state, f_);
         system.for_each_tangent(state.x, [&](const SpringTangent<Scalar, Dim>& raw) {
             const auto t = raw.projected();
-            const Eigen::Matrix<Scalar, Dim, 1> dv = state.v.col(t.b) - state.v.col(t.a);
+            const Eigen::Matrix<Scalar, Dim, 1> du = u.col(t.b) - u.col(t.a);
             const Eigen::Matrix<Scalar, Dim, 1> pull =
-                h * (t.transverse * dv + (t.axial - t.transverse) * t.d.dot(dv) * t.d);
+                s * (t.transverse * du + (t.axial - t.transverse) * t.d.dot(du) * t.d);
             f_.col(t.a) += pull;
             f_.col(t.b) -= pull;
         });
-        f_ *= h;
+        f_ *= tau;
         gather(f_, b);
+    }
+    void add_momentum(const System& system, const Points<Scalar, Dim>& p,
+                      VectorX<Scalar>& b) const {
+        const auto& free = pattern_->free();
+        for (std::size_t j = 0; j < free.size(); ++j) {
+            b.template segment<Dim>(Dim * static_cast<Index>(j)) +=
+                system.mass(free[j]) * p.col(free[j]);
+        }
     }
     /// b ← the columns of the free particles.
     void gather(const Points<Scalar, Dim>& p, VectorX<Scalar>& b) const {
@@ -128,9 +147,18 @@ public:
 private:
     std::optional<TangentMatrix<Scalar, Dim>> pattern_;
     std::uint64_t topology_ = 0;
-    SparseMatrix<Scalar> A_;  // M + hD + h²K⁺
+    SparseMatrix<Scalar> A_;  // M + τD + τ²K⁺
     SparseMatrix<Scalar> B_;  // its part M + hD, for Newton's method
     Points<Scalar, Dim> f_;   // Dim × n, N, then N·s
 };
+
+/// The particle of the first entry that is not finite, or −1.
+template <class System, class Scalar>
+Index first_not_finite(const StepEquation<System>& equation, const VectorX<Scalar>& b) {
+    for (Index i = 0; i < b.size(); ++i) {
+        if (!std::isfinite(b[i])) return equation.particle(i);
+    }
+    return -1;
+}
 
 }  // namespace taut::detail

@@ -22,7 +22,7 @@ auto SpringPencil<Dim>::splitting(const Combination& c, const std::vector<double
         if (c.project && factor <= 0 && (c.damping <= 0 || axial < -64 * eps * size)) {
             continue;  // not positive for certain
         }
-        const Block P = block(link.d, std::max(axial, 0.0), std::max(transverse, 0.0));
+        const Block P = spring_block(link.d, std::max(axial, 0.0), std::max(transverse, 0.0));
         const auto add = [&](int i, int other) {
             if (i < 0) return;
             const double weight = other < 0 ? 1 : 1 + p[other] / p[i];
