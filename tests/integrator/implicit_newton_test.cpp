@@ -120,6 +120,7 @@ TEST_CASE("implicit_newton: too few iterations are reported and the state is unt
     const taut::Report report = stepper.step(state, 0.1);
     CHECK(report.status == Status::not_converged);
     CHECK(report.residual > 1e-10);
+    CHECK(report.solves == 2);
     CHECK(same_bits(state, before));
     auto patient = newton(system);
     CHECK(patient.step(state, 0.1));
