@@ -38,8 +38,8 @@ struct NoNewton {};
 /// [T24] holds.
 ///
 /// constraints() hold particles in planes, on lines, at points or to velocities, exactly in a
-/// direct solve, by filtering in conjugate gradients, as in D. Baraff, A. Witkin, "Large steps in
-/// cloth simulation", SIGGRAPH 1998.
+/// direct solve, by filtering in conjugate gradients [T31], as in D. Baraff, A. Witkin, "Large
+/// steps in cloth simulation", SIGGRAPH 1998.
 /// @tparam Solver  Eigen's sparse solver interface (analyzePattern, factorize, solve, info). Not
 ///                 SimplicialLDLT: it calls an indefinite matrix a success. One with Eigen's
 ///                 solveWithGuess starts from the last Δv, so that its steps depend on the last

@@ -11,7 +11,7 @@ namespace taut::detail {
 
 /// The linear system A Δv = b of an implicit step under constraints on particles. With S the
 /// projector on what they leave free and z the Δv that they prescribe,
-///     (S A S + I − S) y = S(b − A z),  Δv = y + z.
+///     (S A S + I − S) y = S(b − A z),  Δv = y + z  [T31].
 /// The matrix is definite whenever A is, and has its pattern. Conjugate gradients on it never leave
 /// the range of S: they are the filtered ones of D. Baraff and A. Witkin (1998).
 template <class Scalar, int Dim>

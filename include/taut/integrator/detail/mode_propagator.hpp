@@ -6,7 +6,7 @@
 
 namespace taut::detail {
 
-/// The exact motion of q̈ + d q̇ + k q = p over one step, p constant:
+/// The exact motion of q̈ + d q̇ + k q = p over one step, p constant [T32]:
 ///     (q⁺, q̇⁺) = A (q, q̇) + p·b,   A = e^(hC),  b = ∫₀ʰ e^(tC) dt·(0, 1),  C = [0 1; −k −d].
 struct ModePropagator {
     double a11, a12, a21, a22;
