@@ -11,7 +11,7 @@
 #include "../support/catch.hpp"
 #include "../support/laws.hpp"
 
-using namespace taut_test;
+namespace taut_test::buckling_strip_test {
 
 namespace {
 
@@ -95,3 +95,5 @@ TEST_CASE("strip: pushed together it buckles out of its plane, over six decades 
         push<taut::ImplicitEuler<Strip>>(stiffness);
     }
 }
+
+}  // namespace taut_test::buckling_strip_test
