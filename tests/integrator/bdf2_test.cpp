@@ -12,7 +12,8 @@
 #include "../support/catch.hpp"
 #include "../support/check_stepper.hpp"
 
-using namespace taut_test;
+namespace taut_test::bdf2_test {
+
 using taut::Bdf2;
 using taut::GeneralLinearSystem;
 using taut::LinearSystem;
@@ -283,3 +284,5 @@ TEST_CASE("bdf2: more of a swing's energy survives than with implicit Euler at t
         CHECK(by_bdf2 < 0.8 * by_euler);
     }
 }
+
+}  // namespace taut_test::bdf2_test

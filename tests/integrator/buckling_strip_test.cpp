@@ -12,7 +12,7 @@
 #include "../support/catch.hpp"
 #include "../support/laws.hpp"
 
-using namespace taut_test;
+namespace taut_test::buckling_strip_test {
 
 namespace {
 
@@ -106,3 +106,5 @@ TEST_CASE("strip: pushed together it buckles out of its plane, over six decades 
             CHECK_FALSE(push<taut::SymplecticEuler<Strip>>(stiffness).as_claimed());
     }
 }
+
+}  // namespace taut_test::buckling_strip_test

@@ -17,7 +17,8 @@
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::guarded_test {
+
 using taut::Alarm;
 using taut::Guarded;
 using taut::Status;
@@ -391,3 +392,5 @@ TEST_CASE("guarded: options out of range are refused by name", "[integrator][bad
     CHECK(missing(message([](auto& o) { o.energy_drift = -1; }), {"energy_drift is -1"}) == "");
     CHECK(message([](auto&) {}) == "");
 }
+
+}  // namespace taut_test::guarded_test

@@ -13,7 +13,8 @@
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::implicit_constraints_test {
+
 using taut::ImplicitEuler;
 using taut::ParticleConstraints;
 
@@ -247,3 +248,5 @@ TEST_CASE("particle_constraints: what is refused changes nothing", "[integrator]
     CHECK_THROWS_AS(constraints.hold_on_line(3, {1, 0, 0}), std::invalid_argument);
     CHECK(constraints.held().at(3).count == 1);
 }
+
+}  // namespace taut_test::implicit_constraints_test

@@ -12,7 +12,8 @@
 #include "../support/returning_steps.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::implicit_newton_test {
+
 using taut::ImplicitEuler;
 using taut::Status;
 
@@ -182,3 +183,5 @@ TEST_CASE("implicit_newton: wrong options are refused by name", "[integrator][ba
               .empty());
     CHECK(missing(message_of([&] { newton(system, 5, 0); }), {"tolerance is 0", "> 0"}).empty());
 }
+
+}  // namespace taut_test::implicit_newton_test

@@ -15,7 +15,8 @@
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::modal_dynamics_test {
+
 using taut::LinearSystem;
 using taut::ModalBasis;
 using taut::ModalDynamics;
@@ -291,3 +292,5 @@ TEMPLATE_TEST_CASE(
     }
     CHECK((state.v.array() == 0).all());
 }
+
+}  // namespace taut_test::modal_dynamics_test

@@ -10,7 +10,8 @@
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::energy_guarantee_test {
+
 using taut::energy_never_rises_v;
 
 static_assert(energy_never_rises_v<taut::SpringSystem<float, 2, TensionOnly>>);
@@ -148,3 +149,5 @@ TEMPLATE_TEST_CASE_SIG("energy_guarantee: strings under a converged implicit ste
     // The same scenes and steps by one linearised solve: what the condition is for.
     CHECK(tally.of_one_solve > count / 20);
 }
+
+}  // namespace taut_test::energy_guarantee_test

@@ -9,7 +9,7 @@
 #include "../support/catch.hpp"
 #include "../support/random_system.hpp"
 
-using namespace taut_test;
+namespace taut_test::force_plan_test {
 
 TEST_CASE("force_plan: the numbering of a shuffled grid is a permutation that brings ends together",
           "[model]") {
@@ -79,3 +79,5 @@ TEST_CASE("force_plan: it changes with the topology and not with masses or dampi
     system.add_spring(2, 5, 10);
     CHECK(plan.update(system));
 }
+
+}  // namespace taut_test::force_plan_test

@@ -9,7 +9,7 @@
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::tension_only_test {
 
 TEMPLATE_TEST_CASE("tension_only: slack it is nothing, taut it is Hooke's spring", "[model]", float,
                    double) {
@@ -49,3 +49,5 @@ TEMPLATE_TEST_CASE_SIG("tension_only: the energy of a scene is convex in its pos
     CHECK(strings == 0);
     CHECK(springs > 0);  // what the same poses show of springs that push
 }
+
+}  // namespace taut_test::tension_only_test

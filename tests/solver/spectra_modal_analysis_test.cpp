@@ -15,7 +15,8 @@
 #include "../support/message.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::spectra_modal_analysis_test {
+
 using taut::Index;
 using taut::ModalBasis;
 
@@ -165,5 +166,7 @@ TEST_CASE("modal_analysis: a count out of range is refused by name", "[solver][b
     }
     CHECK(basis.size() == 0);
 }
+
+}  // namespace taut_test::spectra_modal_analysis_test
 
 #endif
