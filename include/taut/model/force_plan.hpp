@@ -93,7 +93,7 @@ private:
     std::vector<int> order_;  // particle at each place; empty: particle i at place i
     Index size_ = 0;
     Index stride_ = 0;
-    std::uint64_t topology_ = 0;  // the system's topology_revision()
+    std::uint64_t springs_ = 0;  // the system's spring_revision()
     bool built_ = false;
 };
 
@@ -108,8 +108,8 @@ std::vector<detail::SpringRuns> ForcePlan<System>::runs(const System& system,
 
 template <class System>
 bool ForcePlan<System>::update(const System& system) {
-    if (built_ && topology_ == system.topology_revision()) return false;
-    topology_ = system.topology_revision();
+    if (built_ && springs_ == system.spring_revision()) return false;
+    springs_ = system.spring_revision();
     built_ = true;
     size_ = system.size();
     // No two of a particle's planes begin at the same place of a page: a store to one would hold up
