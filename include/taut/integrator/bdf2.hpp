@@ -49,12 +49,14 @@ public:
     explicit Bdf2(const System& system) : system_(&system) {}
     explicit Bdf2(const System&&) = delete;
 
-    /// Takes `count` steps of h, s, finite and > 0. On failure the state is as it was before.
-    /// The report's residual is that of the last linear solve, relative to its right-hand side.
-    Report step(State& state, Scalar h, Index count = 1) {
+    /// Takes `count` steps of h, s, finite and > 0, of a State or StateView. On failure the state
+    /// is as it was before. The report's residual is that of the last linear solve, relative to its
+    /// right-hand side.
+    template <class AnyState>
+    Report step(AnyState& state, Scalar h, Index count = 1) {
         if (!last_.is(*system_, state)) last_step_ = 0;
-        const Report report = loop_.run(*system_, state, h, count, [&] {
-            const Report advanced = advance(state, h);
+        const Report report = loop_.run(*system_, state, h, count, [&](State& own) {
+            const Report advanced = advance(own, h);
             last_step_ = h;
             return advanced;
         });

@@ -44,15 +44,17 @@ public:
     /// Change them between steps at will. Those of pinned particles have no effect.
     Constraints& constraints() { return constraints_; }
 
-    /// Takes `count` steps of h, s, finite and > 0. On failure the state is as it was before; a
-    /// constraint on a particle that the system does not have is invalid_state, at that particle.
-    /// The report's residual is that of the last linear solve, relative to its right-hand side.
-    Report step(State& state, Scalar h, Index count = 1) {
+    /// Takes `count` steps of h, s, finite and > 0, of a State or StateView. On failure the state
+    /// is as it was before; a constraint on a particle that the system does not have is
+    /// invalid_state, at that particle. The report's residual is that of the last linear solve,
+    /// relative to its right-hand side.
+    template <class AnyState>
+    Report step(AnyState& state, Scalar h, Index count = 1) {
         if (!constraints_.held().empty()) {
             const Index last = constraints_.held().rbegin()->first;
             if (last >= system_->size()) return {Status::invalid_state, 0, 0, last};
         }
-        return loop_.run(*system_, state, h, count, [&] { return advance(state, h); });
+        return loop_.run(*system_, state, h, count, [&](State& own) { return advance(own, h); });
     }
     /// Force of the constraints on their particles in the last step, N, Dim × n; zero elsewhere.
     const Points<Scalar, Dim>& constraint_forces() const { return forces_; }

@@ -106,6 +106,14 @@ public:
 
     /// Advances by `frame`, s, finite and > 0. No certified step (overflow) is invalid_step.
     GuardedReport<Scalar> advance(State& state, Scalar frame);
+    /// The same on an engine's own arrays, copied there and back once a frame.
+    template <class Stored>
+    GuardedReport<Scalar> advance(StateView<Stored, System::Dim>& view, Scalar frame) {
+        view.copy_to(viewed_);
+        const auto report = advance(viewed_, frame);
+        if (report) view.copy_from(viewed_);
+        return report;
+    }
 
     Stepper& stepper() { return stepper_; }
     /// The limit in force; nothing before the first frame of an explicit stepper.
@@ -132,6 +140,7 @@ private:
     detail::EnergyBooks end_books_;
     typename System::Force end_force_;
     typename System::Force end_external_;
+    State viewed_;  // of a StateView
 };
 
 template <class Stepper, class System>

@@ -70,11 +70,13 @@ public:
     explicit ImplicitEuler(const System&&) = delete;
     ImplicitEuler(const System&&, const Options&) = delete;
 
-    /// Takes `count` steps of h, s, finite and > 0. On failure the state is as it was before.
-    /// The report's residual is that of the last linear solve, relative to its right-hand side;
-    /// with newton_iterations > 1 that of the nonlinear equation, as Options::tolerance has it.
-    Report step(State& state, Scalar h, Index count = 1) {
-        return loop_.run(*system_, state, h, count, [&] { return advance(state, h); });
+    /// Takes `count` steps of h, s, finite and > 0, of a State or StateView. On failure the state
+    /// is as it was before. The report's residual is that of the last linear solve, relative to its
+    /// right-hand side; with newton_iterations > 1 that of the nonlinear equation, as
+    /// Options::tolerance has it.
+    template <class AnyState>
+    Report step(AnyState& state, Scalar h, Index count = 1) {
+        return loop_.run(*system_, state, h, count, [&](State& own) { return advance(own, h); });
     }
     /// change(solver) for every solver that the stepper keeps: to set a tolerance, a cap of
     /// iterations.

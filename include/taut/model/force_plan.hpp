@@ -40,17 +40,20 @@ public:
         return std::apply([](const auto&... plan) { return (plan.damped() || ...); }, plans_);
     }
 
-    /// Planes ← points, and back: Dim × size().
+    /// Planes ← points, and back: Dim × size(), converted where they hold another number type.
     template <class Matrix>
     void to_planes(const Matrix& points, const Planes& planes) const {
         for_each_place([&](Index i, Index place) {
-            for (int d = 0; d < points.rows(); ++d) planes[d][place] = points(d, i);
+            for (int d = 0; d < points.rows(); ++d)
+                planes[d][place] = static_cast<Scalar>(points(d, i));
         });
     }
     template <class Matrix>
     void from_planes(const Planes& planes, Matrix& points) const {
         for_each_place([&](Index i, Index place) {
-            for (int d = 0; d < points.rows(); ++d) points(d, i) = planes[d][place];
+            for (int d = 0; d < points.rows(); ++d) {
+                points(d, i) = static_cast<typename Matrix::Scalar>(planes[d][place]);
+            }
         });
     }
 
