@@ -19,29 +19,29 @@ set(configure ${CMAKE_COMMAND} -S ${consumer} -G ${GENERATOR} -D CMAKE_CXX_COMPI
     -D CMAKE_C_COMPILER=${C} -D Eigen3_DIR=${EIGEN} -D CMAKE_PREFIX_PATH=${WORK}/prefix
     -D CONSUMER_SOURCE=${SOURCE})
 
-function(build way standard)
+function(build way standard program)
     run(${configure} -B ${WORK}/${way} -D CONSUMER_WAY=${way} -D CONSUMER_STANDARD=${standard}
-        ${ARGN})
+        -D CONSUMER_PROGRAM=${program} ${ARGN})
     run(${CMAKE_COMMAND} --build ${WORK}/${way} ${config})
     run(${CMAKE_CTEST_COMMAND} --test-dir ${WORK}/${way} -C "${CONFIG}" --verbose)
 endfunction()
 
 if(WAY STREQUAL "subdirectory")
-    build(subdirectory 20)
-    build(fetched 17)
+    build(subdirectory 20 main.cpp)
+    build(fetched 17 version.cpp)  # that the target arrives; what it does, the others see
     return()
 endif()
 
 # Moved after the install: a package that remembers where it was built or put would not be found.
 run(${CMAKE_COMMAND} --install ${BUILD} ${config} --prefix ${WORK}/first)
 file(RENAME ${WORK}/first ${WORK}/prefix)
-build(installed 17 -D CONSUMER_SUITESPARSE=${SUITESPARSE} -D CONSUMER_MODAL=${MODAL})
+build(installed 17 main.cpp -D CONSUMER_SUITESPARSE=${SUITESPARSE} -D CONSUMER_MODAL=${MODAL})
 
 run(${CMAKE_COMMAND} -S ${consumer}/refusals -B ${WORK}/refusals -G ${GENERATOR}
     -D CMAKE_PREFIX_PATH=${WORK}/prefix -D Eigen3_DIR=${EIGEN})
 execute_process(
     COMMAND ${configure} -B ${WORK}/without -D CONSUMER_WAY=installed -D CONSUMER_SUITESPARSE=ON
-        -D CONSUMER_STANDARD=17 -D CMAKE_DISABLE_FIND_PACKAGE_CHOLMOD=ON -D CHOLMOD_LIBRARY=OFF
+        -D CONSUMER_STANDARD=17 -D CONSUMER_PROGRAM=version.cpp -D CMAKE_DISABLE_FIND_PACKAGE_CHOLMOD=ON -D CHOLMOD_LIBRARY=OFF
     RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE output)
 if(result EQUAL 0 OR NOT output MATCHES "missing:[ \n]+CHOLMOD")
     message(FATAL_ERROR "a missing CHOLMOD was not refused by name:\n${output}")
