@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Taut contributors
 # SPDX-License-Identifier: MIT
 
-# cmake -D stability_report=... -D prediction=... -D drape=... -D folder=... -P check_programs.cmake
+# cmake -D stability_report=... -D prediction=... -D drape=... -D engine_loop=... -D folder=...
+#     -P check_programs.cmake
 # What the programs answer to wrong input, and the keys of the report's JSON. Writes into folder
 # only.
 
@@ -82,6 +83,10 @@ expect(prediction "${cloth}" 0 "grows as predicted")
 expect(prediction "${cloth} --stretch 0 --bend 0" 1 "nothing to try")
 expect(prediction "${cloth} --pin 0-15" 1 "nothing to try")
 expect(prediction "${cloth} --duration 1e6" 1 "--duration: ")
+
+# The hand stays where it should be, springs tear, and none that holds is longer than those that tore.
+expect(engine_loop "" 0
+    "26[67] ticks, .*\n[1-9][0-9]* springs torn in [1-9].* 1[.]1[0-5] of its rest.*hand within .e-0[6-9]")
 
 # The keys that scripts read.
 expect(stability_report "${cloth} --blame 2 --json report.json" 0 "symplectic Euler")

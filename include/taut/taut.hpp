@@ -19,6 +19,7 @@
 #include "model/buckling.hpp"
 #include "model/energy_guarantee.hpp"
 #include "model/particle_constraints.hpp"
+#include "model/state_view.hpp"
 #include "model/tension_only.hpp"
 #include "scene/chain.hpp"
 #include "scene/cloth.hpp"

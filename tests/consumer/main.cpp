@@ -9,6 +9,9 @@
 #include <taut/solver/cholmod.hpp>
 #include <taut/solver/umfpack.hpp>
 #endif
+#ifdef CONSUMER_MODAL
+#include <taut/solver/modal_analysis.hpp>
+#endif
 
 int main() {
     taut::SpringSystem<double, 3> cloth = taut::hanging_cloth<double>({8, 8});
@@ -21,6 +24,10 @@ int main() {
 #ifdef CONSUMER_SUITESPARSE
     taut::ImplicitEuler<taut::SpringSystem<double, 3>, taut::Cholmod<>> implicit(cloth);
     if (auto report = implicit.step(state, 1e-3); !report) return 1;
+#endif
+#ifdef CONSUMER_MODAL
+    taut::ModalBasis modes;
+    if (auto report = taut::modal_analysis(cloth.linearize(state), 4, modes); !report) return 1;
 #endif
     std::printf("t = %g s, lowest z = %g m\n", state.time, state.x.row(2).minCoeff());
 }

@@ -68,7 +68,7 @@ TEST_CASE("force_plan: planes give back the points they took, whatever the numbe
     check(taut::hanging_cloth<double>({9, 8}));
 }
 
-TEST_CASE("force_plan: it changes with the topology and not with masses or damping", "[model]") {
+TEST_CASE("force_plan: it changes with the springs and not with masses or damping", "[model]") {
     Random random(53);
     auto system = random_system<double, 3>(random);
     taut::ForcePlan<taut::SpringSystem<double, 3>> plan;
@@ -78,6 +78,11 @@ TEST_CASE("force_plan: it changes with the topology and not with masses or dampi
     CHECK_FALSE(plan.update(system));
     system.add_spring(2, 5, 10);
     CHECK(plan.update(system));
+    system.set_stiffness(1, 20);
+    CHECK(plan.update(system));
+    system.remove_spring(0);
+    CHECK(plan.update(system));
+    CHECK_FALSE(plan.update(system));
 }
 
 }  // namespace taut_test::force_plan_test

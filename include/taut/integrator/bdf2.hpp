@@ -49,17 +49,24 @@ public:
     explicit Bdf2(const System& system) : system_(&system) {}
     explicit Bdf2(const System&&) = delete;
 
-    /// Takes `count` steps of h, s, finite and > 0. On failure the state is as it was before.
-    /// The report's residual is that of the last linear solve, relative to its right-hand side.
-    Report step(State& state, Scalar h, Index count = 1) {
+    /// Takes `count` steps of h, s, finite and > 0, of a State or StateView. On failure the state
+    /// is as it was before. The report's residual is that of the last linear solve, relative to its
+    /// right-hand side.
+    template <class AnyState>
+    Report step(AnyState& state, Scalar h, Index count = 1) {
         if (!last_.is(*system_, state)) last_step_ = 0;
-        const Report report = loop_.run(*system_, state, h, count, [&] {
-            const Report advanced = advance(state, h);
+        const Report report = loop_.run(*system_, state, h, count, [&](State& own) {
+            const Report advanced = advance(own, h);
             last_step_ = h;
             return advanced;
         });
         report ? last_.keep(*system_, state) : last_.forget();
         return report;
+    }
+    /// change(solver): to set a tolerance, a cap of iterations.
+    template <class Change>
+    void configure(Change&& change) {
+        change(solver_);
     }
     const Solver& solver() const { return solver_; }
 
@@ -105,8 +112,10 @@ Report Bdf2<System, Solver>::advance(State& state, Scalar h) {
     equation_.add_momentum(*system_, past_.v, b_);
     dv_ = solver_.solve(b_);
     Report report;
+    report.solves = 1;
     if (solver_.info() != Eigen::Success || !dv_.allFinite()) {
-        report.status = Status::solver_failed;
+        report.status =
+            solver_.info() == Eigen::NoConvergence ? Status::not_converged : Status::solver_failed;
         report.where = detail::first_not_finite(equation_, dv_);
         return report;
     }

@@ -28,6 +28,11 @@ using method_of = decltype(Stepper::method);
 template <class Stepper>
 using constraint_forces_of = decltype(std::declval<const Stepper&>().constraint_forces());
 
+struct NoResponse {
+    template <class State>
+    void operator()(State&) const {}
+};
+
 /// What the guard takes a stepper for; one without a `method` counts as implicit.
 template <class Stepper>
 constexpr Method guarded_method() {
@@ -110,13 +115,19 @@ public:
     explicit Guarded(const System&&, const Options& = {}, Arguments&&...) = delete;
 
     /// Advances by `frame`, s, finite and > 0. No certified step (overflow) is invalid_step.
-    GuardedReport<Scalar> advance(State& state, Scalar frame) {
-        return advance(state, frame, NoResponse());
-    }
     /// @param respond  respond(state) after every substep: contacts, for example. What it does to
     ///                 the energy is not judged.
-    template <class Respond>
-    GuardedReport<Scalar> advance(State& state, Scalar frame, Respond&& respond);
+    template <class Respond = detail::NoResponse>
+    GuardedReport<Scalar> advance(State& state, Scalar frame, Respond&& respond = {});
+    /// The same on an engine's own arrays, copied there and back once a frame.
+    template <class Stored, class Respond = detail::NoResponse>
+    GuardedReport<Scalar> advance(StateView<Stored, System::Dim>& view, Scalar frame,
+                                  Respond&& respond = {}) {
+        view.copy_to(viewed_);
+        const auto report = advance(viewed_, frame, respond);
+        if (report) view.copy_from(viewed_);
+        return report;
+    }
 
     Stepper& stepper() { return stepper_; }
     /// The limit in force; nothing before the first frame of an explicit stepper.
@@ -125,9 +136,6 @@ public:
 private:
     static constexpr bool limited =
         method == Method::symplectic_euler || method == Method::velocity_verlet;
-    struct NoResponse {
-        void operator()(State&) const {}
-    };
 
     Scalar largest_step();
     const Points<Scalar, System::Dim>& constraint_forces() const;
@@ -145,6 +153,7 @@ private:
     detail::EnergyAudit<System> audit_;
     double slack_;                        // what is left of energy_slack
     Points<Scalar, System::Dim> unheld_;  // the constraint forces of steppers without any
+    State viewed_;                        // of a StateView
 };
 
 template <class Stepper, class System>
@@ -198,7 +207,7 @@ template <class Stepper, class System>
 template <class Respond>
 Report Guarded<Stepper, System>::attempt(State& state, const GuardedReport<Scalar>& report,
                                          Respond& respond) {
-    constexpr bool responds = !std::is_same_v<std::decay_t<Respond>, NoResponse>;
+    constexpr bool responds = !std::is_same_v<std::decay_t<Respond>, detail::NoResponse>;
     const bool every = report.retries > 0;
     const auto h = static_cast<double>(report.h);
     const Index at_once = responds || every ? 1 : report.substeps;

@@ -86,16 +86,18 @@ public:
     /// friction, or to decide on a release. Empty before the first step with any.
     const Points<Scalar, Dim>& constraint_forces() const { return forces_; }
 
-    /// Takes `count` steps of h, s, finite and > 0. On failure the state is as it was before; a
-    /// constraint on a particle that the system does not have is invalid_state, at that particle.
-    /// The report's residual is that of the last linear solve, relative to its right-hand side;
-    /// with newton_iterations > 1 that of the nonlinear equation, as Options::tolerance has it.
-    Report step(State& state, Scalar h, Index count = 1) {
+    /// Takes `count` steps of h, s, finite and > 0, of a State or StateView. On failure the state
+    /// is as it was before; a constraint on a particle that the system does not have is
+    /// invalid_state, at that particle. The report's residual is that of the last linear solve,
+    /// relative to its right-hand side; with newton_iterations > 1 that of the nonlinear equation,
+    /// as Options::tolerance has it.
+    template <class AnyState>
+    Report step(AnyState& state, Scalar h, Index count = 1) {
         if (!constraints_.held().empty()) {
             const Index last = constraints_.held().rbegin()->first;
             if (last >= system_->size()) return {Status::invalid_state, 0, 0, last};
         }
-        return loop_.run(*system_, state, h, count, [&] { return advance(state, h); });
+        return loop_.run(*system_, state, h, count, [&](State& own) { return advance(own, h); });
     }
     /// change(solver) for every solver that the stepper keeps: to set a tolerance, a cap of
     /// iterations.

@@ -57,12 +57,13 @@ public:
     explicit ProjectiveDynamics(const System&&) = delete;
     ProjectiveDynamics(const System&&, const Options&) = delete;
 
-    /// Takes `count` steps of h, s, finite and > 0. On failure the state is as it was before.
-    /// The report's residual is ‖∇φ‖ after the last step, relative to that at its inertial start or
-    /// to the momentum that the start gives. A spent budget is no failure: φ is no larger than at
-    /// the inertial start, but for rounding.
-    Report step(State& state, Scalar h, Index count = 1) {
-        return loop_.run(*system_, state, h, count, [&] { return advance(state, h); });
+    /// Takes `count` steps of h, s, finite and > 0, of a State or StateView. On failure the state
+    /// is as it was before. The report's residual is ‖∇φ‖ after the last step, relative to that at
+    /// its inertial start or to the momentum that the start gives. A spent budget is no failure: φ
+    /// is no larger than at the inertial start, but for rounding.
+    template <class AnyState>
+    Report step(AnyState& state, Scalar h, Index count = 1) {
+        return loop_.run(*system_, state, h, count, [&](State& own) { return advance(own, h); });
     }
     /// Of the last step.
     int iterations() const { return iterations_; }

@@ -27,8 +27,10 @@ public:
         : system_(&system), steps_(options) {}
     explicit SymplecticEuler(const System&&, const Options& = {}) = delete;
 
-    /// Takes `count` steps of h, s, finite and > 0. On failure the state is as it was before.
-    Report step(State& state, Scalar h, Index count = 1) {
+    /// Takes `count` steps of h, s, finite and > 0, of a State or StateView. On failure the state
+    /// is as it was before.
+    template <class AnyState>
+    Report step(AnyState& state, Scalar h, Index count = 1) {
         return steps_.run(*system_, state, h, count, Update{});
     }
 

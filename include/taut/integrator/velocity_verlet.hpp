@@ -27,17 +27,19 @@ public:
     explicit VelocityVerlet(const System& system) : system_(&system) {}
     explicit VelocityVerlet(const System&&) = delete;
 
-    /// Takes `count` steps of h, s, finite and > 0. On failure the state is as it was before.
-    Report step(State& state, Scalar h, Index count = 1) {
+    /// Takes `count` steps of h, s, finite and > 0, of a State or StateView. On failure the state
+    /// is as it was before.
+    template <class AnyState>
+    Report step(AnyState& state, Scalar h, Index count = 1) {
         bool known = last_.is(*system_, state);
-        const Report report = loop_.run(*system_, state, h, count, [&]() -> Report {
-            if (!known) system_->force(state, f_);
+        const Report report = loop_.run(*system_, state, h, count, [&](State& own) -> Report {
+            if (!known) system_->force(own, f_);
             known = true;
-            kick(state, h / 2);
-            state.x += h * state.v;
-            state.time += h;
-            system_->force(state, f_);
-            kick(state, h / 2);
+            kick(own, h / 2);
+            own.x += h * own.v;
+            own.time += h;
+            system_->force(own, f_);
+            kick(own, h / 2);
             return {};
         });
         report ? last_.keep(*system_, state) : last_.forget();

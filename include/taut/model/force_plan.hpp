@@ -40,17 +40,20 @@ public:
         return std::apply([](const auto&... plan) { return (plan.damped() || ...); }, plans_);
     }
 
-    /// Planes ← points, and back: Dim × size().
+    /// Planes ← points, and back: Dim × size(), converted where they hold another number type.
     template <class Matrix>
     void to_planes(const Matrix& points, const Planes& planes) const {
         for_each_place([&](Index i, Index place) {
-            for (int d = 0; d < points.rows(); ++d) planes[d][place] = points(d, i);
+            for (int d = 0; d < points.rows(); ++d)
+                planes[d][place] = static_cast<Scalar>(points(d, i));
         });
     }
     template <class Matrix>
     void from_planes(const Planes& planes, Matrix& points) const {
         for_each_place([&](Index i, Index place) {
-            for (int d = 0; d < points.rows(); ++d) points(d, i) = planes[d][place];
+            for (int d = 0; d < points.rows(); ++d) {
+                points(d, i) = static_cast<typename Matrix::Scalar>(planes[d][place]);
+            }
         });
     }
 
@@ -93,7 +96,7 @@ private:
     std::vector<int> order_;  // particle at each place; empty: particle i at place i
     Index size_ = 0;
     Index stride_ = 0;
-    std::uint64_t topology_ = 0;  // the system's topology_revision()
+    std::uint64_t springs_ = 0;  // the system's spring_revision()
     bool built_ = false;
 };
 
@@ -108,8 +111,8 @@ std::vector<detail::SpringRuns> ForcePlan<System>::runs(const System& system,
 
 template <class System>
 bool ForcePlan<System>::update(const System& system) {
-    if (built_ && topology_ == system.topology_revision()) return false;
-    topology_ = system.topology_revision();
+    if (built_ && springs_ == system.spring_revision()) return false;
+    springs_ = system.spring_revision();
     built_ = true;
     size_ = system.size();
     // No two of a particle's planes begin at the same place of a page: a store to one would hold up

@@ -59,7 +59,7 @@ struct SpringSet {
     std::vector<int> b;
     std::vector<Scalar> rest_length;
     std::vector<Parameters> parameters;
-    std::vector<Scalar> damping;  ///< empty while no spring of the set is damped
+    std::vector<Scalar> damping;  ///< empty until a damped spring is added
 
     Index size() const { return static_cast<Index>(a.size()); }
     Scalar damping_of(std::size_t s) const { return damping.empty() ? Scalar(0) : damping[s]; }
@@ -71,6 +71,24 @@ struct SpringSet {
         rest_length.push_back(spring.rest_length);
         parameters.push_back(spring.parameters);
         if (spring.damping > 0 || !damping.empty()) damping.push_back(spring.damping);
+    }
+
+    /// The last spring takes the index of spring s.
+    void remove(std::size_t s) {
+        move(a.size() - 1, s);
+        shrink(a.size() - 1);
+    }
+    /// Removes the springs s with goes(s), asked in their order; the others keep theirs.
+    /// @returns how many went
+    template <class Predicate>
+    Index remove_if(Predicate&& goes) {
+        const std::size_t count = a.size();
+        std::size_t kept = 0;
+        for (std::size_t s = 0; s < count; ++s) {
+            if (!goes(static_cast<Index>(s))) move(s, kept++);
+        }
+        shrink(kept);
+        return static_cast<Index>(count - kept);
     }
 
     /// The tangent of spring s with its ends at x, in the precision of x. At l = 0 it is the law's
@@ -95,6 +113,23 @@ struct SpringSet {
             t.axial = t.transverse = t.bound;
         }
         return t;
+    }
+
+private:
+    void move(std::size_t from, std::size_t to) {
+        if (from == to) return;
+        a[to] = a[from];
+        b[to] = b[from];
+        rest_length[to] = rest_length[from];
+        parameters[to] = parameters[from];
+        if (!damping.empty()) damping[to] = damping[from];
+    }
+    void shrink(std::size_t count) {
+        a.resize(count);
+        b.resize(count);
+        rest_length.resize(count);
+        parameters.erase(parameters.begin() + static_cast<std::ptrdiff_t>(count), parameters.end());
+        if (!damping.empty()) damping.resize(count);
     }
 };
 

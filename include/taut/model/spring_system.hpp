@@ -70,6 +70,24 @@ public:
     template <class Law>
     Index add_spring(const Spring<Scalar, Law>& spring);
 
+    // Edits between steps. Each raises revision(): ask any_pose_limit again, as Guarded does by
+    // itself. The next step renews what it keeps of the springs: an explicit one sorts them anew,
+    // an implicit one analyses the pattern anew after springs have come or gone.
+
+    /// Removes spring s of the law; the law's last spring takes its index. Cost: O(1).
+    template <class Law = FirstLaw>
+    void remove_spring(Index s);
+    /// Removes every spring s of the law with goes(s); the others keep their order. One pass, and
+    /// one change of the revision if any went.
+    /// @returns how many went
+    template <class Law = FirstLaw, class Predicate>
+    Index remove_springs(Predicate&& goes);
+    /// Of spring s of the law; rest length and damping stay. Cost: O(1).
+    template <class Law = FirstLaw>
+    void set_parameters(Index s, const typename Law::template Parameters<Scalar>& parameters);
+    /// Of a Hookean spring. @param stiffness N/m
+    void set_stiffness(Index s, Scalar stiffness) { set_parameters<Hookean>(s, {stiffness}); }
+
     void pin(Index i) { set_pinned(i, true); }
     void unpin(Index i) { set_pinned(i, false); }
     void set_mass(Index i, Scalar mass);
@@ -107,6 +125,8 @@ public:
     /// Changes whenever particles, springs or pins are added or removed, and so with the sparsity
     /// pattern of the free matrices.
     std::uint64_t topology_revision() const { return topology_revision_; }
+    /// Changes whenever particles, springs, their parameters or pins do.
+    std::uint64_t spring_revision() const { return topology_revision_ + parameter_revision_; }
 
     /// The positions given to add_particle, at rest.
     State initial_state() const;
@@ -145,10 +165,16 @@ public:
     }
 
 private:
+    template <class Law>
+    static constexpr bool has_law = (std::is_same_v<Law, Hookean> && sizeof...(Laws) == 0) ||
+                                    (std::is_same_v<Law, Laws> || ...);
+
     void require_particle(const char* function, const char* argument, Index i) const;
     void require_state(const char* function, const State& state) const;
     void require_mass(const char* function, Index i, Scalar mass) const;
     void set_pinned(Index i, bool pinned);
+    template <class Law>
+    SpringSet<Scalar, Law>& set_with(const char* function, Index s);
     template <bool Dampers, bool Rayleigh, class Set>
     void add_spring_forces(const Set& set, const State& state, Force& f) const;
 
@@ -161,7 +187,8 @@ private:
     ExternalForce external_force_;
     Revision revision_;
     Revision topology_revision_;
-    Revision force_revision_;  // of gravity and the external force
+    Revision parameter_revision_;  // of springs that stayed
+    Revision force_revision_;      // of gravity and the external force
 };
 
 namespace detail {

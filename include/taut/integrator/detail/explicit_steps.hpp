@@ -33,8 +33,8 @@ public:
 
     /// @param update  update(x, v, a, h): x and v, of one step, by the acceleration a = M⁻¹f(x, v);
     ///                arrays or Lanes
-    template <class Update>
-    Report run(const System& system, State& state, Scalar h, Index count, const Update& update) {
+    template <class AnyState, class Update>
+    Report run(const System& system, AnyState& state, Scalar h, Index count, const Update& update) {
         if constexpr (is_spring_system_v<System>) {
             if (!system.has_external_force()) {
                 const Report report = StepLoop<State>::check(system, state, h);
@@ -45,9 +45,9 @@ public:
                 // Not finite: the steps below find out which step and which particle.
             }
         }
-        return loop_.run(system, state, h, count, [&]() -> Report {
-            system.force(state, f_);
-            update(state.x.array(), state.v.array(),
+        return loop_.run(system, state, h, count, [&](State& own) -> Report {
+            system.force(own, f_);
+            update(own.x.array(), own.v.array(),
                    f_.array().rowwise() * system.inverse_mass().transpose().array(), h);
             return {};
         });

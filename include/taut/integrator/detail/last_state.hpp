@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "../../core/types.hpp"
+#include "../../model/state_view.hpp"
 
 namespace taut::detail {
 
@@ -13,17 +13,24 @@ namespace taut::detail {
 template <class State>
 class LastState {
 public:
-    template <class System>
-    void keep(const System& system, const State& state) {
-        state_ = state;
+    template <class System, class AnyState>
+    void keep(const System& system, const AnyState& state) {
+        if constexpr (is_state_view_v<AnyState>) {
+            // As stored: else arrays of less precision would always seem touched.
+            state.copy_to(state_);
+        } else {
+            state_ = state;
+        }
         force_revision_ = system.force_revision();
     }
     void forget() { state_.x.resize(Eigen::NoChange, 0); }
-    template <class System>
-    bool is(const System& system, const State& state) const {
+    template <class System, class AnyState>
+    bool is(const System& system, const AnyState& state) const {
+        using Scalar = typename State::Scalar;
         return system.force_revision() == force_revision_ && state_.x.cols() == state.x.cols() &&
-               state.x.cols() > 0 && state.time == state_.time && state.x == state_.x &&
-               state.v == state_.v;
+               state.x.cols() > 0 && static_cast<Scalar>(state.time) == state_.time &&
+               state.x.template cast<Scalar>() == state_.x &&
+               state.v.template cast<Scalar>() == state_.v;
     }
     const State& state() const { return state_; }
 

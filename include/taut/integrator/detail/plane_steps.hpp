@@ -20,14 +20,13 @@ template <class System>
 class PlaneSteps {
 public:
     using Scalar = typename System::Scalar;
-    using State = typename System::State;
     static constexpr int Dim = System::Dim;
 
     /// Takes `count` steps of h. Without external forces only.
     /// @param update  update(x, v, a, h): one coordinate of x and v by the acceleration a, in Lanes
     /// @returns whether the new state is finite; else `state` is not touched
-    template <class Update>
-    bool run(const System& system, State& state, Scalar h, Index count, int threads,
+    template <class AnyState, class Update>
+    bool run(const System& system, AnyState& state, Scalar h, Index count, int threads,
              const Update& update);
 
 private:
@@ -45,7 +44,8 @@ private:
     static constexpr Index steps_between_checks = 64;
     static constexpr Index scratch_stride = block_size + block_size / 16;
 
-    void load(const System& system, const State& state);
+    template <class AnyState>
+    void load(const System& system, const AnyState& state);
     bool finite() const;
     template <class Update>
     void steps(Scalar h, Index count, int threads, const Update& update);
@@ -70,9 +70,9 @@ private:
 };
 
 template <class System>
-template <class Update>
-bool PlaneSteps<System>::run(const System& system, State& state, Scalar h, Index count, int threads,
-                             const Update& update) {
+template <class AnyState, class Update>
+bool PlaneSteps<System>::run(const System& system, AnyState& state, Scalar h, Index count,
+                             int threads, const Update& update) {
     load(system, state);
     for (Index done = 0; done < count;) {
         const Index next = std::min(steps_between_checks, count - done);
@@ -87,7 +87,8 @@ bool PlaneSteps<System>::run(const System& system, State& state, Scalar h, Index
 }
 
 template <class System>
-void PlaneSteps<System>::load(const System& system, const State& state) {
+template <class AnyState>
+void PlaneSteps<System>::load(const System& system, const AnyState& state) {
     gravity_ = system.gravity();
     rayleigh_ = system.rayleigh();
     plan_.update(system);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "../../core/concepts.hpp"
+#include "../../model/state_view.hpp"
 
 namespace taut::detail {
 
@@ -16,8 +17,9 @@ public:
     using Scalar = typename State::Scalar;
 
     /// What every call refuses: a bad h, a state of the wrong size or with NaN or infinity.
-    template <class System>
-    static Report check(const System& system, const State& state, Scalar h) {
+    template <class System, class AnyState>
+    static Report check(const System& system, const AnyState& state, Scalar h) {
+        static_assert((require_state<State, AnyState>(), true));
         if (!(h > 0) || !std::isfinite(h)) return {Status::invalid_step};
         if (state.x.cols() != system.size() || state.v.cols() != system.size()) {
             return {Status::invalid_state};
@@ -26,16 +28,33 @@ public:
         return {};
     }
 
-    /// @param advance  Report advance(): one step of `state` in place, its time excepted
-    template <class System, class Advance>
-    Report run(const System& system, State& state, Scalar h, Index count, Advance&& advance) {
+    /// @param state    the State, or a StateView, whose steps are taken on a copy
+    /// @param advance  Report advance(State&): one step in place, its time excepted
+    template <class System, class AnyState, class Advance>
+    Report run(const System& system, AnyState& state, Scalar h, Index count, Advance&& advance) {
         Report report = check(system, state, h);
         if (!report) return report;
-        backup_ = state;
+        if constexpr (is_state_view_v<AnyState>) {
+            state.copy_to(copy_);
+            report = check(system, copy_, h);  // a double may be too large for a float
+            if (report) report = take(copy_, h, count, advance);
+            if (report) state.copy_from(copy_);
+        } else {
+            copy_ = state;
+            report = take(state, h, count, advance);
+            if (!report) state = copy_;
+        }
+        return report;
+    }
+
+private:
+    template <class Advance>
+    static Report take(State& state, Scalar h, Index count, Advance& advance) {
+        Report report;
         while (report && report.iterations < count) {
             const int steps = report.iterations;
             const Scalar time = state.time;
-            report = advance();
+            report = advance(state);
             if (report && !state.finite()) {
                 report.status = Status::diverged;
                 report.where = state.first_not_finite();
@@ -43,12 +62,10 @@ public:
             report.iterations = steps + (report ? 1 : 0);
             state.time = time + h;
         }
-        if (!report) state = backup_;
         return report;
     }
 
-private:
-    State backup_;  // the state at the start of the call
+    State copy_;  // the state at the start of the call; of a view, the one that is stepped
 };
 
 }  // namespace taut::detail

@@ -38,8 +38,7 @@ Index SpringSystem<Scalar, Dim, Laws...>::add_spring(
 template <class Scalar, int Dim, class... Laws>
 template <class Law>
 Index SpringSystem<Scalar, Dim, Laws...>::add_spring(const Spring<Scalar, Law>& spring) {
-    static_assert((std::is_same_v<Law, Hookean> && sizeof...(Laws) == 0) ||
-                      (std::is_same_v<Law, Laws> || ...),
+    static_assert(has_law<Law>,
                   "taut::SpringSystem::add_spring: the law is not one of the system's Laws");
     require_particle("add_spring", "a", spring.a);
     require_particle("add_spring", "b", spring.b);
@@ -58,6 +57,54 @@ Index SpringSystem<Scalar, Dim, Laws...>::add_spring(const Spring<Scalar, Law>& 
     ++revision_;
     ++topology_revision_;
     return set.size() - 1;
+}
+
+/// The springs of a law, of which s must be one.
+template <class Scalar, int Dim, class... Laws>
+template <class Law>
+SpringSet<Scalar, Law>& SpringSystem<Scalar, Dim, Laws...>::set_with(const char* function,
+                                                                     Index s) {
+    static_assert(has_law<Law>, "taut::SpringSystem: the law is not one of the system's Laws");
+    auto& set = std::get<SpringSet<Scalar, Law>>(sets_);
+    if (s < 0 || s >= set.size()) {
+        fail("SpringSystem::", function, ": s is ", s, "; the law has ", set.size(),
+             " springs, numbered from 0");
+    }
+    return set;
+}
+
+template <class Scalar, int Dim, class... Laws>
+template <class Law>
+void SpringSystem<Scalar, Dim, Laws...>::remove_spring(Index s) {
+    set_with<Law>("remove_spring", s).remove(static_cast<std::size_t>(s));
+    ++revision_;
+    ++topology_revision_;
+}
+
+template <class Scalar, int Dim, class... Laws>
+template <class Law, class Predicate>
+Index SpringSystem<Scalar, Dim, Laws...>::remove_springs(Predicate&& goes) {
+    auto& set = std::get<SpringSet<Scalar, Law>>(sets_);
+    const Index removed = set.remove_if(goes);
+    if (removed > 0) {
+        ++revision_;
+        ++topology_revision_;
+    }
+    return removed;
+}
+
+template <class Scalar, int Dim, class... Laws>
+template <class Law>
+void SpringSystem<Scalar, Dim, Laws...>::set_parameters(
+    Index s, const typename Law::template Parameters<Scalar>& parameters) {
+    auto& set = set_with<Law>("set_parameters", s);
+    char where[96];
+    std::snprintf(where, sizeof where, "SpringSystem::set_parameters(%lld)",
+                  static_cast<long long>(s));
+    parameters.require_valid(where);
+    set.parameters[static_cast<std::size_t>(s)] = parameters;
+    ++revision_;
+    ++parameter_revision_;
 }
 
 template <class Scalar, int Dim, class... Laws>

@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <taut/integrator/bdf2.hpp>
+#include <taut/integrator/guarded.hpp>
+#include <taut/integrator/implicit_euler.hpp>
+#include <taut/integrator/projective_dynamics.hpp>
+#include <taut/integrator/symplectic_euler.hpp>
+#include <taut/integrator/velocity_verlet.hpp>
+#include <taut/model/state_view.hpp>
+#include <taut/scene/cloth.hpp>
+#include <utility>
+#include <vector>
+
+#include "../support/catch.hpp"
+#include "../support/message.hpp"
+#include "../support/random_system.hpp"
+
+using namespace taut_test;
+using taut::StateView;
+using taut::Status;
+
+namespace {
+
+template <class Scalar>
+using Cloth = taut::SpringSystem<Scalar, 3>;
+
+/// An engine's memory: positions and velocities with strides, anything in between.
+template <class Stored, int Dim>
+struct Arrays {
+    Arrays(Index count, Index x_stride_, Index v_stride_)
+        : n(count), x_stride(x_stride_), v_stride(v_stride_) {
+        x.assign(static_cast<std::size_t>(n * x_stride), Stored(-77));
+        v.assign(static_cast<std::size_t>(n * v_stride), Stored(-78));
+    }
+    StateView<Stored, Dim> view() { return {x.data(), x_stride, v.data(), v_stride, n}; }
+    bool padding_untouched() const {
+        const auto kept = [&](const std::vector<Stored>& numbers, Index stride, Stored padding) {
+            for (std::size_t i = 0; i < numbers.size(); ++i) {
+                if (static_cast<Index>(i) % stride >= Dim && numbers[i] != padding) return false;
+            }
+            return true;
+        };
+        return kept(x, x_stride, Stored(-77)) && kept(v, v_stride, Stored(-78));
+    }
+
+    Index n, x_stride, v_stride;
+    std::vector<Stored> x, v;
+};
+
+/// What a state is once its numbers have been stored.
+template <class Stored, class Scalar, int Dim>
+void round_to(taut::State<Scalar, Dim>& state) {
+    state.x = state.x.template cast<Stored>().template cast<Scalar>().eval();
+    state.v = state.v.template cast<Stored>().template cast<Scalar>().eval();
+}
+
+/// Steps on the arrays are those on a State, to the bit, whatever the layout; calls that follow one
+/// another too.
+template <class Stored, class Stepper, class System>
+void check_view(const System& system, typename System::State state, double step) {
+    using Scalar = typename System::Scalar;
+    constexpr int Dim = System::Dim;
+    const auto h = static_cast<Scalar>(step);
+    round_to<Stored>(state);
+    for (const auto& [x_stride, v_stride] :
+         {std::pair(Dim, Dim), std::pair(4, 4), std::pair(7, 3)}) {
+        INFO("strides " << x_stride << " and " << v_stride);
+        Arrays<Stored, Dim> arrays(system.size(), x_stride, v_stride);
+        auto view = arrays.view();
+        view.copy_from(state);
+        auto expected = state;
+        Stepper on_view(system);
+        Stepper on_state(system);
+        for (const Index count : {1, 3, 2}) {
+            const auto report = on_view.step(view, h, count);
+            REQUIRE(report);
+            REQUIRE(on_state.step(expected, h, count));
+            CHECK(report.iterations == count);
+            round_to<Stored>(expected);
+        }
+        typename System::State result;
+        view.copy_to(result);
+        CHECK(result.x == expected.x);
+        CHECK(result.v == expected.v);
+        CHECK(std::abs(view.time - 6 * step) <= 1e-6 * step);
+        CHECK(arrays.padding_untouched());
+    }
+}
+
+template <class Stored, class Scalar>
+void check_views() {
+    taut::ClothOptions options;
+    options.rows = 6;
+    options.columns = 5;
+    auto cloth = taut::hanging_cloth<Scalar>(options);
+    auto state = cloth.initial_state();
+    state.v = Random(31).points<Scalar, 3>(cloth.size(), -1, 1);
+    check_view<Stored, taut::SymplecticEuler<Cloth<Scalar>>>(cloth, state, 1e-4);
+    if constexpr (std::is_same_v<Stored,
+                                 Scalar>) {  // else its force is that of the unrounded state
+        check_view<Stored, taut::VelocityVerlet<Cloth<Scalar>>>(cloth, state, 1e-4);
+    }
+    check_view<Stored, taut::ImplicitEuler<Cloth<Scalar>>>(cloth, state, 1e-2);
+    cloth.set_external_force([](const auto& s, auto& f) { f -= Scalar(0.1) * s.v; });
+    check_view<Stored, taut::SymplecticEuler<Cloth<Scalar>>>(cloth, state, 1e-4);
+}
+
+}  // namespace
+
+TEST_CASE("state_view: float arrays", "[integrator]") { check_views<float, float>(); }
+TEST_CASE("state_view: double arrays", "[integrator]") { check_views<double, double>(); }
+TEST_CASE("state_view: float arrays of a scene in double", "[integrator]") {
+    check_views<float, double>();
+}
+
+TEST_CASE("state_view: steppers with a history or a budget", "[integrator]") {
+    auto cloth = taut::hanging_cloth<double>({5, 5});
+    auto state = cloth.initial_state();
+    state.v.row(1).setLinSpaced(-1, 1);
+    check_view<double, taut::ProjectiveDynamics<Cloth<double>>>(cloth, state, 1e-2);
+    const auto linear = cloth.linearize(state);
+    using Linear = taut::LinearSystem<double>;
+    auto small = linear.initial_state();
+    small.v.setLinSpaced(-1, 1);
+    check_view<double, taut::Bdf2<Linear>>(linear, small, 1e-2);
+}
+
+TEST_CASE("state_view: a guarded frame", "[integrator]") {
+    const auto cloth = taut::hanging_cloth<float>({6, 6});
+    taut::Guarded<taut::SymplecticEuler<Cloth<float>>> on_view(cloth), on_state(cloth);
+    auto expected = cloth.initial_state();
+    Arrays<float, 3> arrays(cloth.size(), 4, 4);
+    auto view = arrays.view();
+    view.copy_from(expected);
+    for (int frame = 0; frame < 5; ++frame) {
+        REQUIRE(on_view.advance(view, 1.0f / 60));
+        REQUIRE(on_state.advance(expected, 1.0f / 60));
+    }
+    CHECK(view.x == expected.x);
+    CHECK(view.v == expected.v);
+    CHECK(arrays.padding_untouched());
+}
+
+TEST_CASE("state_view: a failed step leaves the arrays alone", "[integrator]") {
+    auto cloth = taut::hanging_cloth<float>({6, 6});
+    Arrays<double, 3> arrays(cloth.size(), 5, 3);
+    auto view = arrays.view();
+    view.copy_from(cloth.initial_state());
+    const auto check = [&](Status status, Index where, float h, Index count) {
+        const auto x = arrays.x;
+        const auto v = arrays.v;
+        taut::SymplecticEuler stepper(cloth);
+        const auto report = stepper.step(view, h, count);
+        CHECK(report.status == status);
+        if (where >= 0) CHECK(report.where == where);
+        CHECK(std::memcmp(x.data(), arrays.x.data(), x.size() * sizeof(double)) == 0);
+        CHECK(std::memcmp(v.data(), arrays.v.data(), v.size() * sizeof(double)) == 0);
+        CHECK(view.time == 0);
+    };
+    for (const bool external : {false, true}) {
+        if (external) cloth.set_external_force([](const auto&, auto& f) { f.array() += 1e-3f; });
+        check(Status::invalid_step, -1, -1, 1);
+        check(Status::diverged, -1, 1, 200);
+        view.v(1, 20) = std::numeric_limits<double>::quiet_NaN();
+        check(Status::invalid_state, 20, 1e-4f, 1);
+        view.v(1, 20) = 1e300;  // too large for the float of the system
+        check(Status::invalid_state, 20, 1e-4f, 1);
+        view.v(1, 20) = 0;
+    }
+    float three[3] = {};
+    StateView<float, 3> other(three, three, 1);
+    taut::SymplecticEuler stepper(cloth);
+    CHECK(stepper.step(other, 1e-4f).status == Status::invalid_state);
+}
+
+TEST_CASE("state_view: wrong layouts are named", "[integrator]") {
+    float numbers[12] = {};
+    using View = StateView<float, 3>;
+    const auto says = [](auto&& make) { return message_of([&] { (void)make(); }); };
+    CHECK(missing(says([&] { return View(numbers, numbers, 2, 2); }),
+                  {"StateView", "stride of positions is 2", ">= 3"}) == "");
+    CHECK(missing(says([&] { return View(numbers, 3, numbers, 1, 2); }),
+                  {"stride of velocities is 1"}) == "");
+    CHECK(missing(says([&] { return View(numbers, nullptr, 2); }),
+                  {"velocities is a null pointer"}) == "");
+    CHECK(missing(says([&] { return View(numbers, numbers, -1); }), {"particles is -1"}) == "");
+    CHECK(View(nullptr, nullptr, 0).x.cols() == 0);
+    View two(numbers, numbers + 6, 2);
+    CHECK(missing(says([&] {
+                      two.copy_from(taut::hanging_cloth<float>({2, 2}).initial_state());
+                      return 0;
+                  }),
+                  {"copy_from", "4 positions", "2 particles"}) == "");
+}
