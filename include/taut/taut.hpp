@@ -8,7 +8,6 @@
 #include "core/version.hpp"
 #include "integrator/adaptive.hpp"
 #include "integrator/bdf2.hpp"
-#include "integrator/constrained_implicit_euler.hpp"
 #include "integrator/explicit_euler.hpp"
 #include "integrator/guarded.hpp"
 #include "integrator/implicit_euler.hpp"

@@ -8,6 +8,8 @@
 
 #include "../support/catch.hpp"
 
+namespace taut_test::concepts_test {
+
 namespace {
 
 /// The least that the System concept asks for: one free particle on a line, falling.
@@ -41,3 +43,5 @@ TEST_CASE("concepts: Eigen's sparse solvers are Solvers, and symmetric ones are 
     CHECK(taut::is_symmetric_solver_v<Eigen::SimplicialLDLT<Matrix, Eigen::Upper>>);
     CHECK_FALSE(taut::is_symmetric_solver_v<Eigen::SparseLU<Matrix>>);
 }
+
+}  // namespace taut_test::concepts_test

@@ -6,7 +6,7 @@
 #include "../support/catch.hpp"
 #include "../support/message.hpp"
 
-using namespace taut_test;
+namespace taut_test::error_test {
 
 TEST_CASE("error: fail joins words and numbers to one sentence", "[core]") {
     const auto message =
@@ -42,3 +42,5 @@ TEMPLATE_TEST_CASE(
     }
     CHECK(missing(check(TestType(-2.5)), {"-2.5"}) == "");
 }
+
+}  // namespace taut_test::error_test

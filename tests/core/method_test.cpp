@@ -6,6 +6,8 @@
 
 #include "../support/catch.hpp"
 
+namespace taut_test::method_test {
+
 TEST_CASE("method: names are spelled as in the programs' JSON", "[core]") {
     using taut::Method;
     CHECK(std::string(taut::name(Method::explicit_euler)) == "explicit_euler");
@@ -14,3 +16,5 @@ TEST_CASE("method: names are spelled as in the programs' JSON", "[core]") {
     CHECK(std::string(taut::name(Method::implicit_euler)) == "implicit_euler");
     CHECK(std::string(taut::name(static_cast<Method>(99))) == "unknown");
 }
+
+}  // namespace taut_test::method_test

@@ -4,6 +4,8 @@
 
 #include "../support/catch.hpp"
 
+namespace taut_test::revision_test {
+
 TEST_CASE("revision: edits and assignments only ever raise it", "[core]") {
     taut::Revision a;
     taut::Revision b;
@@ -19,3 +21,5 @@ TEST_CASE("revision: edits and assignments only ever raise it", "[core]") {
     const taut::Revision copy = a;
     CHECK(copy == a);
 }
+
+}  // namespace taut_test::revision_test

@@ -6,6 +6,8 @@
 
 #include "../support/catch.hpp"
 
+namespace taut_test::status_test {
+
 using taut::Report;
 using taut::Status;
 
@@ -26,3 +28,5 @@ TEST_CASE("status: a report is true exactly when its status is ok", "[core]") {
     CHECK_FALSE(static_cast<bool>(Report{Status::invalid_step}));
     CHECK_FALSE(static_cast<bool>(Report{Status::not_converged, 500}));
 }
+
+}  // namespace taut_test::status_test

@@ -12,7 +12,8 @@
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::adaptive_test {
+
 using taut::Adaptive;
 
 namespace {
@@ -158,3 +159,5 @@ TEST_CASE("adaptive: options out of range are refused by name", "[integrator][ba
     CHECK(missing(message([](auto& o) { o.successes = 0; }), {"successes is 0"}) == "");
     CHECK(message([](auto&) {}) == "");
 }
+
+}  // namespace taut_test::adaptive_test

@@ -10,6 +10,8 @@
 
 #include "../support/catch.hpp"
 
+namespace taut_test::assigned_system_test {
+
 // A scene that is assigned another one, built by as many calls, must not be taken for the old one.
 
 namespace {
@@ -62,3 +64,5 @@ TEST_CASE("assigned system: a limit of the old one is refused", "[integrator]") 
     cloth = cloth_of(1000);
     CHECK_FALSE(limit.step_for(cloth, 0.9).has_value());
 }
+
+}  // namespace taut_test::assigned_system_test

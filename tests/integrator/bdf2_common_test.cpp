@@ -7,7 +7,7 @@
 #include "../support/catch.hpp"
 #include "../support/check_stepper.hpp"
 
-using namespace taut_test;
+namespace taut_test::bdf2_common_test {
 
 TEMPLATE_TEST_CASE("bdf2: count steps are count single steps, to the bit", "[integrator]", float,
                    double) {
@@ -40,3 +40,5 @@ TEST_CASE("bdf2: changes of the system and the state between steps are taken up"
 TEST_CASE("bdf2: a scene without free particles is stepped without failure", "[integrator]") {
     check_nothing_free<taut::Bdf2>();
 }
+
+}  // namespace taut_test::bdf2_common_test

@@ -7,12 +7,14 @@
 #include <taut/integrator/bdf2.hpp>
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/model/spring_system.hpp>
+#include <taut/solver/conjugate_gradient.hpp>
 #include <vector>
 
 #include "../support/catch.hpp"
 #include "../support/check_stepper.hpp"
 
-using namespace taut_test;
+namespace taut_test::bdf2_test {
+
 using taut::Bdf2;
 using taut::GeneralLinearSystem;
 using taut::LinearSystem;
@@ -258,6 +260,25 @@ TEST_CASE("bdf2: an unsymmetric system is stepped by SparseLU, as a dense solve 
     CHECK(distance(flat(u.x), x + t * v) <= Tolerance<double>::accumulated);
 }
 
+TEST_CASE("bdf2: conjugate gradients take the direct solver's steps, and their cap is reported",
+          "[integrator]") {
+    Random random(12);
+    const auto system = random_system<double, 3>(random);
+    using System = std::decay_t<decltype(system)>;
+    auto by_factors = random_state(random, system);
+    auto by_gradients = by_factors;
+    Bdf2 direct(system);
+    Bdf2<System, taut::ConjugateGradient<double, 3>> iterative(system);
+    iterative.configure([](auto& solver) { solver.setTolerance(1e-12); });
+    REQUIRE(direct.step(by_factors, 0.02, 5));
+    REQUIRE(iterative.step(by_gradients, 0.02, 5));
+    CHECK(distance(by_factors.v, by_gradients.v) <= 1e-9 * largest(by_factors.v));
+    iterative.configure([](auto& solver) { solver.setMaxIterations(1); });
+    const auto before = by_gradients;
+    CHECK(iterative.step(by_gradients, 0.02).status == taut::Status::not_converged);
+    CHECK(same_bits(by_gradients, before));
+}
+
 TEST_CASE("bdf2: more of a swing's energy survives than with implicit Euler at the same step",
           "[integrator]") {
     // A chain of eight links swings for two seconds. Up to this stiffness: beyond, what the one
@@ -283,3 +304,5 @@ TEST_CASE("bdf2: more of a swing's energy survives than with implicit Euler at t
         CHECK(by_bdf2 < 0.8 * by_euler);
     }
 }
+
+}  // namespace taut_test::bdf2_test

@@ -6,7 +6,7 @@
 #include "../support/catch.hpp"
 #include "../support/check_stepper.hpp"
 
-using namespace taut_test;
+namespace taut_test::explicit_euler_test {
 
 TEST_CASE("explicit_euler: a step satisfies its own update equation", "[integrator]") {
     Random random(1);
@@ -106,3 +106,5 @@ TEST_CASE("explicit_euler: a scene without free particles is stepped without fai
           "[integrator]") {
     check_nothing_free<taut::ExplicitEuler>();
 }
+
+}  // namespace taut_test::explicit_euler_test

@@ -7,7 +7,7 @@
 #include "../support/catch.hpp"
 #include "../support/check_stepper.hpp"
 
-using namespace taut_test;
+namespace taut_test::implicit_euler_common_test {
 
 TEMPLATE_TEST_CASE("implicit_euler: count steps are count single steps, to the bit", "[integrator]",
                    float, double) {
@@ -51,3 +51,5 @@ TEST_CASE("implicit_euler: a scene without free particles is stepped without fai
           "[integrator]") {
     check_nothing_free<taut::ImplicitEuler>();
 }
+
+}  // namespace taut_test::implicit_euler_common_test

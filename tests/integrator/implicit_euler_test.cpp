@@ -12,7 +12,8 @@
 #include "../support/spectrum.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::implicit_euler_test {
+
 using taut::GeneralLinearSystem;
 using taut::ImplicitEuler;
 using taut::LinearSystem;
@@ -277,3 +278,5 @@ TEST_CASE("implicit_euler: float steps follow double ones", "[integrator]") {
     CHECK(distance(narrow_state.v, wide_state.v) <
           Tolerance<float>::accumulated * largest(wide_state.v));
 }
+
+}  // namespace taut_test::implicit_euler_test

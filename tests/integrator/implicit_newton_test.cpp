@@ -12,7 +12,8 @@
 #include "../support/returning_steps.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::implicit_newton_test {
+
 using taut::ImplicitEuler;
 using taut::Status;
 
@@ -120,6 +121,7 @@ TEST_CASE("implicit_newton: too few iterations are reported and the state is unt
     const taut::Report report = stepper.step(state, 0.1);
     CHECK(report.status == Status::not_converged);
     CHECK(report.residual > 1e-10);
+    CHECK(report.solves == 2);
     CHECK(same_bits(state, before));
     auto patient = newton(system);
     CHECK(patient.step(state, 0.1));
@@ -181,3 +183,5 @@ TEST_CASE("implicit_newton: wrong options are refused by name", "[integrator][ba
               .empty());
     CHECK(missing(message_of([&] { newton(system, 5, 0); }), {"tolerance is 0", "> 0"}).empty());
 }
+
+}  // namespace taut_test::implicit_newton_test

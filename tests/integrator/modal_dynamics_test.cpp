@@ -15,7 +15,8 @@
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::modal_dynamics_test {
+
 using taut::LinearSystem;
 using taut::ModalBasis;
 using taut::ModalDynamics;
@@ -100,9 +101,47 @@ TEST_CASE("modal_dynamics: one mode moves as its equation says, damped in any wa
     const auto rigid = ModePropagator::over(1e3, 0, 0);
     CHECK(rigid.a12 == 1e3);
     CHECK(rigid.b1 == 5e5);
-    // Long at rest in k q = p. Overdamping by d²/k = 1e4 costs as many digits.
+    // Long at rest in k q = p.
     const auto stiff = ModePropagator::over(1e3, 1e8, 1e6);
-    CHECK_THAT(stiff.b1, WithinRel(1e-8, 1e4 * Tolerance<double>::rounding));
+    CHECK_THAT(stiff.b1, WithinRel(1e-8, Tolerance<double>::rounding));
+}
+
+TEST_CASE("modal_dynamics: an undamped mode neither grows nor fades, however large the step",
+          "[integrator]") {
+    for (const double h : {1e-3, 1.0, 1e6, 1e12, 1e18}) {
+        INFO("h " << h);
+        const auto m = ModePropagator::over(h, 2, 0);
+        double q = 1;
+        double v = 0;
+        for (int i = 0; i < 100000; ++i) {
+            const double next = m.a11 * q + m.a12 * v;
+            v = m.a21 * q + m.a22 * v;
+            q = next;
+        }
+        CHECK_THAT(v * v / 2 + q * q, WithinRel(1.0, 1e5 * Tolerance<double>::rounding));
+    }
+}
+
+TEST_CASE("modal_dynamics: two steps are one of twice the length, near and far from critical",
+          "[integrator]") {
+    Random random(9);
+    for (int trial = 0; trial < 500; ++trial) {
+        const double k = trial % 7 == 0 ? 0 : std::pow(10, random.uniform(-4, 8));
+        const double d = 2 * std::sqrt(k) * std::pow(10, random.uniform(-3, 3));
+        const double h = std::pow(10, random.uniform(-4, 1)) / (std::sqrt(k) + 1e-3);
+        INFO("h " << h << ", k " << k << ", d " << d);
+        const auto one = ModePropagator::over(h, k, d);
+        const auto two = ModePropagator::over(2 * h, k, d);
+        Eigen::Matrix2d A, A2;
+        A << one.a11, one.a12, one.a21, one.a22;
+        A2 << two.a11, two.a12, two.a21, two.a22;
+        const Eigen::Vector2d b(one.b1, one.b2);
+        const Eigen::Vector2d unit(std::sqrt(k) + d + 1e-3, 1);  // of (q, q̇), to compare entries
+        const Eigen::Matrix2d off = unit.asDiagonal() * (A * A - A2) * unit.asDiagonal().inverse();
+        CHECK(largest(off) <= Tolerance<double>::accumulated);
+        const Eigen::Vector2d sum = b + A * b;
+        CHECK_THAT(sum[0], WithinRel(two.b1, 1e-9) || WithinAbs(two.b1, 1e-12 / (k + 1e-3)));
+    }
 }
 
 TEST_CASE("modal_dynamics: with all modes it is the full solution, at any step", "[integrator]") {
@@ -253,3 +292,5 @@ TEMPLATE_TEST_CASE(
     }
     CHECK((state.v.array() == 0).all());
 }
+
+}  // namespace taut_test::modal_dynamics_test

@@ -8,7 +8,7 @@
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::plane_steps_test {
 
 namespace {
 
@@ -206,3 +206,5 @@ TEST_CASE("plane_steps: a number of threads below one is refused", "[integrator]
     CHECK_THROWS_WITH(taut::SymplecticEuler(cloth, {0}),
                       ContainsSubstring("threads is 0; it must be >= 1"));
 }
+
+}  // namespace taut_test::plane_steps_test

@@ -12,7 +12,8 @@
 #include "../support/returning_steps.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::projective_dynamics_test {
+
 using taut::ImplicitEuler;
 using taut::ProjectiveDynamics;
 
@@ -255,3 +256,5 @@ TEST_CASE("projective_dynamics: a scene without free particles is stepped withou
           "[integrator]") {
     check_nothing_free<ProjectiveDynamics>();
 }
+
+}  // namespace taut_test::projective_dynamics_test

@@ -7,7 +7,7 @@
 #include "../support/check_stepper.hpp"
 #include "../support/spectrum.hpp"
 
-using namespace taut_test;
+namespace taut_test::symplectic_euler_test {
 
 TEST_CASE("symplectic_euler: a step satisfies its own update equation", "[integrator]") {
     Random random(1);
@@ -186,3 +186,5 @@ TEST_CASE("symplectic_euler: a scene without free particles is stepped without f
           "[integrator]") {
     check_nothing_free<taut::SymplecticEuler>();
 }
+
+}  // namespace taut_test::symplectic_euler_test

@@ -7,7 +7,7 @@
 #include "../support/catch.hpp"
 #include "../support/check_stepper.hpp"
 
-using namespace taut_test;
+namespace taut_test::velocity_verlet_test {
 
 TEST_CASE("velocity_verlet: a step satisfies its own update equation", "[integrator]") {
     Random random(1);
@@ -170,3 +170,5 @@ TEST_CASE("velocity_verlet: a scene without free particles is stepped without fa
           "[integrator]") {
     check_nothing_free<taut::VelocityVerlet>();
 }
+
+}  // namespace taut_test::velocity_verlet_test

@@ -12,7 +12,7 @@
 #include "../support/random.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::obj_test {
 
 namespace {
 
@@ -113,3 +113,5 @@ TEST_CASE("obj: bad input: a full disk gives false", "[io][bad_input]") {
     if (std::ifstream("/dev/full")) CHECK_FALSE(taut::write_obj("/dev/full", x, {}));
 }
 #endif
+
+}  // namespace taut_test::obj_test

@@ -7,7 +7,8 @@
 #include "../support/catch.hpp"
 #include "../support/random.hpp"
 
-using namespace taut_test;
+namespace taut_test::block_pattern_test {
+
 using taut::BlockPattern;
 
 TEMPLATE_TEST_CASE("block_pattern: the blocks of the pairs and of the diagonal, each once",
@@ -49,3 +50,5 @@ TEMPLATE_TEST_CASE("block_pattern: the blocks of the pairs and of the diagonal, 
         CHECK(Eigen::MatrixXd(A) == dense);
     }
 }
+
+}  // namespace taut_test::block_pattern_test

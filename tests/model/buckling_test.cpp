@@ -9,7 +9,7 @@
 #include "../support/message.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::buckling_test {
 
 namespace {
 
@@ -166,3 +166,5 @@ TEST_CASE("buckling: every parameter out of range is refused by name", "[model]"
     CHECK(missing(message({1, bad, 1}), {"add_spring(3, 7)", "bending is ", ">= 0"}) == "");
     CHECK(missing(message({1, 1, bad}), {"add_spring(3, 7)", "onset is ", ">= 0"}) == "");
 }
+
+}  // namespace taut_test::buckling_test

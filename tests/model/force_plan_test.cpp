@@ -9,7 +9,7 @@
 #include "../support/catch.hpp"
 #include "../support/random_system.hpp"
 
-using namespace taut_test;
+namespace taut_test::force_plan_test {
 
 TEST_CASE("force_plan: the numbering of a shuffled grid is a permutation that brings ends together",
           "[model]") {
@@ -84,3 +84,5 @@ TEST_CASE("force_plan: it changes with the springs and not with masses or dampin
     CHECK(plan.update(system));
     CHECK_FALSE(plan.update(system));
 }
+
+}  // namespace taut_test::force_plan_test

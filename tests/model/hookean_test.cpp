@@ -8,7 +8,7 @@
 #include "../support/message.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::hookean_test {
 
 namespace {
 
@@ -85,3 +85,5 @@ TEST_CASE("hookean: parameters change their precision without changing their val
     const taut::Hookean::Parameters<float> p{0.1F};
     CHECK(p.cast<double>().stiffness == static_cast<double>(0.1F));
 }
+
+}  // namespace taut_test::hookean_test

@@ -10,7 +10,8 @@
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::linear_system_test {
+
 using taut::GeneralLinearSystem;
 using taut::LinearSystem;
 
@@ -303,3 +304,5 @@ TEST_CASE("linear_system: bad input: to_free and from_free of the wrong system o
                   {"7 positions", "8 particles"}) == "");
     CHECK((state.x == before.x.leftCols(7)));
 }
+
+}  // namespace taut_test::linear_system_test

@@ -6,7 +6,8 @@
 #include "../support/catch.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::spring_set_test {
+
 using taut::Hookean;
 using taut::SpringSet;
 using Set = SpringSet<double, Hookean>;
@@ -64,3 +65,5 @@ TEST_CASE("spring_set: a float spring has a tangent in double", "[model]") {
     const double expected = static_cast<double>(0.1F) * (1 - static_cast<double>(0.3F) / 0.7);
     CHECK_THAT(t.transverse, Catch::Matchers::WithinRel(expected, Tolerance<double>::rounding));
 }
+
+}  // namespace taut_test::spring_set_test

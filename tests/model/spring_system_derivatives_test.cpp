@@ -9,7 +9,8 @@
 #include "../support/spectrum.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::spring_system_derivatives_test {
+
 using taut::Hookean;
 using taut::Spring;
 using taut::SpringSystem;
@@ -141,3 +142,5 @@ TEMPLATE_TEST_CASE(
         if (TestType::Dim > 1) CHECK(least_eigenvalue(K) < 0);  // the pose is a hard one
     }
 }
+
+}  // namespace taut_test::spring_system_derivatives_test

@@ -9,7 +9,8 @@
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::spring_system_force_test {
+
 using taut::Hookean;
 using taut::Spring;
 using taut::SpringSystem;
@@ -235,3 +236,5 @@ TEST_CASE("spring_system: an external force is added after all others, with the 
     system.force(state, after);
     CHECK((after == before));
 }
+
+}  // namespace taut_test::spring_system_force_test

@@ -11,7 +11,8 @@
 #include "../support/message.hpp"
 #include "../support/random_system.hpp"
 
-using namespace taut_test;
+namespace taut_test::spring_system_test {
+
 using taut::Hookean;
 using taut::Spring;
 using taut::SpringSystem;
@@ -336,3 +337,5 @@ TEST_CASE("spring_system: long double works too", "[model]") {
     system.force(system.initial_state(), f);
     CHECK(f(1, 1) == -10);
 }
+
+}  // namespace taut_test::spring_system_test

@@ -5,6 +5,8 @@
 
 #include "../support/catch.hpp"
 
+namespace taut_test::state_test {
+
 TEMPLATE_TEST_CASE("state: the first particle with a coordinate that is not finite is named",
                    "[model]", float, double) {
     using State = taut::State<TestType, 3>;
@@ -30,3 +32,5 @@ TEST_CASE("state: zero has one column a particle", "[model]") {
     CHECK(x.cols() == 7);
     CHECK(x.isZero(0));
 }
+
+}  // namespace taut_test::state_test

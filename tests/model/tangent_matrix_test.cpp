@@ -8,7 +8,8 @@
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::tangent_matrix_test {
+
 using taut::TangentMatrix;
 
 TEMPLATE_TEST_CASE("tangent_matrix: assemble is the combination of dense M, K or K+, and D",
@@ -102,3 +103,5 @@ TEST_CASE("tangent_matrix: with nothing free it is 0 by 0", "[model]") {
     tangent.assemble(system, system.initial_state().x, {1, 1, 1}, A);
     CHECK(A.nonZeros() == 0);
 }
+
+}  // namespace taut_test::tangent_matrix_test

@@ -11,7 +11,8 @@
 #include "../support/spectrum.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::chain_test {
+
 using taut::ChainEnds;
 using taut::ChainOptions;
 using taut::Index;
@@ -144,3 +145,5 @@ TEST_CASE("chain: bad input", "[scene][bad_input]") {
     CHECK(refused({4, ChainEnds::fixed_fixed, 1, 1, not_a_number},
                   {"chain", "spacing", "finite"}) == "");
 }
+
+}  // namespace taut_test::chain_test

@@ -11,7 +11,8 @@
 #include "../support/spectrum.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::cloth_test {
+
 using taut::ClothOptions;
 using taut::hanging_cloth;
 using taut::Index;
@@ -161,3 +162,5 @@ TEST_CASE("cloth: bad input", "[scene][bad_input]") {
     CHECK(refused([&](auto& o) { o.width = not_a_number; }, {"finite"}) == "");
     CHECK(refused([&](auto& o) { o.gravity = not_a_number; }, {"gravity", "finite"}) == "");
 }
+
+}  // namespace taut_test::cloth_test

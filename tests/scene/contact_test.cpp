@@ -12,7 +12,8 @@
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::contact_test {
+
 using taut::HalfSpace;
 using taut::resolve_contacts;
 using taut::Sphere;
@@ -187,3 +188,5 @@ TEST_CASE("contact: obstacles and options out of range are refused by name", "[s
     state.x.conservativeResize(3, 4);
     CHECK(missing(resolved({}), {"resolve_contacts", "4 positions", "8 particles"}) == "");
 }
+
+}  // namespace taut_test::contact_test

@@ -11,7 +11,8 @@
 #include "../support/message.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::mesh_test {
+
 using taut::Index;
 using taut::MeshOptions;
 using taut::springs_from_mesh;
@@ -221,3 +222,5 @@ TEST_CASE("mesh: bad input: options and vertices", "[scene][bad_input]") {
                   }),
                   {"vertex 3", "finite"}) == "");
 }
+
+}  // namespace taut_test::mesh_test

@@ -10,7 +10,8 @@
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::block_ordering_test {
+
 using Sparse = taut::SparseMatrix<double>;
 
 TEST_CASE("block_ordering: the compressed graph of a spring matrix is that of its free particles",
@@ -77,3 +78,5 @@ TEST_CASE("block_ordering: matrices without blocks and without columns are order
     taut::BlockOrdering<>()(Sparse(0, 0), permutation);
     CHECK(permutation.size() == 0);
 }
+
+}  // namespace taut_test::block_ordering_test

@@ -11,7 +11,8 @@
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::conjugate_gradient_test {
+
 using taut::BlockJacobi;
 using taut::ConjugateGradient;
 using taut::ImplicitEuler;
@@ -196,3 +197,5 @@ TEST_CASE("conjugate_gradient: a wrong setting and a matrix without blocks are r
     CHECK_FALSE(
         message_of([&] { solver.analyzePattern(taut::SparseMatrix<double>(4, 4)); }).empty());
 }
+
+}  // namespace taut_test::conjugate_gradient_test

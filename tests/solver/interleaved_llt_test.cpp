@@ -9,7 +9,7 @@
 #include "../support/random.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::interleaved_llt_test {
 
 namespace {
 
@@ -89,3 +89,5 @@ TEST_CASE("interleaved_llt: an indefinite matrix is reported, and a definite one
     REQUIRE(solver.info() == Eigen::Success);
     check_solve<decltype(solver), 3>(solver, A, random);
 }
+
+}  // namespace taut_test::interleaved_llt_test

@@ -3,17 +3,20 @@
 #if __has_include(<Spectra/SymEigsShiftSolver.h>)
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <taut/scene/chain.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/solver/modal_analysis.hpp>
 #include <taut/solver/static_equilibrium.hpp>
+#include <vector>
 
 #include "../support/catch.hpp"
 #include "../support/message.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::spectra_modal_analysis_test {
+
 using taut::Index;
 using taut::ModalBasis;
 
@@ -112,6 +115,47 @@ TEST_CASE("modal_analysis: every mechanism of a flat net counts as rigid", "[sol
     CHECK(basis.rigid() == 103);
 }
 
+TEST_CASE("modal_analysis: sixfold eigenvalues of a symmetric net are found six times",
+          "[solver]") {
+    // A square net of springs without length splits into rows and coordinates: its eigenvalues are
+    // sums of two of a row's, each three times, and twice that where the two differ.
+    const Index side = 14;
+    taut::SpringSystem<double, 3> net;
+    for (Index i = 0; i < (side + 2) * (side + 2); ++i) {
+        const Index row = i / (side + 2);
+        const Index column = i % (side + 2);
+        net.add_particle({static_cast<double>(row), static_cast<double>(column), 0}, 0.5);
+        if (row % (side + 1) == 0 || column % (side + 1) == 0) net.pin(i);
+    }
+    for (Index i = 0; i < net.size(); ++i) {
+        for (const Index step : {Index(1), side + 2}) {
+            const bool last = step == 1 ? i % (side + 2) == side + 1 : i + step >= net.size();
+            if (!last) net.add_spring(taut::Spring<double, taut::Hookean>{i, i + step, {200}, 0});
+        }
+    }
+    std::vector<double> expected;
+    const auto of_row = [](Index j) {
+        const double angle =
+            static_cast<double>(EIGEN_PI) / 2 * static_cast<double>(j) / (side + 1);
+        return 1600 * std::pow(std::sin(angle), 2);
+    };
+    for (Index i = 1; i <= side; ++i) {
+        for (Index j = 1; j <= side; ++j) expected.insert(expected.end(), 3, of_row(i) + of_row(j));
+    }
+    std::sort(expected.begin(), expected.end());
+    const auto system = net.linearize(net.initial_state());
+    REQUIRE(system.size() == 3 * side * side);
+    for (const Index count : {Index(4), Index(30), Index(100)}) {
+        INFO("count " << count);
+        ModalBasis basis;
+        REQUIRE(taut::modal_analysis(system, count, basis));
+        for (Index j = 0; j < count; ++j) {
+            CHECK_THAT(basis.k[j], WithinRel(expected[static_cast<std::size_t>(j)], 1e-9));
+        }
+        check_basis(system, basis, 3200);
+    }
+}
+
 TEST_CASE("modal_analysis: a count out of range is refused by name", "[solver][bad_input]") {
     const auto chain = taut::chain<double, 1>({5});
     const auto system = chain.linearize(chain.initial_state());
@@ -122,5 +166,7 @@ TEST_CASE("modal_analysis: a count out of range is refused by name", "[solver][b
     }
     CHECK(basis.size() == 0);
 }
+
+}  // namespace taut_test::spectra_modal_analysis_test
 
 #endif

@@ -10,7 +10,8 @@
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::static_equilibrium_test {
+
 using taut::ChainEnds;
 using taut::Report;
 using taut::static_equilibrium;
@@ -209,3 +210,5 @@ TEST_CASE("static_equilibrium: with everything pinned, or no particles, there is
     CHECK(static_equilibrium(system, state));
     CHECK((state.x == x));
 }
+
+}  // namespace taut_test::static_equilibrium_test

@@ -9,7 +9,8 @@
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::suitesparse_cholmod_test {
+
 using Sparse = taut::SparseMatrix<double>;
 
 TEST_CASE("cholmod: is a symmetric Solver", "[solver]") {
@@ -85,3 +86,5 @@ TEST_CASE(
     taut::ImplicitEuler<std::decay_t<decltype(pinned)>, taut::Cholmod<>> stepper(pinned);
     CHECK(stepper.step(state, 0.01));
 }
+
+}  // namespace taut_test::suitesparse_cholmod_test

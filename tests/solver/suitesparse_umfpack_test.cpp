@@ -8,7 +8,8 @@
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::suitesparse_umfpack_test {
+
 using Sparse = taut::SparseMatrix<double>;
 using System = taut::GeneralLinearSystem<double>;
 
@@ -74,3 +75,5 @@ TEST_CASE("umfpack: a singular matrix is reported and the state is untouched", "
     CHECK(same_bits(u, before));
     CHECK(stepper.step(u, 0.25));
 }
+
+}  // namespace taut_test::suitesparse_umfpack_test

@@ -7,7 +7,8 @@
 #include "../support/random_system.hpp"
 #include "wild_system.hpp"
 
-using namespace taut_test;
+namespace taut_test::any_pose_test {
+
 using taut::Method;
 
 namespace {
@@ -205,3 +206,5 @@ TEST_CASE("any_pose: causes", "[stability]") {
     system.pin(1);
     CHECK(taut::any_pose_limit(system).unbounded());
 }
+
+}  // namespace taut_test::any_pose_test

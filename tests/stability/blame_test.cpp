@@ -7,7 +7,8 @@
 #include "../support/tolerance.hpp"
 #include "wild_system.hpp"
 
-using namespace taut_test;
+namespace taut_test::blame_test {
+
 using taut::Method;
 using taut::Stability;
 
@@ -246,3 +247,5 @@ TEST_CASE("blame: substeps", "[stability]") {
         CHECK_THROWS_AS(stability.substeps(Method::symplectic_euler, bad), std::invalid_argument);
     }
 }
+
+}  // namespace taut_test::blame_test

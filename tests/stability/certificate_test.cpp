@@ -7,7 +7,8 @@
 #include "../support/tolerance.hpp"
 #include "definite_matrices.hpp"
 
-using namespace taut_test;
+namespace taut_test::certificate_test {
+
 using taut::proves_positive_definite;
 
 // One false proof would make every certificate worthless, so most of these matrices have a least
@@ -290,3 +291,5 @@ TEMPLATE_TEST_CASE("certificate: combinations of springs are proved only where t
     }
     CHECK(proved > 100);
 }
+
+}  // namespace taut_test::certificate_test

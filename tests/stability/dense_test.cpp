@@ -6,7 +6,8 @@
 #include "../support/tolerance.hpp"
 #include "wild_system.hpp"
 
-using namespace taut_test;
+namespace taut_test::dense_test {
+
 using taut::DenseAnalysis;
 using taut::Method;
 
@@ -157,3 +158,5 @@ TEST_CASE("dense: spectral_radius is that of the long double transition matrix",
         }
     }
 }
+
+}  // namespace taut_test::dense_test

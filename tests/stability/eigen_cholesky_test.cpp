@@ -4,7 +4,7 @@
 
 #include "check_cholesky.hpp"
 
-using namespace taut_test;
+namespace taut_test::eigen_cholesky_test {
 
 namespace {
 
@@ -65,3 +65,5 @@ TEST_CASE("factor_rows: the widest row of the factor, in any order of eliminatio
         CHECK(cholesky.analyze(S) == widest_row_by_elimination(chosen));
     }
 }
+
+}  // namespace taut_test::eigen_cholesky_test

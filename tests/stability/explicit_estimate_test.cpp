@@ -7,7 +7,8 @@
 #include "../support/catch.hpp"
 #include "wild_system.hpp"
 
-using namespace taut_test;
+namespace taut_test::explicit_estimate_test {
+
 using taut::explicit_estimate;
 using Pencil3 = taut::SpringPencil<3>;
 
@@ -91,3 +92,5 @@ TEST_CASE("explicit_estimate: Stability gives it beside the bracket, and only th
     rayleigh.set_rayleigh({1, 1e-5});
     CHECK(taut::Stability<double>(rayleigh, state).max_step(method, 1e-3).estimate == 0);
 }
+
+}  // namespace taut_test::explicit_estimate_test

@@ -9,7 +9,8 @@
 // Masses, stiffnesses and dampings further apart than any scene's: an answer may be useless, but it
 // is a number, and never a false certificate.
 
-using namespace taut_test;
+namespace taut_test::extremes_test {
+
 using taut::Method;
 using taut::Stability;
 
@@ -189,3 +190,5 @@ TEST_CASE("extremes: one particle, one spring, exact to the last digit but a few
         CHECK(limit.refuted <= limit.certified * (1 + 1e-12));
     }
 }
+
+}  // namespace taut_test::extremes_test

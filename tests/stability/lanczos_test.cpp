@@ -8,7 +8,8 @@
 #include "../support/tolerance.hpp"
 #include "wild_system.hpp"
 
-using namespace taut_test;
+namespace taut_test::lanczos_test {
+
 using taut::Combination;
 using taut::LanczosOptions;
 using taut::largest_ritz_pair;
@@ -187,3 +188,5 @@ TEST_CASE("lanczos: springs over many decades, never above the truth", "[stabili
         CHECK(pair.value <= pencil.upper_bound(c) + static_cast<double>(rounding * size));
     }
 }
+
+}  // namespace taut_test::lanczos_test

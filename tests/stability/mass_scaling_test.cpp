@@ -7,7 +7,8 @@
 #include "../support/message.hpp"
 #include "wild_system.hpp"
 
-using namespace taut_test;
+namespace taut_test::mass_scaling_test {
+
 using taut::added_mass;
 using taut::AddedMass;
 using taut::Method;
@@ -232,3 +233,5 @@ TEST_CASE("mass_scaling: masses beyond float are not reached", "[stability]") {
     CHECK_FALSE(added.reached);
     for (const double mass : added.mass) CHECK(mass == 0);
 }
+
+}  // namespace taut_test::mass_scaling_test

@@ -6,7 +6,8 @@
 #include "../support/tolerance.hpp"
 #include "wild_system.hpp"
 
-using namespace taut_test;
+namespace taut_test::matrix_pencil_test {
+
 using taut::Combination;
 using taut::LinearSystem;
 using taut::MatrixPencil;
@@ -228,3 +229,5 @@ TEST_CASE("matrix_pencil: scaled() and shares", "[stability]") {
         CHECK(static_cast<Index>(pencil.particle_shares(u).size()) == pencil.size());
     }
 }
+
+}  // namespace taut_test::matrix_pencil_test

@@ -8,7 +8,8 @@
 #include "../support/random.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::mode_test {
+
 using taut::critical_step;
 using taut::Method;
 
@@ -53,10 +54,6 @@ Step transition(Method method, double stiffness, double damping, double seconds)
         }
     }
     return {};
-}
-
-double log_uniform(Random& random, double low, double high) {
-    return std::exp2(random.uniform(std::log2(low), std::log2(high)));
 }
 
 /// visit(k, d): undamped, light, critical, overdamped; stiffness alone, damping alone.
@@ -234,3 +231,5 @@ TEST_CASE("mode: velocity Verlet shares everything with symplectic Euler", "[sta
                taut::multipliers(Method::symplectic_euler, k, d, h)));
     }
 }
+
+}  // namespace taut_test::mode_test

@@ -8,7 +8,8 @@
 
 // Brackets narrowed by factorisations: as tight as asked for, and the truth inside.
 
-using namespace taut_test;
+namespace taut_test::narrow_test {
+
 using taut::ChainEnds;
 using taut::Method;
 
@@ -283,3 +284,5 @@ TEST_CASE("narrow: a stiffness that overflows is named, by every method", "[stab
         CHECK(limit.certified == 0);
     }
 }
+
+}  // namespace taut_test::narrow_test

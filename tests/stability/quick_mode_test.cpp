@@ -6,7 +6,8 @@
 #include "../support/tolerance.hpp"
 #include "wild_system.hpp"
 
-using namespace taut_test;
+namespace taut_test::quick_mode_test {
+
 using taut::detail::leading_pair;
 using taut::detail::quick_mode;
 
@@ -87,3 +88,5 @@ TEST_CASE("quick_mode: dampers and signs of any combination of D and K", "[stabi
         CHECK(value >= 0.95 * truth);
     }
 }
+
+}  // namespace taut_test::quick_mode_test

@@ -7,7 +7,8 @@
 #include "../support/random.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::rayleigh_design_test {
+
 using taut::EmptyWindow;
 using taut::Method;
 using taut::rayleigh_design;
@@ -17,10 +18,6 @@ namespace {
 
 constexpr Method all_methods[] = {Method::explicit_euler, Method::symplectic_euler,
                                   Method::velocity_verlet, Method::implicit_euler};
-
-double log_uniform(Random& random, double low, double high) {
-    return std::exp2(random.uniform(std::log2(low), std::log2(high)));
-}
 
 /// The largest |μ| over a spectrum, its inside looked at as well.
 double radius(Method method, double h, double d0, double alpha, double k_min, double k_max) {
@@ -157,3 +154,5 @@ TEST_CASE("rayleigh_design: wrong input is refused by name", "[stability]") {
     CHECK(missing(message_of([] { rayleigh_from_ratios(1, 1, 2, 100); }), {"d0", "alpha", "100"}) ==
           "");
 }
+
+}  // namespace taut_test::rayleigh_design_test

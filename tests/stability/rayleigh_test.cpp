@@ -6,7 +6,8 @@
 #include "../support/stability_scenes.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::rayleigh_test {
+
 using taut::EmptyWindow;
 using taut::Method;
 using taut::rayleigh_window;
@@ -288,3 +289,5 @@ TEST_CASE("rayleigh: wrong input is refused", "[stability]") {
     }
     CHECK_THROWS_AS(window(0.1, 0, 2, 1), std::invalid_argument);
 }
+
+}  // namespace taut_test::rayleigh_test

@@ -7,17 +7,14 @@
 #include "../support/catch.hpp"
 #include "../support/random.hpp"
 
-using namespace taut_test;
+namespace taut_test::small_eigenvalue_test {
+
 using taut::detail::eigenvalue_upper_bound;
 using taut::detail::proved_above;
 
 namespace {
 
 using Real = long double;
-
-double log_uniform(Random& random, double low, double high) {
-    return std::exp2(random.uniform(std::log2(low), std::log2(high)));
-}
 
 template <int Dim>
 using Matrix = Eigen::Matrix<double, Dim, Dim>;
@@ -159,3 +156,5 @@ TEST_CASE("small_eigenvalue: proved_above where squares vanish or overflow", "[s
     }
     CHECK(proved_above<3>(Matrix<3>::Constant(1e60), 3.1e60));
 }
+
+}  // namespace taut_test::small_eigenvalue_test

@@ -7,7 +7,8 @@
 #include "../support/tolerance.hpp"
 #include "wild_system.hpp"
 
-using namespace taut_test;
+namespace taut_test::spring_pencil_test {
+
 using taut::Combination;
 using taut::SpringPencil;
 
@@ -283,3 +284,5 @@ TEMPLATE_TEST_CASE("spring_pencil: what is called semi-definite is so", "[stabil
     CHECK(semidefinite > 50);
     CHECK((indefinite > 50 || TestType::value == 1));
 }
+
+}  // namespace taut_test::spring_pencil_test

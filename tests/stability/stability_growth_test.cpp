@@ -11,7 +11,8 @@
 
 // The predictions of Stability, simulated: bounded below certified, growing above refuted.
 
-using namespace taut_test;
+namespace taut_test::stability_growth_test {
+
 using taut::Method;
 
 namespace {
@@ -132,3 +133,5 @@ TEMPLATE_TEST_CASE("stability: at 1.01 of refuted the critical mode grows as |mu
         check_growth<taut::VelocityVerlet<Linear>>(c);
     }
 }
+
+}  // namespace taut_test::stability_growth_test

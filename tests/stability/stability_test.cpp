@@ -7,7 +7,8 @@
 #include "../support/catch.hpp"
 #include "../support/stability_scenes.hpp"
 
-using namespace taut_test;
+namespace taut_test::stability_test {
+
 using taut::Cause;
 using taut::Method;
 
@@ -350,3 +351,5 @@ TEST_CASE("stability: later changes of the system do not reach the analysis", "[
     CHECK(before.certified == after.certified);
     CHECK_FALSE(before.step_for(cloth, 0.9).has_value());
 }
+
+}  // namespace taut_test::stability_test

@@ -8,7 +8,8 @@
 #include "../support/catch.hpp"
 #include "../support/random.hpp"
 
-using namespace taut_test;
+namespace taut_test::step_limit_test {
+
 using taut::StepLimit;
 
 namespace {
@@ -160,3 +161,5 @@ TEST_CASE("step_limit: after update() the limit is that of a new analysis, and h
     state.x *= 1.02;
     check("another pose");
 }
+
+}  // namespace taut_test::step_limit_test

@@ -6,7 +6,7 @@
 
 #include "check_cholesky.hpp"
 
-using namespace taut_test;
+namespace taut_test::suitesparse_cholmod_cholesky_test {
 
 TEST_CASE("cholmod_cholesky: factorises, and says when it cannot", "[stability]") {
     check_factorization<taut::CholmodCholesky>();
@@ -27,3 +27,5 @@ TEST_CASE("cholmod_cholesky: Stability narrows with it as with Eigen's", "[stabi
     CHECK(narrow.certified < other.refuted);
     CHECK(other.certified < narrow.refuted);
 }
+
+}  // namespace taut_test::suitesparse_cholmod_cholesky_test

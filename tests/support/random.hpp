@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <random>
 #include <taut/core/types.hpp>
@@ -40,5 +41,10 @@ public:
 private:
     std::mt19937 engine_;
 };
+
+/// Spread evenly over orders of magnitude.
+inline double log_uniform(Random& random, double low, double high) {
+    return std::exp2(random.uniform(std::log2(low), std::log2(high)));
+}
 
 }  // namespace taut_test

@@ -27,11 +27,6 @@ using ComplexVector = Eigen::Matrix<std::complex<Real>, Eigen::Dynamic, 1>;
 
 constexpr Real real_epsilon = std::numeric_limits<Real>::epsilon();
 
-/// Spread evenly over orders of magnitude.
-inline double log_uniform(Random& random, double low, double high) {
-    return std::exp2(random.uniform(std::log2(low), std::log2(high)));
-}
-
 /// M, K, K⁺, D of the free degrees of freedom [T1], [T2], [T27], [T28].
 struct Exact {
     RealVector mass;

@@ -38,6 +38,7 @@ struct [[nodiscard]] Report {
     int iterations = 0;   ///< steps taken by an integrator, iterations by a solver
     double residual = 0;  ///< relative residual of the linear or nonlinear equation; 0 if explicit
     Index where = -1;     ///< index of the offending particle, or -1
+    int solves = 0;       ///< linear solves of an integrator's last step
 
     explicit operator bool() const { return status == Status::ok; }
 };

@@ -14,7 +14,7 @@ namespace taut {
 
 /// The second-order backward difference formula, by one linearised solve a step. With ω = h/h⁻ the
 /// ratio to the last step, c = ω²/(1 + 2ω) and τ = h(1 + ω)/(1 + 2ω) (equal steps: ⅓ and ⅔h),
-///     M (v⁺ − v − c(v − v⁻)) = τ f(x⁺, v⁺),   x⁺ = x + c(x − x⁻) + τ v⁺,
+///     M (v⁺ − v − c(v − v⁻)) = τ f(x⁺, v⁺),   x⁺ = x + c(x − x⁻) + τ v⁺ [T29],
 /// f linearised about (x, v) with K⁺ for K on springs. K.-J. Choi, H.-S. Ko, "Stable but responsive
 /// cloth", SIGGRAPH 2002, at variable steps (E. Hairer, G. Wanner, "Solving ODEs II", V.5).
 ///
@@ -63,6 +63,11 @@ public:
         report ? last_.keep(*system_, state) : last_.forget();
         return report;
     }
+    /// change(solver): to set a tolerance, a cap of iterations.
+    template <class Change>
+    void configure(Change&& change) {
+        change(solver_);
+    }
     const Solver& solver() const { return solver_; }
 
 private:
@@ -107,8 +112,10 @@ Report Bdf2<System, Solver>::advance(State& state, Scalar h) {
     equation_.add_momentum(*system_, past_.v, b_);
     dv_ = solver_.solve(b_);
     Report report;
+    report.solves = 1;
     if (solver_.info() != Eigen::Success || !dv_.allFinite()) {
-        report.status = Status::solver_failed;
+        report.status =
+            solver_.info() == Eigen::NoConvergence ? Status::not_converged : Status::solver_failed;
         report.where = detail::first_not_finite(equation_, dv_);
         return report;
     }

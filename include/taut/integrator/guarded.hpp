@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <type_traits>
+#include <utility>
 
 #include "../stability/any_pose.hpp"
 #include "detail/energy_audit.hpp"
@@ -25,6 +27,11 @@ template <class Stepper>
 using method_of = decltype(Stepper::method);
 template <class Stepper>
 using constraint_forces_of = decltype(std::declval<const Stepper&>().constraint_forces());
+
+struct NoResponse {
+    template <class State>
+    void operator()(State&) const {}
+};
 
 /// What the guard takes a stepper for; one without a `method` counts as implicit.
 template <class Stepper>
@@ -67,13 +74,13 @@ struct [[nodiscard]] GuardedReport {
 /// A frame is cut into equal substeps of at most safety·any_pose_limit [T23], renewed whenever the
 /// system's revision() has moved on; implicit steppers take options.max_step. At its end the state
 /// must be finite, and the energy that the method keeps on a linear scene (for symplectic Euler
-/// H + ½h vᵀf) may have risen by the work of external forces and moving pins and by a slack. Else
-/// the frame is taken back to its start and tried again with twice the substeps. A rise that half
-/// the step repeats is the scene's own (a force with an energy source), and is let pass.
+/// H + ½h vᵀf) may have risen by no more than the work of external forces, moving pins and
+/// constraints and a slack. Else the frame is taken back to its start and tried again with twice
+/// the substeps, now with the work of every single one in the books.
 ///
-/// The audit of a frame costs one and a half explicit steps. It catches what no analysis sees:
-/// stiff external forces, and implicit steps that overshoot. A collision response between frames is
-/// not judged: each frame is measured from its own start.
+/// The audit of a frame costs one and a half explicit steps, one of a retried frame as much a
+/// substep. It catches what no analysis sees: stiff external forces, and implicit steps that
+/// overshoot. What changes the state between frames is not judged.
 /// @tparam Stepper  SymplecticEuler, VelocityVerlet, ImplicitEuler, Bdf2 of a SpringSystem
 template <class Stepper, class System = typename detail::stepped_system<Stepper>::type>
 class Guarded {
@@ -85,32 +92,39 @@ public:
                   "taut::Guarded: explicit Euler has no limit that holds at every pose; guard "
                   "SymplecticEuler, which costs the same");
 
-    static_assert(!detail::is_detected_v<detail::constraint_forces_of, Stepper>,
-                  "taut::Guarded: the energy audit does not know the work of constraints");
-
     struct Options {
         Scalar safety = static_cast<Scalar>(0.95);  ///< of the any-pose limit, in (0, 1]
         Scalar max_step = std::numeric_limits<Scalar>::infinity();  ///< s, > 0
         /// A frame that needs more is shortened to this many steps, so that a late frame does not
         /// make the next one later. Retries go beyond it.
         Index max_substeps = 1000;
-        int max_retries = 3;  ///< each with twice the substeps
-        /// Admitted rise of the energy in a frame, relative to kinetic and elastic energy at its
-        /// start and the work done in it.
+        int max_retries = 6;  ///< each with twice the substeps
+        /// Share of the energy by which it may rise at once: of kinetic and elastic energy at the
+        /// frame's start and the work done in it.
         double energy_slack = 0.01;
+        /// And by which it may go on rising, 1/s: what the slack has admitted grows back this fast,
+        /// or as the energy falls.
+        double energy_drift = 0.1;
     };
 
     /// Keeps a reference: the system must outlive the guard. Options out of range go to fail().
-    explicit Guarded(const System& system, const Options& options = {});
-    explicit Guarded(const System&&, const Options& = {}) = delete;
+    /// @param arguments  further ones of the stepper's constructor, such as its Options
+    template <class... Arguments>
+    explicit Guarded(const System& system, const Options& options = {}, Arguments&&... arguments);
+    template <class... Arguments>
+    explicit Guarded(const System&&, const Options& = {}, Arguments&&...) = delete;
 
     /// Advances by `frame`, s, finite and > 0. No certified step (overflow) is invalid_step.
-    GuardedReport<Scalar> advance(State& state, Scalar frame);
+    /// @param respond  respond(state) after every substep: contacts, for example. What it does to
+    ///                 the energy is not judged.
+    template <class Respond = detail::NoResponse>
+    GuardedReport<Scalar> advance(State& state, Scalar frame, Respond&& respond = {});
     /// The same on an engine's own arrays, copied there and back once a frame.
-    template <class Stored>
-    GuardedReport<Scalar> advance(StateView<Stored, System::Dim>& view, Scalar frame) {
+    template <class Stored, class Respond = detail::NoResponse>
+    GuardedReport<Scalar> advance(StateView<Stored, System::Dim>& view, Scalar frame,
+                                  Respond&& respond = {}) {
         view.copy_to(viewed_);
-        const auto report = advance(viewed_, frame);
+        const auto report = advance(viewed_, frame, respond);
         if (report) view.copy_from(viewed_);
         return report;
     }
@@ -124,28 +138,32 @@ private:
         method == Method::symplectic_euler || method == Method::velocity_verlet;
 
     Scalar largest_step();
-    void open_books(const State& state);
-    double work(const State& state) const;
-    bool admits(const State& state, double earlier, GuardedReport<Scalar>& report);
-    void name_culprits(GuardedReport<Scalar>& report, const State& failed);
+    const Points<Scalar, System::Dim>& constraint_forces() const;
+    template <class Respond>
+    Report attempt(State& state, const GuardedReport<Scalar>& report, Respond& respond);
+    bool admits(Scalar span, GuardedReport<Scalar>& report);
+    template <class Respond>
+    void name_culprits(GuardedReport<Scalar>& report, const State& failed, Respond& respond);
 
     const System* system_;
     Options options_;
     Stepper stepper_;
     std::optional<StepLimit<Scalar>> limit_;
-    detail::LastState<State> start_;  // the last good one, and its books
-    detail::EnergyBooks books_;
-    typename System::Force force_;     // of springs and gravity at start_, N
-    typename System::Force external_;  // N
-    detail::EnergyBooks end_books_;
-    typename System::Force end_force_;
-    typename System::Force end_external_;
-    State viewed_;  // of a StateView
+    detail::LastState<State> start_;  // the last good one
+    detail::EnergyAudit<System> audit_;
+    double slack_;                        // what is left of energy_slack
+    Points<Scalar, System::Dim> unheld_;  // the constraint forces of steppers without any
+    State viewed_;                        // of a StateView
 };
 
 template <class Stepper, class System>
-Guarded<Stepper, System>::Guarded(const System& system, const Options& options)
-    : system_(&system), options_(options), stepper_(system) {
+template <class... Arguments>
+Guarded<Stepper, System>::Guarded(const System& system, const Options& options,
+                                  Arguments&&... arguments)
+    : system_(&system),
+      options_(options),
+      stepper_(system, std::forward<Arguments>(arguments)...),
+      slack_(options.energy_slack) {
     require_positive("Guarded", "safety", options.safety);
     if (options.safety > 1) fail("Guarded: safety is ", options.safety, "; it must be <= 1");
     if (!(options.max_step > 0)) {
@@ -158,6 +176,7 @@ Guarded<Stepper, System>::Guarded(const System& system, const Options& options)
         fail("Guarded: max_retries is ", options.max_retries, "; it must be >= 0");
     }
     require_non_negative("Guarded", "energy_slack", options.energy_slack);
+    require_non_negative("Guarded", "energy_drift", options.energy_drift);
 }
 
 /// 0 when no step is certified.
@@ -175,60 +194,76 @@ auto Guarded<Stepper, System>::largest_step() -> Scalar {
 }
 
 template <class Stepper, class System>
-void Guarded<Stepper, System>::open_books(const State& state) {
-    if (start_.is(*system_, state)) return;
-    start_.keep(*system_, state);
-    books_ = detail::energy_books(*system_, state, force_);
-    system_->external_force(state, external_);
-}
-
-/// Of external forces and of the pins that moved, from start_ to `state`, J: forces averaged over
-/// both ends.
-template <class Stepper, class System>
-double Guarded<Stepper, System>::work(const State& state) const {
-    double sum = 0;
-    for (Index i = 0; i < system_->size(); ++i) {
-        const typename System::Vector path = state.x.col(i) - start_.state().x.col(i);
-        if (system_->is_pinned(i)) {
-            sum -= 0.5 * static_cast<double>((force_.col(i) + end_force_.col(i)).dot(path));
-        } else {
-            sum += 0.5 * static_cast<double>((external_.col(i) + end_external_.col(i)).dot(path));
-        }
+auto Guarded<Stepper, System>::constraint_forces() const -> const Points<Scalar, System::Dim>& {
+    if constexpr (detail::is_detected_v<detail::constraint_forces_of, Stepper>) {
+        return stepper_.constraint_forces();
+    } else {
+        return unheld_;
     }
-    return sum;
 }
 
-/// Whether the energy at the end of a frame may be what it is; `earlier` is the rise of the attempt
-/// before, or NaN. An instability of the step changes by orders of magnitude with half the step.
+/// The report's substeps from start_, a retry with all of them in the books.
 template <class Stepper, class System>
-bool Guarded<Stepper, System>::admits(const State& state, double earlier,
-                                      GuardedReport<Scalar>& report) {
-    end_books_ = detail::energy_books(*system_, state, end_force_);
-    system_->external_force(state, end_external_);
+template <class Respond>
+Report Guarded<Stepper, System>::attempt(State& state, const GuardedReport<Scalar>& report,
+                                         Respond& respond) {
+    constexpr bool responds = !std::is_same_v<std::decay_t<Respond>, detail::NoResponse>;
+    const bool every = report.retries > 0;
     const auto h = static_cast<double>(report.h);
-    const double added = work(state);
-    report.energy_rise = end_books_.kept(method, h) - books_.kept(method, h) - added;
-    const double fallen = std::max(0.0, books_.gravity - end_books_.gravity);
-    const double moved = books_.kinetic + books_.elastic + fallen + std::abs(added);
+    const Index at_once = responds || every ? 1 : report.substeps;
+    audit_.rewind();
+    Report step;
+    for (Index i = 0; i < report.substeps && step; i += at_once) {
+        step = stepper_.step(state, report.h, at_once);
+        if (!step) break;
+        if (every) audit_.add_motion(*system_, state, constraint_forces());
+        if (!responds) continue;
+        respond(state);
+        if (!state.finite()) return {Status::diverged, 0, 0, state.first_not_finite()};
+        if (every) audit_.add_response(*system_, state, method, h);
+    }
+    if (step && !every) audit_.add_motion(*system_, state, constraint_forces());
+    return step;
+}
+
+/// Whether the energy at the end of a frame may be what it is.
+template <class Stepper, class System>
+bool Guarded<Stepper, System>::admits(Scalar span, GuardedReport<Scalar>& report) {
+    report.energy_rise = audit_.rise(method, static_cast<double>(report.h));
     constexpr double rounding = 64 * static_cast<double>(std::numeric_limits<Scalar>::epsilon());
-    const double slack = options_.energy_slack * moved + rounding * (moved + books_.heights);
-    const double rise = report.energy_rise;
-    return rise <= slack || std::abs(rise - earlier) <= slack + 0.25 * std::min(rise, earlier);
+    const double moved = audit_.moved();
+    const double share =
+        std::min(options_.energy_slack, slack_ + options_.energy_drift * static_cast<double>(span));
+    if (!(report.energy_rise <= share * moved + rounding * audit_.size())) return false;
+    const double used = moved > 0 ? report.energy_rise / moved : 0;
+    slack_ = std::min(options_.energy_slack, std::max(0.0, share - used));
+    return true;
 }
 
 /// From the end of a frame that gained energy, or, if a substep failed, from the last state before.
 template <class Stepper, class System>
-void Guarded<Stepper, System>::name_culprits(GuardedReport<Scalar>& report, const State& failed) {
+template <class Respond>
+void Guarded<Stepper, System>::name_culprits(GuardedReport<Scalar>& report, const State& failed,
+                                             Respond& respond) {
     State last = failed;
-    for (Index i = 0; report.alarm == Alarm::step_failed && i < report.substeps; ++i) {
-        if (!stepper_.step(last, report.h)) break;
+    if (report.alarm == Alarm::step_failed) {
+        last = start_.state();
+        for (Index i = 0; i < report.substeps; ++i) {
+            State next = last;
+            if (!stepper_.step(next, report.h)) break;
+            respond(next);
+            if (!next.finite()) break;
+            last = next;
+        }
     }
     if (report.particle < 0) report.particle = detail::fastest_particle(*system_, last);
     report.spring = detail::fullest_spring(*system_, last);
 }
 
 template <class Stepper, class System>
-auto Guarded<Stepper, System>::advance(State& state, Scalar frame) -> GuardedReport<Scalar> {
+template <class Respond>
+auto Guarded<Stepper, System>::advance(State& state, Scalar frame, Respond&& respond)
+    -> GuardedReport<Scalar> {
     GuardedReport<Scalar> report;
     const Scalar largest = largest_step();
     const bool fits = state.x.cols() == system_->size() && state.v.cols() == system_->size();
@@ -239,31 +274,25 @@ auto Guarded<Stepper, System>::advance(State& state, Scalar frame) -> GuardedRep
         report.particle = fits ? state.first_not_finite() : -1;
     }
     if (!report) return report;
-    open_books(state);
-
+    if (!start_.is(*system_, state)) {
+        start_.keep(*system_, state);
+        audit_.open(*system_, state);
+    }
     const double needed = std::ceil(static_cast<double>(frame) / static_cast<double>(largest));
     const bool late = needed > static_cast<double>(options_.max_substeps);
     report.substeps = late ? options_.max_substeps : std::max(Index(1), static_cast<Index>(needed));
     const Scalar span = late ? largest * static_cast<Scalar>(report.substeps) : frame;
     report.h = span / static_cast<Scalar>(report.substeps);
 
-    double earlier = std::numeric_limits<double>::quiet_NaN();  // energy_rise of the last attempt
     for (;; ++report.retries, report.substeps *= 2, report.h /= 2) {
-        const Report step = stepper_.step(state, report.h, report.substeps);
+        const Report step = attempt(state, report, respond);
         report.status = step.status;
         report.particle = step.where;
-        if (!step) {
-            report.alarm = Alarm::step_failed;
-            earlier = std::numeric_limits<double>::quiet_NaN();
-        } else if (admits(state, earlier, report)) {
-            break;
-        } else {
-            report.alarm = Alarm::energy;
-            report.status = Status::diverged;
-            earlier = report.energy_rise;
-        }
+        if (step && admits(span, report)) break;
+        report.alarm = step ? Alarm::energy : Alarm::step_failed;
+        if (step) report.status = Status::diverged;
         if (report.retries == options_.max_retries) {
-            name_culprits(report, state);
+            name_culprits(report, state, respond);
             state = start_.state();
             return report;
         }
@@ -271,9 +300,7 @@ auto Guarded<Stepper, System>::advance(State& state, Scalar frame) -> GuardedRep
     }
     report.advanced = span;
     start_.keep(*system_, state);
-    std::swap(books_, end_books_);
-    std::swap(force_, end_force_);
-    std::swap(external_, end_external_);
+    audit_.go_on();
     return report;
 }
 

@@ -6,7 +6,9 @@
 #include <type_traits>
 
 #include "../core/method.hpp"
+#include "../model/particle_constraints.hpp"
 #include "../solver/block_ordering.hpp"
+#include "detail/constraint_projection.hpp"
 #include "detail/factor_cache.hpp"
 #include "detail/newton.hpp"
 #include "detail/step_equation.hpp"
@@ -34,6 +36,10 @@ struct NoNewton {};
 /// Options ask for the nonlinear step instead, M(v⁺ − v) = h(f(x⁺) − D(x)v⁺), by Newton's method
 /// from that solve with a line search on the objective of the step: where the energy is convex,
 /// [T24] holds.
+///
+/// constraints() hold particles in planes, on lines, at points or to velocities, exactly in a
+/// direct solve, by filtering in conjugate gradients [T31], as in D. Baraff, A. Witkin, "Large
+/// steps in cloth simulation", SIGGRAPH 1998.
 /// @tparam Solver  Eigen's sparse solver interface (analyzePattern, factorize, solve, info). Not
 ///                 SimplicialLDLT: it calls an indefinite matrix a success. One with Eigen's
 ///                 solveWithGuess starts from the last Δv, so that its steps depend on the last
@@ -44,6 +50,8 @@ class ImplicitEuler {
 public:
     using Scalar = typename System::Scalar;
     using State = typename System::State;
+    static constexpr int Dim = System::Dim;
+    using Constraints = ParticleConstraints<Scalar, Dim>;
     static constexpr Method method = Method::implicit_euler;
     static constexpr int order = 1;
     static constexpr bool symmetric =
@@ -59,8 +67,10 @@ public:
         /// Linear solves of a step at most. 1: the linearised step; more: the nonlinear one, and
         /// not_converged if they do not reach the tolerance. Without effect on matrices.
         int newton_iterations = 1;
-        /// On the gradient of the step's objective, relative to that at the inertial positions or
-        /// to the momentum; > 0. What rounding leaves passes in any case.
+        /// On the residual r of the nonlinear equation, > 0: ‖r‖ relative to that at the inertial
+        /// move or to the momentum, and the energy |v⁺ᵀr| that it leaves open [T24] relative to
+        /// kinetic and elastic energy before the step and the work done in it. What rounding leaves
+        /// passes in any case.
         double tolerance = 1e-6;
     };
 
@@ -70,12 +80,23 @@ public:
     explicit ImplicitEuler(const System&&) = delete;
     ImplicitEuler(const System&&, const Options&) = delete;
 
+    /// Change them between steps at will. Those of pinned particles have no effect.
+    Constraints& constraints() { return constraints_; }
+    /// Of the constraints on their particles in the last step, N, Dim × n, zero elsewhere: for
+    /// friction, or to decide on a release. Empty before the first step with any.
+    const Points<Scalar, Dim>& constraint_forces() const { return forces_; }
+
     /// Takes `count` steps of h, s, finite and > 0, of a State or StateView. On failure the state
-    /// is as it was before. The report's residual is that of the last linear solve, relative to its
-    /// right-hand side; with newton_iterations > 1 that of the nonlinear equation, as
-    /// Options::tolerance has it.
+    /// is as it was before; a constraint on a particle that the system does not have is
+    /// invalid_state, at that particle. The report's residual is that of the last linear solve,
+    /// relative to its right-hand side; with newton_iterations > 1 that of the nonlinear equation,
+    /// as Options::tolerance has it.
     template <class AnyState>
     Report step(AnyState& state, Scalar h, Index count = 1) {
+        if (!constraints_.held().empty()) {
+            const Index last = constraints_.held().rbegin()->first;
+            if (last >= system_->size()) return {Status::invalid_state, 0, 0, last};
+        }
         return loop_.run(*system_, state, h, count, [&](State& own) { return advance(own, h); });
     }
     /// change(solver) for every solver that the stepper keeps: to set a tolerance, a cap of
@@ -91,6 +112,7 @@ public:
 
 private:
     static constexpr bool springs = detail::is_spring_system_v<std::decay_t<System>>;
+    using Vector = Eigen::Matrix<Scalar, Dim, 1>;
     using Equation = detail::StepEquation<System>;
     using Newton = std::conditional_t<springs, detail::Newton<System>, detail::NoNewton>;
 
@@ -98,15 +120,22 @@ private:
     Report solve_linearised(const State& state, Scalar h);
     Status factorize(Scalar h);
     Status solve(const VectorX<Scalar>& b, VectorX<Scalar>& x);
+    template <class Force>
+    void set_forces(Force&& force);
 
     const System* system_;
     Options options_;
+    Constraints constraints_;
     detail::StepLoop<State> loop_;
     Equation equation_;
-    detail::FactorCache<Solver, Scalar> factors_;  // of equation_.matrix()
+    detail::ConstraintProjection<Scalar, Dim> projection_;
+    detail::FactorCache<Solver, Scalar> factors_;
+    bool projected_ = false;  // whether factors_ are those of the projection
     Newton newton_;
-    VectorX<Scalar> b_;   // N, N·s
-    VectorX<Scalar> dv_;  // N, m/s
+    VectorX<Scalar> b_;           // N, N·s
+    VectorX<Scalar> reduced_;     // b_ as the constraints leave it
+    VectorX<Scalar> dv_;          // N, m/s
+    Points<Scalar, Dim> forces_;  // of the constraints, Dim × n, N
 };
 
 template <class System, class Solver>
@@ -121,12 +150,11 @@ ImplicitEuler<System, Solver>::ImplicitEuler(const System& system, const Options
 
 template <class System, class Solver>
 Status ImplicitEuler<System, Solver>::factorize(Scalar h) {
-    if constexpr (Equation::constant) {
-        if (factors_.find(h)) return Status::ok;
-    } else {
-        factors_.forget_values();
-    }
-    if (factors_.factorize(equation_.matrix(), h)) return Status::ok;
+    if (!Equation::constant || projected_ || projection_.active()) factors_.forget_values();
+    projected_ = projection_.active();
+    if (factors_.find(h)) return Status::ok;
+    const auto& A = equation_.matrix();
+    if (factors_.factorize(projected_ ? projection_.matrix(A) : A, h)) return Status::ok;
     return symmetric ? Status::not_positive_definite : Status::solver_failed;
 }
 
@@ -148,10 +176,13 @@ Status ImplicitEuler<System, Solver>::solve(const VectorX<Scalar>& b, VectorX<Sc
 /// dv_ ← Δv of the linearised step.
 template <class System, class Solver>
 Report ImplicitEuler<System, Solver>::solve_linearised(const State& state, Scalar h) {
+    const auto& A = equation_.matrix();
     if (equation_.update_pattern(*system_)) {
         factors_.forget_pattern();
-        dv_.setZero(equation_.matrix().rows());
+        projection_.update_pattern(equation_, system_->size());
+        dv_.setZero(A.rows());
     }
+    projection_.begin(constraints_, state.v);
     if (dv_.size() == 0) return {};  // nothing free; not every solver takes 0 × 0
     equation_.update_values(*system_, state, h);
     equation_.load(*system_, state, h, h, state.v, b_);
@@ -160,31 +191,64 @@ Report ImplicitEuler<System, Solver>::solve_linearised(const State& state, Scala
     if (const Index where = detail::first_not_finite(equation_, b_); where >= 0) {
         return {Status::solver_failed, 0, 0, where};
     }
-    report.status = solve(b_, dv_);
+    if (projected_) {
+        projection_.reduce(A, b_, reduced_);
+        projection_.project(dv_);
+    }
+    const VectorX<Scalar>& right = projected_ ? reduced_ : b_;
+    const Scalar norm = right.norm();
+    report.solves = 1;
+    report.status = solve(right, dv_);
     if (!report) {
         report.where = detail::first_not_finite(equation_, dv_);
         return report;
     }
-    const Scalar norm = b_.norm();
-    b_.noalias() -= equation_.matrix() * dv_;
+    if (projected_) projection_.complete(dv_);
+    b_.noalias() -= A * dv_;
+    if (projected_) {
+        // What the springs leave open along the constraints is for these to give.
+        set_forces([&](Index particle) -> Vector {
+            const Index j = projection_.block(particle);
+            if (j < 0) return Vector::Zero();
+            return -b_.template segment<Dim>(Dim * j) / h;
+        });
+        projection_.project(b_);
+    }
     report.residual = norm > 0 ? static_cast<double>(b_.norm() / norm) : 0;
     return report;
 }
 
+/// @param force  of all that is missing on a particle, N: force(particle)
+template <class System, class Solver>
+template <class Force>
+void ImplicitEuler<System, Solver>::set_forces(Force&& force) {
+    forces_.setZero(Dim, system_->size());
+    for (const auto& [particle, held] : constraints_.held()) {
+        forces_.col(particle) = held.directions * (held.directions.transpose() * force(particle));
+    }
+}
+
 template <class System, class Solver>
 Report ImplicitEuler<System, Solver>::advance(State& state, Scalar h) {
-    const Report report = solve_linearised(state, h);
+    Report report = solve_linearised(state, h);
     if (!report) {
         dv_.setZero();  // no start for the next solve
         return report;
     }
     if constexpr (springs) {
-        if (options_.newton_iterations > 1) {
-            return newton_.step(*system_, state, dv_, h, options_, equation_,
-                                [&](const VectorX<Scalar>& b, VectorX<Scalar>& dx) {
-                                    const Status status = factorize(h);
-                                    return status == Status::ok ? solve(b, dx) : status;
-                                });
+        if (options_.newton_iterations > 1 && dv_.size() > 0) {
+            report = newton_.step(
+                *system_, state, dv_, h, options_, equation_,
+                [&](const VectorX<Scalar>& b, VectorX<Scalar>& dx) {
+                    const Status status = factorize(h);
+                    return status == Status::ok ? solve(b, dx) : status;
+                },
+                [&](Points<Scalar, Dim>& g) { constraints_.filter(g); });
+            if (projected_) {
+                const auto& r = newton_.whole_gradient(*system_);
+                set_forces([&](Index particle) -> Vector { return r.col(particle) / (h * h); });
+            }
+            return report;
         }
     }
     equation_.add_to_velocity(dv_, state);

@@ -14,8 +14,8 @@
 namespace taut {
 
 /// Modal dynamics (D. James, D. Pai, "DyRT", SIGGRAPH 2002): a scene in its lowest modes, each
-/// stepped by its exact recurrence. Stable and exact in time at every h; what is lost is the modes
-/// left out, and whatever is not linear.
+/// stepped by its exact recurrence [T32]. Stable and exact in time at every h; what is lost is the
+/// modes left out, and whatever is not linear.
 ///
 /// A step costs O(r), the positions one pass over the shapes: Dim·n·r numbers of type Shape, which
 /// is what bounds it, so float shapes halve the time.

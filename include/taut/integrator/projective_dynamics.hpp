@@ -182,7 +182,8 @@ Report ProjectiveDynamics<System, Solver>::advance(State& state, Scalar h) {
     u_ = objective_.inertial();
     Scalar value = objective_.evaluate(*system_, u_, g_);
     iterations_ = 0;
-    while (iterations_ < options_.iterations && objective_.residual(g_) > options_.tolerance) {
+    while (iterations_ < options_.iterations &&
+           objective_.force_residual(g_) > options_.tolerance) {
         ++iterations_;
         if (descend(value)) continue;
         if (memory_.empty()) break;
@@ -191,7 +192,7 @@ Report ProjectiveDynamics<System, Solver>::advance(State& state, Scalar h) {
     for (const Index i : free_) state.v.col(i) = u_.col(i) / h;
     state.x += u_;
     Report report;
-    report.residual = objective_.residual(g_);
+    report.residual = objective_.force_residual(g_);
     return report;
 }
 

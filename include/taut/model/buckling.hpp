@@ -14,8 +14,8 @@ namespace taut {
 /// The bending spring of Choi & Ko, "Stable but responsive cloth", SIGGRAPH 2002: pulled, it is
 /// linear; pushed, it answers as a beam that has buckled to a circular arc of its own length,
 ///     T = max(c_b(l − L), k_b κ²/(cos(κL/2) − sinc(κL/2))),  κ = (2/L)·sinc⁻¹(l/L),
-/// the derivative of the arc's bending energy ½k_b κ² L. The beam alone goes from −12k_b/L² at
-/// l → L to −4π²k_b/L² at l → 0; the line closes its jump at l = L.
+/// the derivative of the arc's bending energy ½k_b κ² L [T30]. The beam alone goes from −12k_b/L²
+/// at l → L to −4π²k_b/L² at l → 0; the line closes its jump at l = L.
 ///
 /// T′ ≥ 0 at every length, so K⁺ drops the transverse part alone and is positive semi-definite. The
 /// beam shows where c_b > 31.5 k_b/L³; a softer line is never exceeded. Not convex: it pushes.

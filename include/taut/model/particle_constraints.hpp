@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "../core/error.hpp"
@@ -16,7 +15,8 @@ namespace taut {
 /// 5: a particle held in a plane, on a line, at a point, or moved.
 ///
 /// Constraints on one particle add up: two planes make a line, three a point. One that contradicts
-/// those before it is refused, and names the particle.
+/// those before it is refused, and names the particle; directions closer than 1e-4 rad count as
+/// one.
 template <class Scalar, int Dim>
 class ParticleConstraints {
 public:
@@ -91,7 +91,8 @@ void ParticleConstraints<Scalar, Dim>::add(Held& at, Index particle, const Vecto
     Vector rest = n - at.directions * known;
     const Scalar size = rest.norm();
     const Scalar implied = known.dot(at.speeds);
-    const Scalar parallel = std::sqrt(std::numeric_limits<Scalar>::epsilon());
+    // Nearer directions count as one: the speed implied across them would be 10⁴ times as large.
+    constexpr Scalar parallel = static_cast<Scalar>(1e-4);
     if (size <= parallel) {
         const Scalar scale = std::abs(speed) + at.speeds.cwiseAbs().maxCoeff();
         if (std::abs(speed - implied) > 4 * parallel * scale) {

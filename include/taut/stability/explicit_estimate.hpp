@@ -19,7 +19,8 @@ namespace taut {
 /// An eigenvalue that neither run finds is missed, so this is no bound: nothing may be called safe
 /// by it. Zero modes do not count. Infinity without any other; NaN when K is indefinite.
 /// @param k_max  a bound on the largest eigenvalue of K', 1/s²
-inline double explicit_estimate(const Pencil& pencil, double k_max) {
+template <class Real = double>  // a template: only its callers compile the eigensolver
+Real explicit_estimate(const Pencil& pencil, Real k_max) {
     constexpr Index steps = 80;
     constexpr double good = 0.1;   // residual over |λ| of the vectors that count
     constexpr double zero = 1e-5;  // |λ| of zero modes over √k_max

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "../../core/concepts.hpp"
@@ -70,6 +72,92 @@ EnergyBooks energy_books(const System& system, const State& state, Force& f) {
         books.jerk += static_cast<double>(w * f.col(i).squaredNorm());
     }
     return books;
+}
+
+/// What the energy did on a stretch of time, against the work of external forces, moving pins and
+/// constraints, J.
+template <class System>
+class EnergyAudit {
+public:
+    using State = typename System::State;
+    using Force = typename System::Force;
+
+    /// Starts at `state`.
+    void open(const System& system, const State& state) {
+        read(system, state, pages_[first_]);
+        rewind();
+    }
+    /// Starts where the last stretch ended.
+    void go_on() {
+        first_ = last_;
+        rewind();
+    }
+    /// Forgets all since the start.
+    void rewind() {
+        last_ = first_;
+        work_ = 0;
+        given_ = 0;
+    }
+    /// Steps have led to `state`; their work is by the mean of the forces at both ends of the way.
+    /// @param held  forces of constraints on the way, N, Dim × n, or empty
+    void add_motion(const System& system, const State& state, const Force& held);
+    /// Somebody else has made the last state into this one; its energy is no fault of the steps.
+    void add_response(const System& system, const State& state, Method method, double h) {
+        const double before = pages_[last_].books.kept(method, h);
+        read(system, state, pages_[last_]);
+        given_ += pages_[last_].books.kept(method, h) - before;
+    }
+    /// By how much the energy that steps of h keep has risen beyond all work.
+    double rise(Method method, double h) const {
+        return pages_[last_].books.kept(method, h) - pages_[first_].books.kept(method, h) - work_ -
+               given_;
+    }
+    /// The energy that was there or was moved: what a rise is relative to.
+    double moved() const {
+        const EnergyBooks& start = pages_[first_].books;
+        const double fallen = std::max(0.0, start.gravity - pages_[last_].books.gravity);
+        return start.kinetic + start.elastic + fallen + std::abs(work_) + std::abs(given_);
+    }
+    /// What the rounding of the sums is relative to.
+    double size() const { return moved() + pages_[first_].books.heights; }
+
+private:
+    struct Page {
+        EnergyBooks books;
+        Force x;         // positions, m
+        Force force;     // of springs and gravity, N
+        Force external;  // N
+    };
+    static void read(const System& system, const State& state, Page& page) {
+        page.books = energy_books(system, state, page.force);
+        page.x = state.x;
+        system.external_force(state, page.external);
+    }
+
+    std::array<Page, 3> pages_;
+    std::size_t first_ = 0;
+    std::size_t last_ = 0;
+    double work_ = 0;   // J
+    double given_ = 0;  // by responses, J
+};
+
+template <class System>
+void EnergyAudit<System>::add_motion(const System& system, const State& state, const Force& held) {
+    const Page& from = pages_[last_];
+    std::size_t next = 0;
+    while (next == first_ || next == last_) ++next;
+    Page& to = pages_[next];
+    read(system, state, to);
+    for (Index i = 0; i < system.size(); ++i) {
+        const typename System::Vector path = to.x.col(i) - from.x.col(i);
+        if (system.is_pinned(i)) {
+            work_ -= 0.5 * static_cast<double>((from.force + to.force).col(i).dot(path));
+        } else {
+            work_ += 0.5 * static_cast<double>((from.external + to.external).col(i).dot(path));
+        }
+    }
+    if (held.cols() > 0) work_ += static_cast<double>(held.cwiseProduct(to.x - from.x).sum());
+    last_ = next;
 }
 
 /// The free particle with the most kinetic energy, or −1.

@@ -6,16 +6,51 @@
 
 namespace taut::detail {
 
-/// The exact motion of q̈ + d q̇ + k q = p over one step, p constant:
+/// The exact motion of q̈ + d q̇ + k q = p over one step, p constant [T32]:
 ///     (q⁺, q̇⁺) = A (q, q̇) + p·b,   A = e^(hC),  b = ∫₀ʰ e^(tC) dt·(0, 1),  C = [0 1; −k −d].
 struct ModePropagator {
     double a11, a12, a21, a22;
     double b1, b2;
 
-    /// By series over h/2^m and m doublings A(2t) = A², b(2t) = b + A b: underdamped, critical,
-    /// overdamped, rigid and buckled modes are one case.
+    /// Closed forms of the roots of λ² + dλ + k, real or complex: their powers keep |μ| = |e^(hλ)|
+    /// at any h. A short step and nearly equal roots, where they cancel, go by a series.
     static ModePropagator over(double h, double k, double d) {
         const double rate = std::sqrt(std::abs(k)) + std::abs(d);  // 1/s, of the scaled C
+        const double quarter = d * d / 4 - k;                      // of the discriminant
+        if (!(rate * h > 0.5) || std::abs(quarter) < 1e-2 * rate * rate) {
+            return by_series(h, k, d, rate);
+        }
+        return quarter > 0 ? of_real_roots(h, k, d, std::sqrt(quarter))
+                           : of_complex_roots(h, k, d, std::sqrt(-quarter));
+    }
+
+private:
+    static ModePropagator of_complex_roots(double h, double k, double d, double frequency) {
+        const double decay = std::exp(-d / 2 * h);
+        const double c = decay * std::cos(frequency * h);
+        const double s = decay * std::sin(frequency * h) / frequency;
+        const double a11 = c + d / 2 * s;
+        return {a11, s, -k * s, c - d / 2 * s, (1 - a11) / k, s};
+    }
+
+    static ModePropagator of_real_roots(double h, double k, double d, double half_gap) {
+        const double big = -(d / 2 + std::copysign(half_gap, d));
+        const double small = k / big;
+        const double gap = small - big;
+        const double e_big = std::exp(big * h);
+        const double e_small = std::exp(small * h);
+        const double integral = small == 0 ? h : std::expm1(small * h) / small;
+        const double a12 = (e_small - e_big) / gap;
+        return {(small * e_big - big * e_small) / gap,
+                a12,
+                -k * a12,
+                (small * e_small - big * e_big) / gap,
+                (integral - std::expm1(big * h) / big) / gap,
+                a12};
+    }
+
+    /// Over h/2^m, and m doublings A(2t) = A², b(2t) = b + A b.
+    static ModePropagator by_series(double h, double k, double d, double rate) {
         int doublings = 0;
         double t = h;
         for (; rate * t > 0.5 && doublings < 1000; t /= 2) ++doublings;
@@ -42,8 +77,6 @@ struct ModePropagator {
         for (int i = 0; i < doublings; ++i) m = m.twice();
         return m;
     }
-
-private:
     ModePropagator twice() const {
         return {a11 * a11 + a12 * a21, a11 * a12 + a12 * a22,    a21 * a11 + a22 * a21,
                 a21 * a12 + a22 * a22, b1 + a11 * b1 + a12 * b2, b2 + a21 * b1 + a22 * b2};

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
+
 #include "../../core/status.hpp"
 #include "step_equation.hpp"
 #include "step_objective.hpp"
@@ -20,13 +22,22 @@ public:
     /// @param dv       Δv of the linearised step, of the free particles
     /// @param options  newton_iterations, the linearised one included, and tolerance
     /// @param solve    Status solve(b, du): factorises equation.matrix() = A, du ← A⁻¹ b
-    template <class Options, class Solve>
+    /// @param filter   filter(g), Dim × n: takes what constraints forbid out of moves and forces
+    template <class Options, class Solve, class Filter>
     Report step(const System& system, State& state, const VectorX<Scalar>& dv, Scalar h,
-                const Options& options, StepEquation<System>& equation, Solve&& solve);
+                const Options& options, StepEquation<System>& equation, Solve&& solve,
+                Filter&& filter);
+    /// ∇φ at the last step's end without the filter, Dim × n, kg·m: constraints give it over h².
+    const Points<Scalar, Dim>& whole_gradient(const System& system) {
+        objective_.evaluate(system, u_, g1_);
+        return g1_;
+    }
 
 private:
-    double residual() const { return objective_.residual(g_); }
-    bool line_search(const System& system, const StepEquation<System>& equation, Scalar& value);
+    double residual() const { return objective_.residual(u_, g_); }
+    template <class Filter>
+    bool line_search(const System& system, const StepEquation<System>& equation, Scalar& value,
+                     Filter&& filter);
 
     StepObjective<System> objective_;
     Points<Scalar, Dim> u_, g_;    // iterate, m, and its gradient, kg·m
@@ -35,66 +46,86 @@ private:
     VectorX<Scalar> b_, du_;       // of the free particles
 };
 
-/// Halves du_ until it lowers φ or, where differences of φ drown in rounding, its gradient.
+/// Moves u_ along du_ to where φ is no larger and its slope at most half as steep, by bisection.
+/// Slopes decide, since differences of φ soon drown in rounding, and since a slack spring that
+/// becomes taut bends φ sharply.
 template <class System>
+template <class Filter>
 bool Newton<System>::line_search(const System& system, const StepEquation<System>& equation,
-                                 Scalar& value) {
+                                 Scalar& value, Filter&& filter) {
     const Scalar slope = -b_.dot(du_);
+    Scalar lower = 0, upper = 0;  // φ still falls at `lower`, no longer at `upper` if > 0
     Scalar t = 1;
-    for (int halving = 0; halving < 16; ++halving, t /= 2) {
+    for (int trial = 0; trial < 40; ++trial) {
         u1_ = u_;
         equation.scatter(t, du_, u1_);
         const Scalar next = objective_.evaluate(system, u1_, g1_);
-        const bool lower = next < value + Scalar(1e-4) * t * slope;
-        if (lower || (objective_.not_above(next, value) && g1_.norm() < g_.norm() / 2)) {
+        filter(g1_);
+        equation.gather(g1_, b_);
+        const Scalar bent = b_.dot(du_);
+        const bool below = objective_.not_above(next, value);
+        if (below && bent < -slope / 2 && (bent > slope / 2 || t == 1)) {
             u_.swap(u1_);
             g_.swap(g1_);
             value = next;
             return true;
         }
+        (below && bent < 0 ? lower : upper) = t;
+        t = (lower + upper) / 2;
     }
     return false;
 }
 
 template <class System>
-template <class Options, class Solve>
+template <class Options, class Solve, class Filter>
 Report Newton<System>::step(const System& system, State& state, const VectorX<Scalar>& dv, Scalar h,
-                            const Options& options, StepEquation<System>& equation, Solve&& solve) {
+                            const Options& options, StepEquation<System>& equation, Solve&& solve,
+                            Filter&& filter) {
     objective_.begin(system, state, h);
+    objective_.weigh_energy(system, state);
     u_ = h * state.v;
     equation.scatter(h, dv, u_);
     Scalar value = objective_.evaluate(system, u_, g_);
-    const Scalar inertial = objective_.evaluate(system, objective_.inertial(), g1_);
+    filter(g_);
+    u1_ = objective_.inertial() - u_;
+    filter(u1_);
+    u1_ += u_;
+    const Scalar inertial = objective_.evaluate(system, u1_, g1_);
     if (!(value <= inertial)) {
-        u_ = objective_.inertial();
+        filter(g1_);
+        u_.swap(u1_);
         g_.swap(g1_);
         value = inertial;
     }
+    Report report;
+    report.solves = 1;
     bool stuck = false;
-    for (int i = 1; i < options.newton_iterations && !stuck && residual() > options.tolerance;
-         ++i) {
+    const auto open = [&] {
+        return residual() > options.tolerance &&
+               objective_.force_residual(g_) > objective_.rounding(system);
+    };
+    while (report.solves < options.newton_iterations && !stuck && open()) {
+        ++report.solves;
         x_ = state.x + u_;
         equation.gather(g_, b_);
         b_ = -b_;
         du_.setZero(b_.size());
         // Close to the solution the true K is definite and converges quadratically, K⁺ linearly.
-        Status status = Status::not_positive_definite;
-        if (residual() < 0.1) {
+        report.status = Status::not_positive_definite;
+        if (objective_.force_residual(g_) < 0.1) {
             equation.update_values(system, state.x, x_, h, false);
-            status = solve(b_, du_);
+            report.status = solve(b_, du_);
         }
-        if (status != Status::ok) {
+        if (!report) {
             du_.setZero();
             equation.update_values(system, state.x, x_, h, true);
-            status = solve(b_, du_);
+            report.status = solve(b_, du_);
         }
-        if (status != Status::ok) return {status};
-        stuck = !line_search(system, equation, value);
+        if (!report) return report;
+        stuck = !line_search(system, equation, value, filter);
     }
-    Report report;
     report.residual = residual();
-    const bool rounding = stuck && report.residual <= objective_.rounding(system);
-    if (!(report.residual <= options.tolerance) && !rounding) {  // NaN too
+    if (open() || std::isnan(report.residual)) {
         report.status = Status::not_converged;
         return report;
     }

@@ -28,12 +28,21 @@ public:
 
     /// A step of h, s, from `state`.
     void begin(const System& system, const State& state, Scalar h);
+    /// After begin(), for energy_residual().
+    void weigh_energy(const System& system, const State& state);
     /// w, Dim × n, m, and hv for pinned particles.
     const Moves& inertial() const { return w_; }
     /// ‖∇φ‖ relative to that of the inertial move or to ‖Mw‖.
-    double residual(const Moves& g) const {
+    double force_residual(const Moves& g) const {
         const double norm = g.template cast<double>().norm();  // a float's square may overflow
         return norm == 0 ? 0 : norm / scale_;                  // NaN stays
+    }
+    /// The energy that a move u leaves open [T24], |v⁺ᵀr| = |uᵀ∇φ|/h², relative to kinetic and
+    /// elastic energy at the start and the work of gravity and external force along u.
+    double energy_residual(const Moves& u, const Moves& g) const;
+    /// The larger one of both.
+    double residual(const Moves& u, const Moves& g) const {
+        return std::max(force_residual(g), energy_residual(u, g));
     }
     /// @param g  ← ∇φ(u), Dim × n, kg·m, zero for pinned particles   @returns φ(u), kg·m²
     Scalar evaluate(const System& system, const Moves& u, Moves& g);
@@ -59,6 +68,8 @@ private:
     Moves x_;                      // x + u of the last evaluation
     Moves w_;                      // the inertial move
     Moves f_;                      // external force, N; then ∇φ(w)
+    Moves load_;                   // gravity and external force, h² times, kg·m
+    double energy_ = 0;            // kinetic and elastic at the start, h² times, kg·m²
     std::vector<Damper> dampers_;  // of D without its mass-proportional part
     double scale_ = 0;             // what ‖∇φ‖ is relative to, kg·m
 };
@@ -79,6 +90,34 @@ void StepObjective<System>::begin(const System& system, const State& state, Scal
     set_dampers(system, state);
     evaluate(system, w_, f_);
     scale_ = std::max(std::sqrt(momentum2), f_.template cast<double>().norm());
+}
+
+template <class System>
+void StepObjective<System>::weigh_energy(const System& system, const State& state) {
+    energy_ = 0;
+    load_ = w_ - h_ * state.v;
+    for (Index i = 0; i < system.size(); ++i) {
+        load_.col(i) *= system.mass(i);  // 0 if pinned
+        if (system.is_pinned(i)) continue;
+        energy_ += 0.5 * static_cast<double>(system.mass(i)) *
+                   state.v.col(i).template cast<double>().squaredNorm();
+    }
+    system.for_each_set([&](const auto& set) {
+        using Law = typename std::decay_t<decltype(set)>::Law;
+        for (std::size_t s = 0; s < set.a.size(); ++s) {
+            const Scalar l = (start_.col(set.b[s]) - start_.col(set.a[s])).norm();
+            energy_ += static_cast<double>(Law::energy(set.parameters[s], set.rest_length[s], l));
+        }
+    });
+    energy_ *= static_cast<double>(h_) * static_cast<double>(h_);
+}
+
+template <class System>
+double StepObjective<System>::energy_residual(const Moves& u, const Moves& g) const {
+    const auto moves = u.template cast<double>();
+    const double open = std::abs(moves.cwiseProduct(g.template cast<double>()).sum());
+    const double work = std::abs(moves.cwiseProduct(load_.template cast<double>()).sum());
+    return open == 0 ? 0 : open / (energy_ + work);
 }
 
 template <class System>

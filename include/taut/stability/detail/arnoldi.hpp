@@ -47,7 +47,8 @@ ComplexRitzPairs arnoldi(Apply&& apply, Index n, Index steps) {
             q = w / next;
         }
     }
-    const Eigen::EigenSolver<Eigen::MatrixXd> projected(H.topLeftCorner(m, m));
+    H.conservativeResize(m, m);  // a block would have the eigensolver compiled a second time
+    const Eigen::EigenSolver<Eigen::MatrixXd> projected(H);
     ComplexRitzPairs pairs;
     pairs.value = projected.eigenvalues();
     pairs.inner = projected.eigenvectors();

@@ -14,6 +14,8 @@
 
 namespace taut::detail {
 
+// Templates, though of one type: only their callers compile the eigensolvers.
+
 inline constexpr Index dense_low_modes = 600;  // unknowns up to which a dense eigensolver is used
 
 /// Some of the lowest modes of M⁻¹K⁺ above the zero modes, N × r, M-orthonormal: all up to
@@ -22,7 +24,8 @@ inline constexpr Index dense_low_modes = 600;  // unknowns up to which a dense e
 /// Large systems: Krylov vectors of B = K'(K' + σ)⁻², which is 0 on the zero modes, however many
 /// mechanisms a net has, and largest on the softest modes above them; modes softer than 1e-7·k_max
 /// are among these. One of several modes with the same frequency may stand for all of them.
-inline Eigen::MatrixXd low_modes(const Pencil& pencil) {
+template <class Real = double>
+Eigen::MatrixXd low_modes(const Pencil& pencil) {
     const Index N = pencil.size();
     if (N == 0) return {};
     const Eigen::VectorXd root = pencil.mass().cwiseSqrt();
@@ -67,7 +70,8 @@ inline Eigen::MatrixXd low_modes(const Pencil& pencil) {
 }
 
 /// An orthonormal basis of what the columns span.
-inline Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& U) {
+template <class Real = double>
+Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& U) {
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(U);
     qr.setThreshold(1e-8);
     return qr.householderQ() * Eigen::MatrixXd::Identity(U.rows(), qr.rank());
@@ -76,7 +80,8 @@ inline Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& U) {
 /// The relative change of up to ten of the lowest frequencies above the zero modes from one pencil
 /// to another with the same K and other masses: by Rayleigh and Ritz in the space of the low modes
 /// of both, so that a mode missed on one side is found on the other.
-inline std::vector<double> frequency_changes(const Pencil& before, const Pencil& after) {
+template <class Real = double>
+std::vector<double> frequency_changes(const Pencil& before, const Pencil& after) {
     const Eigen::MatrixXd low = low_modes(before);
     const Eigen::MatrixXd low_after = low_modes(after);
     if (low.cols() == 0 || low_after.cols() == 0) return {};

@@ -128,7 +128,7 @@ Eigen::VectorXd quick_mode(const SpringPencil<Dim>& pencil, const Combination& c
     Eigen::VectorXf beta(most);   // beside it
     const Eigen::VectorXd scattered = scattered_vector(pencil.size());
     Eigen::VectorXf q = scattered.cast<float>().normalized();
-    if (start.size() == A.size()) q += 4 * A.coordinates(start).normalized();
+    if (start.size() == A.size()) q += 4.F * A.coordinates(start).normalized();
     q.normalize();
     Eigen::VectorXf w;
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> projected;

@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
-#include <taut/integrator/constrained_implicit_euler.hpp>
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/model/spring_system.hpp>
+#include <taut/solver/conjugate_gradient.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/dense.hpp"
@@ -13,8 +13,9 @@
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
-using taut::ConstrainedImplicitEuler;
+namespace taut_test::implicit_constraints_test {
+
+using taut::ImplicitEuler;
 using taut::ParticleConstraints;
 
 namespace {
@@ -30,21 +31,7 @@ Springs draw_system(Random& random) {
 
 }  // namespace
 
-TEST_CASE("constrained_implicit_euler: without constraints it is implicit Euler", "[integrator]") {
-    Random random(1);
-    const auto system = draw_system(random);
-    auto state = random_state(random, system);
-    auto expected = state;
-    ConstrainedImplicitEuler stepper(system);
-    taut::ImplicitEuler reference(system);
-    REQUIRE(stepper.step(state, 0.02, 5));
-    REQUIRE(reference.step(expected, 0.02, 5));
-    CHECK(distance(state.x, expected.x) <= Tolerance<double>::accumulated);
-    CHECK(distance(state.v, expected.v) <= Tolerance<double>::accumulated * 10);
-    CHECK((stepper.constraint_forces().array() == 0).all());
-}
-
-TEST_CASE("constrained_implicit_euler: a particle held at a point moves as a pinned one",
+TEST_CASE("implicit_constraints: a particle held at a point moves as a pinned one",
           "[integrator]") {
     Random random(2);
     auto system = draw_system(random);
@@ -53,15 +40,15 @@ TEST_CASE("constrained_implicit_euler: a particle held at a point moves as a pin
     auto expected = state;
     auto pinned = system;
     pinned.pin(5);
-    ConstrainedImplicitEuler stepper(system);
+    ImplicitEuler stepper(system);
     stepper.constraints().fix(5);
-    taut::ImplicitEuler reference(pinned);
+    ImplicitEuler reference(pinned);
     REQUIRE(stepper.step(state, 0.02, 5));
     REQUIRE(reference.step(expected, 0.02, 5));
     CHECK(distance(state.x, expected.x) <= Tolerance<double>::accumulated);
 }
 
-TEMPLATE_TEST_CASE("constrained_implicit_euler: planes, lines and prescribed velocities are held",
+TEMPLATE_TEST_CASE("implicit_constraints: planes, lines and prescribed velocities are held",
                    "[integrator]", float, double) {
     Random random(3);
     const auto system = random_system<TestType, 3>(random);
@@ -71,7 +58,7 @@ TEMPLATE_TEST_CASE("constrained_implicit_euler: planes, lines and prescribed vel
     const Vector normal = random.vector<TestType, 3>(-1, 1);
     const Vector line = random.vector<TestType, 3>(-1, 1);
     const Vector velocity = random.vector<TestType, 3>(-1, 1);
-    ConstrainedImplicitEuler stepper(system);
+    ImplicitEuler stepper(system);
     stepper.constraints().hold_in_plane(3, normal, TestType(0.25));
     stepper.constraints().hold_on_line(4, line);
     stepper.constraints().prescribe(6, velocity);
@@ -88,13 +75,13 @@ TEMPLATE_TEST_CASE("constrained_implicit_euler: planes, lines and prescribed vel
     CHECK(distance(state.v.col(5), start.v.col(5)) > 0.1);
 }
 
-TEST_CASE("constrained_implicit_euler: with its constraint forces a step is that of free particles",
+TEST_CASE("implicit_constraints: with its constraint forces a step is that of free particles",
           "[integrator]") {
     // The same forces as external ones, and no constraint, give the same step.
     Random random(4);
     auto system = draw_system(random);
     const auto start = random_state(random, system);
-    ConstrainedImplicitEuler stepper(system);
+    ImplicitEuler stepper(system);
     stepper.constraints().hold_in_plane(3, {1, 2, -1}, 0.5);
     stepper.constraints().hold_on_line(4, {0, 1, 1});
     stepper.constraints().fix(7);
@@ -107,12 +94,12 @@ TEST_CASE("constrained_implicit_euler: with its constraint forces a step is that
     CHECK((forces.col(5).array() == 0).all());
     system.set_external_force([forces](const auto&, auto& f) { f += forces; });
     auto pushed = start;
-    taut::ImplicitEuler free_stepper(system);
+    ImplicitEuler free_stepper(system);
     REQUIRE(free_stepper.step(pushed, 0.05));
     CHECK(distance(held.v, pushed.v) <= Tolerance<double>::accumulated * largest(held.v));
 }
 
-TEST_CASE("constrained_implicit_euler: constraints of a linear system, and their release",
+TEST_CASE("implicit_constraints: constraints of a linear system, and their release",
           "[integrator]") {
     Random random(5);
     const auto springs = random_system<double, 2>(random);
@@ -120,7 +107,7 @@ TEST_CASE("constrained_implicit_euler: constraints of a linear system, and their
     pose.x *= 3;
     const auto linear = springs.linearize(pose);
     auto u = linear.initial_state();
-    ConstrainedImplicitEuler stepper(linear);
+    ImplicitEuler stepper(linear);
     stepper.constraints().fix(4);
     REQUIRE(stepper.step(u, 0.1, 5));
     CHECK(u.x(0, 4) == 0);
@@ -128,9 +115,61 @@ TEST_CASE("constrained_implicit_euler: constraints of a linear system, and their
     stepper.constraints().release(4);
     auto expected = u;
     REQUIRE(stepper.step(u, 0.1));
-    taut::ImplicitEuler reference(linear);
+    ImplicitEuler reference(linear);
     REQUIRE(reference.step(expected, 0.1));
     CHECK(distance(u.v, expected.v) <= Tolerance<double>::accumulated);
+}
+
+TEST_CASE("implicit_constraints: filtered conjugate gradients take the direct solver's step",
+          "[integrator]") {
+    Random random(8);
+    const auto system = draw_system(random);
+    auto by_factors = random_state(random, system);
+    auto by_gradients = by_factors;
+    ImplicitEuler direct(system);
+    ImplicitEuler<Springs, taut::ConjugateGradient<double, 3>> filtered(system);
+    filtered.configure([](auto& solver) { solver.setTolerance(1e-12); });
+    const auto hold = [](auto& stepper, int phase) {
+        auto& constraints = stepper.constraints();
+        constraints.clear();
+        constraints.hold_in_plane(3, {1, -1, 2}, 0.5 * phase);
+        if (phase != 1) constraints.prescribe(6, {0, 1.0 * phase, 0});
+        if (phase != 2) constraints.hold_on_line(4, {1, 1, 0});
+    };
+    for (const int phase : {0, 1, 2}) {
+        hold(direct, phase);
+        hold(filtered, phase);
+        REQUIRE(direct.step(by_factors, 0.02, 3));
+        REQUIRE(filtered.step(by_gradients, 0.02, 3));
+        CHECK(distance(by_factors.v, by_gradients.v) <= 1e-9 * largest(by_factors.v));
+        CHECK(distance(direct.constraint_forces(), filtered.constraint_forces()) <=
+              1e-7 * largest(direct.constraint_forces()));
+    }
+}
+
+TEST_CASE("implicit_constraints: Newton's step holds them and its forces stand in for them",
+          "[integrator]") {
+    Random random(9);
+    auto system = random_system<double, 3>(random);
+    const auto start = random_state(random, system);
+    ImplicitEuler<Springs>::Options options;
+    options.newton_iterations = 100;
+    options.tolerance = 1e-12;
+    ImplicitEuler stepper(system, options);
+    stepper.constraints().hold_in_plane(3, {1, 2, -1}, 0.5);
+    stepper.constraints().prescribe(7, {0, 0, 1});
+    auto held = start;
+    REQUIRE(stepper.step(held, 0.05));
+    CHECK_THAT(Eigen::Vector3d(1, 2, -1).normalized().dot(held.v.col(3)),
+               WithinAbs(0.5, Tolerance<double>::accumulated));
+    CHECK(distance(held.v.col(7), Eigen::Vector3d(0, 0, 1)) <= Tolerance<double>::accumulated);
+    const auto forces = stepper.constraint_forces();
+    CHECK((forces.col(5).array() == 0).all());
+    system.set_external_force([forces](const auto&, auto& f) { f += forces; });
+    auto pushed = start;
+    ImplicitEuler free_stepper(system, options);
+    REQUIRE(free_stepper.step(pushed, 0.05));
+    CHECK(distance(held.v, pushed.v) <= 1e-8 * largest(held.v));
 }
 
 TEST_CASE("particle_constraints: they add up, and the filter takes their part away", "[model]") {
@@ -174,12 +213,29 @@ TEST_CASE("particle_constraints: contradictions and bad values are named by thei
     const auto system = random_system<double, 2>(random);
     auto state = random_state(random, system);
     const auto before = state;
-    ConstrainedImplicitEuler stepper(system);
+    ImplicitEuler stepper(system);
     stepper.constraints().fix(8);
     const auto report = stepper.step(state, 0.01);
     CHECK(report.status == taut::Status::invalid_state);
     CHECK(report.where == 8);
     CHECK(same_bits(state, before));
+}
+
+TEST_CASE("particle_constraints: directions that are nearly one do not make a speed across them",
+          "[model][bad_input]") {
+    for (const double angle : {1e-3, 1e-5, 1e-9}) {
+        INFO("angle " << angle);
+        ParticleConstraints<double, 2> constraints;
+        constraints.hold(2, {1, 0}, 0);
+        const auto hold = [&] { constraints.hold(2, {std::cos(angle), std::sin(angle)}, 1); };
+        if (angle > 1e-4) {
+            hold();
+            CHECK_THAT(constraints.held().at(2).velocity().norm(),
+                       WithinRel(1 / std::sin(angle), 1e-9));
+        } else {
+            CHECK(missing(message_of(hold), {"particle 2", "contradicts"}) == "");
+        }
+    }
 }
 
 TEST_CASE("particle_constraints: what is refused changes nothing", "[integrator][bad_input]") {
@@ -192,3 +248,5 @@ TEST_CASE("particle_constraints: what is refused changes nothing", "[integrator]
     CHECK_THROWS_AS(constraints.hold_on_line(3, {1, 0, 0}), std::invalid_argument);
     CHECK(constraints.held().at(3).count == 1);
 }
+
+}  // namespace taut_test::implicit_constraints_test
