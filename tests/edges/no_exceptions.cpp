@@ -7,6 +7,10 @@
 #error "this unit must be compiled without exceptions and RTTI: the flags were lost"
 #endif
 
+#if defined(_GLIBCXX_IOSTREAM) || defined(_LIBCPP_IOSTREAM)
+#error "a header includes <iostream>, whose static constructors every unit would pay for"
+#endif
+
 // Members of a template are compiled only when asked for: ask for all of them.
 template class taut::SpringSystem<double, 3>;
 template class taut::SpringSystem<float, 2>;
@@ -15,6 +19,9 @@ template class taut::ExplicitEuler<taut::SpringSystem<double, 3>>;
 template class taut::SymplecticEuler<taut::SpringSystem<double, 3>>;
 template class taut::VelocityVerlet<taut::SpringSystem<double, 3>>;
 template class taut::ImplicitEuler<taut::SpringSystem<double, 3>>;
+template class taut::Guarded<taut::SymplecticEuler<taut::SpringSystem<float, 3>>>;
+template struct taut::StateView<float, 3>;
+template struct taut::StateView<double, 1>;
 template class taut::Stability<double>;
 
 int main() {

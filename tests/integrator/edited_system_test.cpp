@@ -13,7 +13,7 @@
 // A stepper that goes on while springs are cut, added and changed and pins come and go must do what
 // one would that has never seen the scene before.
 
-using namespace taut_test;
+namespace taut_test::edited_system_test {
 
 namespace {
 
@@ -81,3 +81,5 @@ TEST_CASE("edited system: a guard certifies again, and lets a torn cloth fall", 
     CHECK(fallen > 0.4);
     CHECK(state.x(2, 0) == cloth.initial_state().x(2, 0));
 }
+
+}  // namespace taut_test::edited_system_test

@@ -18,7 +18,8 @@
 #include "../support/message.hpp"
 #include "../support/random_system.hpp"
 
-using namespace taut_test;
+namespace taut_test::state_view_test {
+
 using taut::StateView;
 using taut::Status;
 
@@ -195,3 +196,5 @@ TEST_CASE("state_view: wrong layouts are named", "[integrator]") {
                   }),
                   {"copy_from", "4 positions", "2 particles"}) == "");
 }
+
+}  // namespace taut_test::state_view_test

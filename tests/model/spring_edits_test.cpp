@@ -10,7 +10,8 @@
 #include "../support/message.hpp"
 #include "../support/random_system.hpp"
 
-using namespace taut_test;
+namespace taut_test::spring_edits_test {
+
 using taut::Hookean;
 
 namespace {
@@ -153,3 +154,5 @@ TEST_CASE("spring edits: wrong ones name index and value, and change nothing", "
     says([&] { system.set_stiffness(2, std::numeric_limits<double>::quiet_NaN()); },
          {"set_parameters(2)", "stiffness is nan"});
 }
+
+}  // namespace taut_test::spring_edits_test
