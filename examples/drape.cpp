@@ -89,6 +89,13 @@ void print_start(const Options& options, const example::Scene& scene, const Plan
                 static_cast<long long>(plan.spans * plan.steps), plan.frames, plan.frame);
 }
 
+/// The end of a sentence that says which step is too large.
+const char* cure(const Options& options) {
+    if (!options.implicit()) return "; stability_report says which steps are safe";
+    if (options.integrator == "newton" || options.integrator == "projective") return "";
+    return ", which makes one linearised solve of it; --integrator newton solves the step itself";
+}
+
 int simulate(const Options& options) {
     const auto scene = example::make_scene(options.scene);
     const Cloth cloth = make_cloth(options, scene);
@@ -103,12 +110,10 @@ int simulate(const Options& options) {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     record.close();
     if (!outcome.trouble.empty()) {
-        std::fprintf(
-            stderr,
-            "drape: the simulation diverged in the frame after %.4g s: %s.\n"
-            "The step %.4e s is too large for this scene and integrator; stability_report says "
-            "which steps are safe.\n",
-            state.time, outcome.trouble.c_str(), plan.h);
+        std::fprintf(stderr,
+                     "drape: the simulation diverged in the frame after %.4g s: %s.\n"
+                     "The step %.4e s is too large for this scene and integrator%s.\n",
+                     state.time, outcome.trouble.c_str(), plan.h, cure(options));
         return diverged;
     }
     std::printf("%.4g s simulated in %.3g s; highest energy %.3e J above the start\n", state.time,

@@ -70,8 +70,8 @@ inline void Options::add_motion(CLI::App& app) {
     app.add_flag("--guard", guard,
                  "watch the energy of every frame, and take back one that gains any");
     app.add_option("--step", step,
-                   "largest time step, s (default: 0.95 of the any-pose limit; implicit ones: a "
-                   "frame, with --collide at most 1/240 s)")
+                   "largest time step, s (default: 0.95 of the any-pose limit; implicit and bdf2: "
+                   "1/60 s; newton and projective: a frame; with --collide at most 1/240 s)")
         ->check(example::positive());
     app.add_option("--duration", duration, "simulated time, s")
         ->check(example::positive())
