@@ -123,6 +123,7 @@ def energy(folder):
     high = max(plot.get_ylim()[1] for plot in plots)
     for plot in plots:
         plot.set_ylim(low, high)
+        plot.set_yticks([-1, 0, 1, 1e3, 1e6, 1e9, 1e12])
     save(figure, folder, "energy")
 
 
@@ -130,7 +131,7 @@ def guard(folder):
     figure, (plot,) = axes("time, s", "kinetic energy, J")
     names = {"bare": "bare, at the proved step", "guarded": "guarded"}
     for (colour, dash), ((method,), part) in zip(STYLES, groups(rows(folder, "guard"), "method").items()):
-        part = part[1:]  # at rest
+        part = [row for row in part if 0 < float(row["kinetic_J"]) < 1e100]  # from rest to overflow
         plot.semilogy(column(part, "time_s"), column(part, "kinetic_J"), color=colour, linestyle=dash, marker=".",
                       label=f"{names[method]}: {part[-1]['substeps']} substeps a frame")
     plot.legend(fontsize=8)
