@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 // The numbers behind the figures of docs/systems: one CSV file a figure, written into the folder
-// given by --csv. scripts/systems_figures.py draws them. Nothing is timed: two runs give the same
-// files.
+// given by --csv. scripts/systems_figures.py draws them. Nothing is timed: one
+// build gives the same files at every run.
 
 #include <cmath>
 #include <cstdio>
