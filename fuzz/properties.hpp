@@ -107,7 +107,7 @@ void require_wrappers(Bytes& bytes, const System& system, const typename System:
     require_steps(nonlinear, state, h);
     taut::ProjectiveDynamics<System> projective(system);
     require_steps(projective, state, h);
-    taut::ConstrainedImplicitEuler<System> constrained(system);
+    taut::ImplicitEuler<System> constrained(system, newton);
     if (system.size() > 0) {
         const Index held = bytes.below(system.size());
         const auto direction = place<Scalar, System::Dim>(bytes);
