@@ -20,8 +20,8 @@ struct Plan {
     int frames = 0;
     double frame = 0;  // s
     taut::Index spans = 1;
-    taut::Index steps = 1;  // at first, with a guard
-    double h = 0;           // s
+    taut::Index steps = 1;  // at least, with a guard
+    double h = 0;           // s, at most
 
     double span() const { return frame / static_cast<double>(spans); }
 };
@@ -93,14 +93,16 @@ inline Advance make_motion(const Options& options, const Cloth& cloth, const Pla
     return plain_or_guarded<taut::SymplecticEuler<Cloth>>(options.guard, cloth, plan);
 }
 
+/// A particle that falls at 3 m/s enters an obstacle by 12 mm within this time, s.
+constexpr double between_contacts = 1.0 / 240;
+
 /// The step that --step leaves open, s. Throws when there is none.
 inline double default_step(const Options& options, const Cloth& cloth, double frame) {
-    // One linearised solve is wrong about springs that turn taut in a long step. A particle that
-    // falls at 3 m/s enters an obstacle by 12 mm before contacts are resolved.
+    // One linearised solve is wrong about springs that turn taut in a long step.
     const bool linearised = options.integrator == "implicit" || options.integrator == "bdf2";
     const double usual = linearised ? 1.0 / 60 : frame;
-    const double between_contacts = options.collide.empty() ? frame : 1.0 / 240;
-    const double longest = std::min({frame, usual, between_contacts});
+    const double contact = options.collide.empty() ? frame : between_contacts;
+    const double longest = std::min({frame, usual, contact});
     if (options.implicit()) return longest;
     const auto limit = taut::any_pose_limit(cloth);
     if (limit.unbounded()) return longest;
@@ -127,7 +129,14 @@ inline Plan make_plan(const Options& options, const Cloth& cloth) {
     const auto steps = std::max<taut::Index>(
         1, static_cast<taut::Index>(std::ceil(plan.frame / wanted * (1 - 1e-12))));
     plan.h = plan.frame / static_cast<double>(steps);
-    (options.collide.empty() ? plan.steps : plan.spans) = steps;
+    if (options.collide.empty()) {
+        plan.steps = steps;
+    } else {
+        // A guard audits every span: not more of them than contacts need.
+        const auto contacts = static_cast<taut::Index>(std::ceil(plan.frame / between_contacts));
+        plan.spans = options.guard ? std::min(steps, contacts) : steps;
+        plan.steps = (steps + plan.spans - 1) / plan.spans;
+    }
     return plan;
 }
 
