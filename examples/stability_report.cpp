@@ -12,6 +12,9 @@
 #include "common/main.hpp"
 #include "common/matrix_market.hpp"
 #include "common/naming.hpp"
+#include "common/output_text.hpp"
+#include "common/page.hpp"
+#include "common/page_data.hpp"
 #include "common/report.hpp"
 #include "common/scene.hpp"
 
@@ -34,6 +37,7 @@ struct Options {
     int blame = 0;          // springs and particles to name
     double want_step = 0;   // s; 0: none
     std::string json;
+    std::string html;
 };
 
 constexpr double proof_tightness = 1e-6;
@@ -84,13 +88,19 @@ Findings report_on_scene(const Options& options) {
     found.particles = scene.system.size();
     found.springs = scene.system.spring_count();
     const auto analysis = std::chrono::steady_clock::now();
-    analyse(taut::Stability<double>(scene.system, state), options, found);
+    const taut::Stability<double> stability(scene.system, state);
+    analyse(stability, options, found);
     found.any_pose =
         taut::any_pose_limit(scene.system, options.proof || options.any_pose ? proof_tightness : 0);
     if (found.remedies) {
         found.remedies->added_mass = taut::added_mass(scene.system, state, options.want_step);
     }
     found.analysis = seconds_since(analysis);
+    if (!options.html.empty()) {
+        found.page = example::page_data(stability, found, scene.system.rayleigh());
+        example::add_mesh(found.page, scene, stability);
+        example::add_runs(found.page, scene, stability, found.symplectic_euler);
+    }
     return found;
 }
 
@@ -118,8 +128,14 @@ Findings report_on_matrices(const Options& options) {
     found.setup = seconds_since(start);
     found.name = options.stiffness_matrix;
     const auto analysis = std::chrono::steady_clock::now();
-    analyse(taut::Stability<double>(system), options, found);
+    const taut::Stability<double> stability(system);
+    analyse(stability, options, found);
     found.analysis = seconds_since(analysis);
+    if (!options.html.empty()) {
+        std::optional<taut::RayleighDamping> undamped;
+        if (options.damping_matrix.empty()) undamped.emplace();
+        found.page = example::page_data(stability, found, undamped);
+    }
     return found;
 }
 
@@ -145,6 +161,7 @@ int run(int argc, char** argv) {
         ->check(example::positive());
     app.add_option("--json", options.json,
                    "write the findings as JSON (- is stdout, without table)");
+    app.add_option("--html", options.html, "write the findings as one page to look at");
     for (const char* other : {"MESH", "--scene", "--size", "--d0", "--alpha", "--pin", "--stretch",
                               "--bend", "--mass", "--any-pose"}) {
         K->excludes(app.get_option(other));
@@ -158,6 +175,7 @@ int run(int argc, char** argv) {
         "  What makes 1/240 s safe?           stability_report cloth.obj --want-step 0.004167\n"
         "  Which damping suits my step?       stability_report cloth.obj --step 1e-4 --d0 0.5\n"
         "  How many mechanisms does it have?  stability_report cloth.obj --zero-modes\n"
+        "  Can I look at it?                  stability_report cloth.obj --html report.html\n"
         "  And my own matrices?               stability_report --stiffness-matrix K.mtx "
         "--mass-matrix M.mtx");
     CLI11_PARSE(app, argc, argv)
@@ -169,7 +187,10 @@ int run(int argc, char** argv) {
         options.stiffness_matrix.empty() ? report_on_scene(options) : report_on_matrices(options);
     if (options.json != "-") example::print_table(found, options.scene.d0);
     if (!options.json.empty())
-        example::write_json(example::to_json(found, options.scene.d0), options.json);
+        example::write_text(example::to_json(found, options.scene.d0).dump(2), "--json",
+                            options.json);
+    if (!options.html.empty())
+        example::write_text(example::page(found, options.scene.d0), "--html", options.html);
     return 0;
 }
 

@@ -5,13 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <stdexcept>
 #include <string>
-#include <system_error>
 #include <taut/taut.hpp>
 #include <vector>
 
@@ -49,6 +45,7 @@ struct Findings {
     taut::AlphaWindow window;
     double setup = 0;     // s
     double analysis = 0;  // s
+    Json page;            // what only the HTML page shows; null without --html
 };
 
 /// null: none is safe, or none is known to fail. "unbounded": every step is safe.
@@ -247,39 +244,6 @@ inline void print_table(const Findings& found, double d0) {
     if (!found.particles_to_blame.empty()) print_blame(found);
     if (found.remedies) print_remedies(*found.remedies);
     std::printf("Seconds: setup %.3f, analysis %.3f\n", found.setup, found.analysis);
-}
-
-/// A file is written beside the old one first, so that a failure leaves that one as it was; a
-/// device or a FIFO must stay what it is.
-inline void write_json(const Json& json, const std::string& path) {
-    if (path == "-") {
-        std::printf("%s\n", json.dump(2).c_str());
-        return;
-    }
-    namespace fs = std::filesystem;
-    std::error_code failed;
-    const auto write = [&](const fs::path& to) {
-        std::ofstream file(to);
-        file << json.dump(2) << '\n';
-        file.close();
-        return static_cast<bool>(file);
-    };
-    bool written = false;
-    if (fs::exists(path, failed) && !fs::is_regular_file(path, failed)) {
-        written = write(path);
-    } else {
-        fs::path target = path;
-        for (int links = 0; links < 40 && fs::is_symlink(target, failed); ++links)
-            target = target.parent_path() / fs::read_symlink(target, failed);
-        fs::path draft = target;
-        draft += ".part";
-        while (fs::exists(fs::symlink_status(draft, failed))) draft += "_";
-        written = !fs::is_symlink(target, failed) && write(draft);
-        if (written) fs::rename(draft, target, failed);
-        written = written && !failed;
-        if (!written) fs::remove(draft, failed);
-    }
-    if (!written) throw std::runtime_error("--json: " + path + " cannot be written");
 }
 
 }  // namespace example

@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+"use strict";
+
+const data = JSON.parse(document.getElementById("data").textContent);
+const byId = (id) => document.getElementById(id);
+const fill = (name, text) => document.querySelector(`[data-fill="${name}"]`).replaceChildren(text);
+const plot = (name) => document.querySelector(`[data-plot="${name}"]`);
+const canvasOf = (name) => document.querySelector(`[data-mesh="${name}"]`);
+const whole = (n) => n.toLocaleString("en-US");
+
+// ---- words ----
+
+function limitSentence(limit) {
+  const { certified, refuted } = bracket(limit);
+  if (certified === Infinity) return "every step is stable";
+  if (certified > 0 && refuted < Infinity) return `up to ${seconds(certified)} is proved, from ${seconds(refuted)} on it fails`;
+  if (certified > 0) return `up to ${seconds(certified)} is proved`;
+  return "no step is proved";
+}
+
+function writeHead() {
+  const { findings } = data;
+  document.title = `${data.name}: stability report`;
+  fill("name", data.name.split("/").pop());
+  const parts = [];
+  if (findings.particles !== null) parts.push(`${whole(findings.particles)} particles`, `${whole(findings.springs)} springs`);
+  parts.push(`${whole(findings.degrees_of_freedom)} degrees of freedom`);
+  fill("scene", parts.join(", "));
+  const fact = (name, limit) => {
+    const { certified } = bracket(limit);
+    const [value, unit] = certified === Infinity ? ["every step", ""] : certified > 0 ? seconds(certified).split("\u00a0") : ["none", ""];
+    return [name, value, unit];
+  };
+  const facts = [fact("Symplectic Euler, certified at this pose", findings.symplectic_euler)];
+  if (findings.any_pose.cause) facts.push(fact("Symplectic Euler, certified while it moves", findings.any_pose));
+  const stiffest = findings.k_max.upper;
+  facts.push(["Fastest vibration, at most", ...(stiffest > 0 ? frequency(Math.sqrt(stiffest) / (2 * Math.PI)) : ["none", ""])]);
+  byId("facts").replaceChildren(
+    ...facts.map(([name, value, unit]) => {
+      const box = document.createElement("div");
+      const dt = document.createElement("dt");
+      const dd = document.createElement("dd");
+      dt.textContent = name;
+      const small = document.createElement("small");
+      small.textContent = unit && `\u00a0${unit}`;
+      dd.append(value, small);
+      box.append(dt, dd);
+      return box;
+    }),
+  );
+  const price = bracket(findings.any_pose.cause ? findings.any_pose : findings.symplectic_euler);
+  const frame = price.certified > 0 && price.certified < Infinity ? Math.ceil(1 / 60 / price.certified) : 0;
+  fill(
+    "lede",
+    `Symplectic Euler: ${limitSentence(findings.symplectic_euler)}.` +
+      (frame ? ` A frame of 1/60\u00a0s takes ${whole(frame)} ${frame === 1 ? "step" : "steps"} of what is proved${findings.any_pose.cause ? " for a moving mesh" : ""}.` : ""),
+  );
+}
+
+function frequency(f) {
+  const [size, unit] = f >= 1e6 ? [1e6, "MHz"] : f >= 1e3 ? [1e3, "kHz"] : [1, "Hz"];
+  return [String(+(f / size).toPrecision(4)), unit];
+}
+
+function writeCaptions() {
+  const { findings, causes } = data;
+  const sentence = (key, name) => (findings[key].cause === "stiffness" || findings[key].cause === "unconditional" ? "" : ` ${name}: ${causes[key]}.`);
+  fill("limits", `Each bar is one integrator: steps in its first part are proved stable, steps in its last part are known to fail, and the true limit lies between.${sentence("explicit_euler", "Explicit Euler")}${sentence("symplectic_euler", "Symplectic Euler")}${sentence("implicit_euler", "Implicit Euler")}`);
+  if (data.multipliers) {
+    const { below, above } = data.multipliers;
+    for (const [side, text] of [["below", "0.99 × certified"], ["above", "1.01 × refuted"]]) {
+      fill(side, `${text}: h = ${seconds(data.multipliers[side].h)}`);
+      fill(`multipliers-${side}`, `${text}: h = ${seconds(data.multipliers[side].h)}`);
+    }
+    const swept = below.others.length ? " The small dots are all softer vibrations." : "";
+    fill("multipliers", `A step of symplectic Euler multiplies every vibration by its μ. Inside the unit circle or on it the vibration dies out or goes on ringing; outside it grows at every step. Large dots: the limiting vibration, whose larger |μ| is ${below.radius.toFixed(4)} below the limit and ${above.radius.toFixed(4)} above.${swept}`);
+  }
+  if (data.runs) {
+    const { kick, above, below } = data.runs;
+    const grown = Math.max(...above.reach) / kick;
+    fill("runs", `The same mesh, stepped by symplectic Euler with every spring at its full nonlinear force; the two differ in h alone. The limit is the one at this pose. Gravity is left out, so that the pose is at rest and nothing but the step moves it, and both start with a small kick along the limiting vibration, ${metres(kick, 2)} at most: without it the growth would begin at rounding and take longer to be seen. Below the limit the kick rings and stays within ${metres(Math.max(...below.reach), 2)}; above it, it has grown ${significant(grown, 2)}-fold after ${above.steps} steps. Colour is how far a particle is from its place, on the scale of the chart; every ${ordinal(data.runs.steps_a_frame)} step is shown.`);
+  }
+  if (data.mesh && data.mesh.share.length) {
+    const { share } = data.mesh;
+    let half = 0;
+    for (let sum = 0; half < share.length && sum < 0.5; ) sum += share[half++];
+    fill("springs", `Red: the springs that take part in the limiting vibration, the strongest the more of its elastic energy they hold. ${half < share.length ? `Half of that energy is in ${whole(half)} of ${whole(findings.springs)} springs` : `The ${whole(share.length)} springs drawn are ${whole(findings.springs)} springs' foremost`}${half <= 100 ? ": softening these, or making their ends heavier, lengthens the step." : ": the vibration is spread out, so no few springs are to blame."}`);
+  }
+  if (data.window) {
+    const { window: mark } = { window: findings.rayleigh_window };
+    const at = mark.empty ? `At h = ${seconds(mark.h, 3)} none is left.` : `At h = ${seconds(mark.h, 3)}, the heavy line, explicit Euler needs α between ${seconds(mark.lower, 3)} and ${mark.upper === "unbounded" ? "any length" : seconds(mark.upper, 3)}.`;
+    fill("window", `Shaded: the damping α (the damping matrix is α times the stiffness matrix${mark.d0 > 0 ? `, beside d0 = ${significant(mark.d0)} 1/s on the mass` : ""}) for which a step is proved stable at this pose. ${at} Explicit Euler needs some damping and bears no more than the upper edge; symplectic Euler needs none. Both windows close at h = 2/√k, where k is the proved bound on the stiffest vibration.`);
+  }
+}
+
+const ordinal = (n) => (n === 1 ? "" : n === 2 ? "second" : n === 3 ? "third" : `${n}th`);
+
+function writeTable() {
+  const rows = knownLimits(data).map(([key, name, where]) => {
+    const limit = data.findings[key];
+    const { certified, refuted } = bracket(limit);
+    return [`${name}, ${where}`, certified === Infinity ? "every step" : certified > 0 ? `${certified.toExponential(4)} s` : "none", refuted === Infinity ? "none" : refuted > 0 ? `${refuted.toExponential(4)} s` : "every step", limit.cause.replace(/_/g, " ")];
+  });
+  const table = byId("table");
+  const row = (cells, kind) => {
+    const tr = document.createElement("tr");
+    cells.forEach((text, i) => {
+      const cell = document.createElement(kind || (i === 0 ? "th" : "td"));
+      if (i > 0) cell.className = "n";
+      cell.textContent = text;
+      tr.append(cell);
+    });
+    return tr;
+  };
+  const head = document.createElement("thead");
+  head.append(row(["", "certified", "refuted", "set by"], "th"));
+  const body = document.createElement("tbody");
+  body.append(...rows.map((cells) => row(cells)));
+  table.replaceChildren(head, body);
+}
+
+// ---- pictures ----
+
+const mesh = data.mesh && decodeMesh(data.mesh);
+const films = mesh && data.runs && {
+  below: decodeRun(data.runs.below, data.runs, mesh, data.mesh.index_bytes),
+  above: decodeRun(data.runs.above, data.runs, mesh, data.mesh.index_bytes),
+};
+let colours = colourTable();
+let shown = 0;
+
+function drawFrame() {
+  for (const side of ["below", "above"]) {
+    const { x, level } = films[side].frame(Math.min(shown, films[side].frames - 1));
+    paintMesh(canvasOf(side), mesh, x, level, colours);
+  }
+  const step = shown * data.runs.steps_a_frame;
+  const { above } = data.runs;
+  byId("scrub").value = shown;
+  byId("when").textContent = `step ${step} of ${above.steps}, ${seconds(step * above.h, 3)}`;
+  moveCursor(plot("reach"), data, step);
+}
+
+function drawMeshes() {
+  if (films) drawFrame();
+  if (!mesh) return;
+  paintSprings(canvasOf("whole"), mesh, colours, false);
+  paintSprings(canvasOf("close"), mesh, colours, true);
+}
+
+function drawCharts() {
+  drawLimits(plot("limits"), data);
+  if (data.multipliers) for (const side of ["below", "above"]) drawMultipliers(plot(`multipliers-${side}`), data, side);
+  if (data.window) for (const method of ["explicit", "symplectic"]) drawWindow(plot(`window-${method}`), data, method);
+  if (data.mesh && data.mesh.share.length) drawShares(plot("shares"), data);
+  if (films) drawReach(plot("reach"), data, shown * data.runs.steps_a_frame);
+}
+
+function drawAll() {
+  drawCharts();
+  drawMeshes();
+}
+
+let timer = 0;
+function stop() {
+  clearInterval(timer);
+  timer = 0;
+  byId("play").textContent = "Play";
+}
+
+function play() {
+  if (timer) return stop();
+  const last = films.above.frames - 1;
+  if (shown >= last) shown = 0;
+  byId("play").textContent = "Pause";
+  drawFrame();
+  timer = setInterval(() => {
+    ++shown;
+    drawFrame();
+    if (shown >= last) stop();
+  }, Math.max(90, 5000 / films.above.frames));
+}
+
+function start() {
+  byId("runs").hidden = !films;
+  byId("multipliers").hidden = !data.multipliers;
+  byId("springs").hidden = !(data.mesh && data.mesh.share.length);
+  byId("window").hidden = !data.window;
+  let number = 0;
+  for (const mark of document.querySelectorAll("figure:not([hidden]) h2 span")) mark.textContent = ++number;
+  writeHead();
+  writeCaptions();
+  writeTable();
+  if (films) {
+    const last = films.above.frames - 1;
+    byId("scrub").max = last;
+    shown = last; // a page that is printed or never played shows the difference
+    byId("play").addEventListener("click", play);
+    byId("scrub").addEventListener("input", (event) => {
+      stop();
+      shown = +event.target.value;
+      drawFrame();
+    });
+  }
+  for (const canvas of document.querySelectorAll("canvas")) turnable(canvas, () => requestAnimationFrame(drawMeshes));
+  drawAll();
+  let pending = 0;
+  let width = document.body.clientWidth;
+  addEventListener("resize", () => {
+    if (document.body.clientWidth === width) return;
+    width = document.body.clientWidth;
+    cancelAnimationFrame(pending);
+    pending = requestAnimationFrame(drawAll);
+  });
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+    colours = colourTable();
+    drawAll();
+  });
+}
+
+start();
