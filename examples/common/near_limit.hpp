@@ -75,7 +75,12 @@ inline RunsNearLimit run_near_limit(const System& system, double edge,
                                     const taut::StepLimit<double>& limit,
                                     const taut::LimitingMode& mode) {
     constexpr double kick_of_edge = 1e-4;
-    constexpr taut::Index most_steps = 240;
+    const double h = above_limit * limit.refuted;
+    // Three times what takes the kick to an edge's length: the rest shows what comes of it.
+    const double growth =
+        std::log(taut::spectral_radius(taut::Method::symplectic_euler, mode.k, mode.d, h));
+    const double wanted = -3 * std::log(kick_of_edge) / growth;
+    const taut::Index most_steps = wanted > 10 && wanted < 600 ? std::lround(wanted) : 600;
     const auto rest = system.initial_state().x;
     taut::Points<double, 3> shape = taut::Points<double, 3>::Zero(3, system.size());
     for (taut::Index i = 0, free = 0; i < system.size(); ++i) {
@@ -85,15 +90,15 @@ inline RunsNearLimit run_near_limit(const System& system, double edge,
     const double far = 0.25 * (rest.rowwise().maxCoeff() - rest.rowwise().minCoeff()).norm();
     RunsNearLimit runs;
     runs.kick = kick_of_edge * edge;
-    runs.above = kicked_run(system, shape, above_limit * limit.refuted, most_steps, far);
+    runs.above = kicked_run(system, shape, h, most_steps, far);
     const auto steps = static_cast<taut::Index>(runs.above.reach.size()) - 1;
     runs.below = kicked_run(system, shape, below_limit * limit.certified, steps, far);
     return runs;
 }
 
-/// Of how many frames one is kept, so that two runs stay near a megabyte.
+/// Of how many frames one is kept, so that both runs stay near 1.5 MB as text.
 inline std::size_t frame_stride(std::size_t frames, std::size_t particles) {
-    constexpr std::size_t bytes = 800'000;
+    constexpr std::size_t bytes = 1'100'000;
     constexpr std::size_t fewest = 8;
     const std::size_t kept = std::max(fewest, bytes / (8 * std::max<std::size_t>(particles, 1)));
     return (frames + kept - 1) / kept;

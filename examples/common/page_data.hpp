@@ -142,10 +142,12 @@ inline void add_mesh(Json& page, const Scene& scene, const taut::Stability<doubl
         share.push_back(rounded(spring.share));
         total += spring.share;
     }
+    const Eigen::Vector3d g = scene.system.gravity().cwiseAbs();
     page["name"] = scene.name;
     page["mesh"] = {{"index_bytes", width},
                     {"low", {low[0], low[1], low[2]}},
                     {"extent", extent},
+                    {"up", g[2] > g[1] ? 2 : 1},
                     {"positions", base64(positions)},
                     {"triangles", base64(triangles)},
                     {"pinned", base64(pinned)},

@@ -25,8 +25,8 @@ function drawLimits(box, data) {
   const finite = ends.flatMap((e) => [e.certified, e.refuted]).filter((h) => h > 0 && h < Infinity);
   const narrow = box.clientWidth < 640;
   const pitch = narrow ? 62 : 50;
-  const { root, width, height } = drawing(box, rows.length * pitch + 62, "Certified and refuted time steps of each integrator");
-  const frame = { left: narrow ? 1 : 210, right: width - 1, top: 14, bottom: height - 44 };
+  const { root, width, height } = drawing(box, rows.length * pitch + 70, "Certified and refuted time steps of each integrator");
+  const frame = { left: narrow ? 1 : 210, right: width - 1, top: 22, bottom: height - 44 };
   const low = finite.length ? Math.min(...finite) / 6 : 1e-5;
   const high = Math.max(1 / 20, finite.length ? 6 * Math.max(...finite) : 0);
   const x = logarithmic(low, high, frame.left, frame.right);
@@ -60,19 +60,30 @@ function drawLimits(box, data) {
     if (refuted === 0) label(root, frame.left + 10, middle, `no step is stable: ${limit.cause}`, "start", "in");
     else if (refuted < Infinity) label(root, right + 8, middle, seconds(refuted), "start", "in");
   });
-  for (const [h, text] of [[1 / 60, "1/60\u00a0s"], [1 / 1000, ""]]) {
-    if (text && h > low && h < high) {
-      line(root, x(h), frame.top - 4, x(h), frame.bottom, "mark dash");
-      label(root, x(h), frame.top - 4, `a frame, ${text}`, x(h) > width - 90 ? "end" : "middle");
-    }
+  const frameTime = 1 / 60;
+  if (frameTime > low && frameTime < high) {
+    line(root, x(frameTime), frame.top - 4, x(frameTime), frame.bottom, "mark dash");
+    label(root, x(frameTime), frame.top - 8, "a frame, 1/60\u00a0s", x(frameTime) > width - 90 ? "end" : "middle");
   }
 }
 
-/// Largest displacement after each step of both runs, with the growth that |μ| predicts.
+/// The amplitude after each step of a mode displaced by `kick` at rest, as its two multipliers give
+/// it: x₁ = (s − p) x₀ and xₙ₊₁ = s xₙ − p xₙ₋₁ with their sum s and product p.
+function predictedReach([[re0, im0], [re1, im1]], kick, steps) {
+  const sum = re0 + re1;
+  const product = re0 * re1 - im0 * im1;
+  const x = [kick, (sum - product) * kick];
+  while (x.length <= steps) x.push(sum * x[x.length - 1] - product * x[x.length - 2]);
+  return x.map(Math.abs);
+}
+
+const REACH = { left: 76, right: 14 };  // margins of the chart of displacements
+
+/// Largest displacement after each step of both runs, with the growth that is predicted.
 function drawReach(box, data, step) {
-  const { below, above, kick } = data.runs;
-  const { root, width, height } = drawing(box, 290, "Largest displacement after each step");
-  const frame = { left: 62, right: width - 14, top: 32, bottom: height - 46 };
+  const { below, above, kick, floor, ceiling } = data.runs;
+  const { root, width, height } = drawing(box, 300, "Largest displacement after each step");
+  const frame = { left: REACH.left, right: width - REACH.right, top: 32, bottom: height - 46 };
   const all = [...below.reach, ...above.reach].filter((v) => v > 0 && Number.isFinite(v));
   const y = logarithmic(Math.min(kick, ...all) / 3, Math.max(...all) * 3, frame.bottom, frame.top);
   const steps = Math.max(below.steps, above.steps, 1);
@@ -80,41 +91,42 @@ function drawReach(box, data, step) {
   axes(root, frame,
     { scale: x, ticks: roundNumbers(0, steps, width < 500 ? 4 : 8), text: String, title: "steps taken" },
     { scale: y, ticks: decades(y, 7), text: (v) => metres(v, 2), title: "largest displacement of a particle" });
-  const mu = data.multipliers.above.radius;
-  const predicted = Array.from({ length: steps + 1 }, (_, i) => [i, kick * mu ** i]).filter(([, v]) => v < y.to);
-  svg("path", { d: path(predicted.map(([i, v]) => [x(i), y(v)])), class: "axis dash", fill: "none" }, root);
+  for (let at = frame.top; at < frame.bottom; at += 4) {
+    const value = y.from * (y.to / y.from) ** ((frame.bottom - at - 2) / (frame.bottom - frame.top));
+    const fill = rampColour(Math.log(value / floor) / Math.log(ceiling / floor), 0.92);
+    svg("rect", { x: frame.left, y: at, width: 7, height: Math.min(4.5, frame.bottom - at), fill }, root);
+  }
+  const predicted = predictedReach(data.multipliers.above.limiting, kick, steps);
+  const end = predicted.findIndex((v) => v > y.to);
+  const seen = end < 0 ? predicted : predicted.slice(0, end);
   for (const [run, kind] of [[below, "certified"], [above, "refuted"]]) {
     const points = run.reach.map((v, i) => [x(i), y(v)]).filter(([, v]) => Number.isFinite(v));
     svg("path", { d: path(points), class: `line-${kind}`, "stroke-linejoin": "round" }, root);
   }
-  const at = x(Math.min(step, steps));
-  line(root, at, frame.top, at, frame.bottom, "mark").dataset.cursor = "";
-  const last = below.reach.length - 1;
-  const text = (i, v, words, kind, anchor, dy) => {
-    const node = label(root, x(i), y(v) + dy, words, anchor);
-    node.setAttribute("style", `fill: var(--${kind}); font-weight: 600`);
+  svg("path", { d: path(seen.map((v, i) => [x(i), y(v)])), class: "mark dash", fill: "none" }, root);
+  const text = (i, v, words, colour, anchor, dy) => {
+    label(root, x(i), y(v) + dy, words, anchor).setAttribute("style", `fill: var(--${colour}); font-weight: 600`);
   };
-  text(last, Math.max(...below.reach), "0.99 × certified", "certified", "end", -10);
-  const high = Math.max(3, Math.round(above.reach.length * 0.62));
-  if (above.reach[high]) text(high, above.reach[high], "1.01 × refuted", "refuted", "end", -8);
-  if (predicted.length > 3) {
-    const i = Math.round(predicted.length * 0.45);
-    label(root, x(i) + 12, y(predicted[i][1]) + 14, `dashed: ${+mu.toPrecision(4)} a step, as predicted`);
-  }
+  text(below.steps, Math.max(...below.reach), "0.99 × certified", "certified", "end", -10);
+  text(above.steps, Math.max(...above.reach), "1.01 × refuted", "refuted", "end", -10);
+  const middle = Math.round(seen.length / 2);
+  text(middle, seen[middle], "predicted", "ink", "start", 22);
+  line(root, 0, frame.top, 0, frame.bottom, "mark").dataset.cursor = "";
+  moveCursor(box, data, step);
 }
 
 /// Moves the line of the step that the meshes show.
 function moveCursor(box, data, step) {
-  const cursor = box.querySelector("[data-cursor]");
   const steps = Math.max(data.runs.below.steps, data.runs.above.steps, 1);
-  const { clientWidth } = box;
-  const at = linear(0, steps, 62, Math.max(240, Math.round(clientWidth)) - 14)(Math.min(step, steps));
-  cursor.setAttribute("x1", at);
-  cursor.setAttribute("x2", at);
+  const { width } = box.querySelector("svg").viewBox.baseVal;
+  const at = linear(0, steps, REACH.left, width - REACH.right)(Math.min(step, steps));
+  for (const end of ["x1", "x2"]) box.querySelector("[data-cursor]").setAttribute(end, at);
 }
 
+const OUTSIDE = 1 + 1e-5;  // the page holds six digits
+
 function drawMultipliers(box, data, side) {
-  const { root, width } = drawing(box, Math.min(box.clientWidth, 440), "Multipliers and the unit circle");
+  const { root, width } = drawing(box, Math.min(box.clientWidth, 470), "Multipliers and the unit circle");
   const { others, limiting, radius } = data.multipliers[side];
   const reach = Math.max(1.25, ...["below", "above"].map((s) => 1.12 * data.multipliers[s].radius));
   const height = root.viewBox.baseVal.height;
@@ -127,15 +139,15 @@ function drawMultipliers(box, data, side) {
   const unit = x(1) - x(0);
   svg("circle", { cx: x(0), cy: y(0), r: unit, style: "fill: var(--certified); fill-opacity: .08; stroke: var(--soft)" }, root);
   for (const [re, im] of others.flat()) {
-    const kind = Math.hypot(re, im) > 1 + 1e-9 ? "refuted" : "certified";
+    const kind = Math.hypot(re, im) > OUTSIDE ? "refuted" : "certified";
     svg("circle", { cx: x(re).toFixed(2), cy: y(im).toFixed(2), r: 1.7, class: kind, "fill-opacity": 0.75 }, root);
   }
   for (const [re, im] of limiting) {
-    const kind = Math.hypot(re, im) > 1 + 1e-9 ? "refuted" : "certified";
+    const kind = Math.hypot(re, im) > OUTSIDE ? "refuted" : "certified";
     svg("circle", { cx: x(re), cy: y(im), r: 6, class: kind, style: "stroke: var(--paper); stroke-width: 1.5" }, root);
   }
-  label(root, x(0), y(0) - 4, `|μ| = ${radius.toFixed(4)}`, "middle", "strong");
-  label(root, x(0), y(0) + 15, "of the limiting vibration", "middle");
+  label(root, x(0), y(0.32), `|μ| = ${radius.toFixed(4)}`, "middle", "strong");
+  label(root, x(0), y(0.32) + 18, "of the limiting vibration", "middle");
 }
 
 function drawWindow(box, data, method) {
@@ -166,7 +178,7 @@ function drawWindow(box, data, method) {
   if (mark.empty || !(mark.h > x.from)) return;
   const [a, b] = [mark.lower, mark.upper === "unbounded" ? y.to : mark.upper].map(clamped);
   svg("line", { x1: x(mark.h), x2: x(mark.h), y1: a, y2: b, class: "mark", "stroke-width": 3 }, root);
-  label(root, x(mark.h) - 8, a + 18, `h = ${seconds(mark.h, 3)}`, "end");
+  label(root, x(mark.h), b - 10, `h = ${seconds(mark.h, 3)}`, "middle");
 }
 
 /// How much of the vibration's energy the first n springs hold together.

@@ -25,6 +25,7 @@ function writeHead() {
   fill("name", data.name.split("/").pop());
   const parts = [];
   if (findings.particles !== null) parts.push(`${whole(findings.particles)} particles`, `${whole(findings.springs)} springs`);
+  if (data.mesh) parts.push(`${whole(mesh.pinned.length)} pinned`);
   parts.push(`${whole(findings.degrees_of_freedom)} degrees of freedom`);
   fill("scene", parts.join(", "));
   const fact = (name, limit) => {
@@ -54,8 +55,18 @@ function writeHead() {
   fill(
     "lede",
     `Symplectic Euler: ${limitSentence(findings.symplectic_euler)}.` +
-      (frame ? ` A frame of 1/60\u00a0s takes ${whole(frame)} ${frame === 1 ? "step" : "steps"} of what is proved${findings.any_pose.cause ? " for a moving mesh" : ""}.` : ""),
+      (frame ? ` At the step proved ${findings.any_pose.cause ? "for a moving mesh" : "here"}, a frame of 1/60\u00a0s is ${whole(frame)} ${frame === 1 ? "step" : "steps"}.` : "") +
+      remedy(findings.want_step),
   );
+}
+
+/// What would make the step of --want-step safe.
+function remedy(want) {
+  if (!want) return "";
+  const asked = ` The step asked for, ${seconds(want.h)},`;
+  if (want.safe_already) return `${asked} is proved at this pose as the mesh is.`;
+  const added = want.added_mass === null ? "" : `, or ${significant(want.added_mass)} kg more on the particles that need it`;
+  return `${asked} is proved at this pose with all stiffness times ${significant(want.stiffness_scale)}, or all masses times ${significant(want.mass_scale)}${added}.`;
 }
 
 function frequency(f) {
@@ -69,38 +80,39 @@ function writeCaptions() {
   fill("limits", `Each bar is one integrator: steps in its first part are proved stable, steps in its last part are known to fail, and the true limit lies between.${sentence("explicit_euler", "Explicit Euler")}${sentence("symplectic_euler", "Symplectic Euler")}${sentence("implicit_euler", "Implicit Euler")}`);
   if (data.multipliers) {
     const { below, above } = data.multipliers;
-    for (const [side, text] of [["below", "0.99 × certified"], ["above", "1.01 × refuted"]]) {
-      fill(side, `${text}: h = ${seconds(data.multipliers[side].h)}`);
-      fill(`multipliers-${side}`, `${text}: h = ${seconds(data.multipliers[side].h)}`);
-    }
+    for (const side of ["below", "above"])
+      for (const place of [side, `multipliers-${side}`]) fill(place, `h = ${seconds(data.multipliers[side].h)}`);
     const swept = below.others.length ? " The small dots are all softer vibrations." : "";
     fill("multipliers", `A step of symplectic Euler multiplies every vibration by its μ. Inside the unit circle or on it the vibration dies out or goes on ringing; outside it grows at every step. Large dots: the limiting vibration, whose larger |μ| is ${below.radius.toFixed(4)} below the limit and ${above.radius.toFixed(4)} above.${swept}`);
   }
   if (data.runs) {
     const { kick, above, below } = data.runs;
     const grown = Math.max(...above.reach) / kick;
-    fill("runs", `The same mesh, stepped by symplectic Euler with every spring at its full nonlinear force; the two differ in h alone. The limit is the one at this pose. Gravity is left out, so that the pose is at rest and nothing but the step moves it, and both start with a small kick along the limiting vibration, ${metres(kick, 2)} at most: without it the growth would begin at rounding and take longer to be seen. Below the limit the kick rings and stays within ${metres(Math.max(...below.reach), 2)}; above it, it has grown ${significant(grown, 2)}-fold after ${above.steps} steps. Colour is how far a particle is from its place, on the scale of the chart; every ${ordinal(data.runs.steps_a_frame)} step is shown.`);
+    fill("runs", `The same mesh, stepped by symplectic Euler with every spring at its full nonlinear force; the two differ in h alone. The limit is the one at this pose. Gravity is left out, so that the pose is at rest and nothing but the step moves it, and both start with a small kick along the limiting vibration, ${metres(kick, 2)} at most: without it the growth would begin at rounding and take longer to be seen. Below the limit the kick rings and stays within ${metres(Math.max(...below.reach), 2)}; above it, it has grown ${significant(grown, 2)}-fold after ${above.steps} steps. Dashed: the growth that the multipliers below predict, until the mesh is too far from its pose for any linear prediction. Colour is how far a particle is from its place, as along the chart's upright axis; every ${ordinal(data.runs.steps_a_frame)} step is shown.`);
   }
   if (data.mesh && data.mesh.share.length) {
     const { share } = data.mesh;
     let half = 0;
     for (let sum = 0; half < share.length && sum < 0.5; ) sum += share[half++];
-    fill("springs", `Red: the springs that take part in the limiting vibration, the strongest the more of its elastic energy they hold. ${half < share.length ? `Half of that energy is in ${whole(half)} of ${whole(findings.springs)} springs` : `The ${whole(share.length)} springs drawn are ${whole(findings.springs)} springs' foremost`}${half <= 100 ? ": softening these, or making their ends heavier, lengthens the step." : ": the vibration is spread out, so no few springs are to blame."}`);
+    const blame = half <= 100 ? "softening these, or making their ends heavier, lengthens the step" : "the vibration is spread out, and no few springs are to blame";
+    fill("springs", `Red: the springs that take part in the limiting vibration. The more of its elastic energy a spring holds, the stronger its line. Half of that energy is in ${whole(half)} of ${whole(findings.springs)} springs: ${blame}.`);
   }
   if (data.window) {
-    const { window: mark } = { window: findings.rayleigh_window };
+    const mark = findings.rayleigh_window;
     const at = mark.empty ? `At h = ${seconds(mark.h, 3)} none is left.` : `At h = ${seconds(mark.h, 3)}, the heavy line, explicit Euler needs α between ${seconds(mark.lower, 3)} and ${mark.upper === "unbounded" ? "any length" : seconds(mark.upper, 3)}.`;
     fill("window", `Shaded: the damping α (the damping matrix is α times the stiffness matrix${mark.d0 > 0 ? `, beside d0 = ${significant(mark.d0)} 1/s on the mass` : ""}) for which a step is proved stable at this pose. ${at} Explicit Euler needs some damping and bears no more than the upper edge; symplectic Euler needs none. Both windows close at h = 2/√k, where k is the proved bound on the stiffest vibration.`);
   }
 }
 
+/// As the program prints it.
+const printed = (h) => `${h.toExponential(4).replace(/([+-])(\d)$/, "$10$2")} s`;
 const ordinal = (n) => (n === 1 ? "" : n === 2 ? "second" : n === 3 ? "third" : `${n}th`);
 
 function writeTable() {
   const rows = knownLimits(data).map(([key, name, where]) => {
     const limit = data.findings[key];
     const { certified, refuted } = bracket(limit);
-    return [`${name}, ${where}`, certified === Infinity ? "every step" : certified > 0 ? `${certified.toExponential(4)} s` : "none", refuted === Infinity ? "none" : refuted > 0 ? `${refuted.toExponential(4)} s` : "every step", limit.cause.replace(/_/g, " ")];
+    return [`${name}, ${where}`, certified === Infinity ? "every step" : certified > 0 ? `${printed(certified)}` : "none", refuted === Infinity ? "none" : refuted > 0 ? `${printed(refuted)}` : "every step", limit.cause.replace(/_/g, " ")];
   });
   const table = byId("table");
   const row = (cells, kind) => {
@@ -138,7 +150,7 @@ function drawFrame() {
   const step = shown * data.runs.steps_a_frame;
   const { above } = data.runs;
   byId("scrub").value = shown;
-  byId("when").textContent = `step ${step} of ${above.steps}, ${seconds(step * above.h, 3)}`;
+  byId("when").textContent = `step ${step} of ${(above.frames - 1) * data.runs.steps_a_frame}, ${seconds(step * above.h, 3)}`;
   moveCursor(plot("reach"), data, step);
 }
 

@@ -36,8 +36,11 @@ function decodeMesh(mesh) {
   for (let i = 0; i < x.length; ++i) x[i] -= middle[i % 3];
   const radius = Math.hypot(...high.map((h, d) => h - low[d])) / 2;
   const width = mesh.index_bytes;
+  const flat = high[mesh.up] - low[mesh.up] < 0.3 * radius;
+  camera.up = mesh.up;
+  camera.tilt = flat ? 0.62 : 0.22;
   return {
-    x, count, radius,
+    x, count,
     triangles: integers(mesh.triangles, width),
     pinned: integers(mesh.pinned, width),
     springs: integers(mesh.springs, width),
@@ -67,14 +70,16 @@ function decodeRun(run, runs, mesh, width) {
   return { frames: run.frames, frame };
 }
 
-const camera = { turn: -0.55, tilt: 0.22 };
+/// `up` is the axis that gravity points down, 1 or 2.
+const camera = { turn: -0.55, tilt: 0.22, up: 1 };
 
 /// Screen coordinates and depth of all points; `zoom` in pixels a metre, about `centre`.
 function project(x, centre, zoom, width, height) {
   const [ct, st, cp, sp] = [Math.cos(camera.turn), Math.sin(camera.turn), Math.cos(camera.tilt), Math.sin(camera.tilt)];
   const out = new Float64Array(x.length);
+  const [rise, near, sign] = camera.up === 1 ? [1, 2, 1] : [2, 1, -1];
   for (let i = 0; i < x.length; i += 3) {
-    const a = x[i] - centre[0], b = x[i + 1] - centre[1], c = x[i + 2] - centre[2];
+    const a = x[i] - centre[0], b = x[i + rise] - centre[rise], c = sign * (x[i + near] - centre[near]);
     const across = ct * a + st * c;
     const away = -st * a + ct * c;
     out[i] = width / 2 + zoom * across;
@@ -120,28 +125,50 @@ function prepared(canvas) {
   return { context, width, height };
 }
 
-/// Triangles from the farthest to the nearest, flat shaded, coloured by `level`.
-function paintTriangles(context, screen, triangles, level, colours) {
-  const count = triangles.length / 3;
+/// Pixels a metre that make the mesh at rest fill the canvas, as the camera first saw it.
+function fit(mesh, width, height) {
+  if (!mesh.span) {
+    const screen = project(mesh.x, [0, 0, 0], 1, 0, 0);
+    mesh.span = [1e-300, 1e-300];
+    for (let i = 0; i < screen.length; i += 3) for (const d of [0, 1]) mesh.span[d] = Math.max(mesh.span[d], 2 * Math.abs(screen[i + d]));
+  }
+  return 0.84 * Math.min(width / mesh.span[0], height / mesh.span[1]);
+}
+
+/// Triangles, and lines on them, from the farthest to the nearest. Triangles are flat shaded.
+/// @param view   context, zoom and the points on the screen
+/// @param paint  level of each particle or null, colours, edge (a colour or null), and lines: pairs
+///               of particles with `bias`, what they are drawn nearer by, and `stroke(index)`
+function paintInOrder(view, triangles, paint) {
+  const { context, screen, zoom } = view;
+  const { level, colours, edge, lines } = paint;
+  const faces = triangles.length / 3;
+  const count = faces + (lines ? lines.pairs.length / 2 : 0);
   const depth = new Float64Array(count);
-  for (let t = 0; t < count; ++t) depth[t] = screen[3 * triangles[3 * t] + 2] + screen[3 * triangles[3 * t + 1] + 2] + screen[3 * triangles[3 * t + 2] + 2];
+  for (let t = 0; t < faces; ++t) depth[t] = (screen[3 * triangles[3 * t] + 2] + screen[3 * triangles[3 * t + 1] + 2] + screen[3 * triangles[3 * t + 2] + 2]) / 3;
+  for (let l = 0; l < count - faces; ++l) depth[faces + l] = (screen[3 * lines.pairs[2 * l] + 2] + screen[3 * lines.pairs[2 * l + 1] + 2]) / 2 + lines.bias;
   const order = Uint32Array.from({ length: count }, (_, t) => t).sort((p, q) => depth[p] - depth[q]);
-  context.lineWidth = 0.6;
-  let last = "";
   for (const t of order) {
+    context.beginPath();
+    if (t >= faces) {
+      const a = 3 * lines.pairs[2 * (t - faces)], b = 3 * lines.pairs[2 * (t - faces) + 1];
+      context.moveTo(screen[a], screen[a + 1]);
+      context.lineTo(screen[b], screen[b + 1]);
+      lines.stroke(t - faces);
+      continue;
+    }
     const i = 3 * triangles[3 * t], j = 3 * triangles[3 * t + 1], k = 3 * triangles[3 * t + 2];
     const ax = screen[j] - screen[i], ay = screen[j + 1] - screen[i + 1];
     const bx = screen[k] - screen[i], by = screen[k + 1] - screen[i + 1];
-    const zoom = context.zoom;
     const az = (screen[j + 2] - screen[i + 2]) * zoom, bz = (screen[k + 2] - screen[i + 2]) * zoom;
     const nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
-    const size = Math.hypot(nx, ny, nz) || 1;
-    const sign = nz < 0 ? -1 : 1;
-    const light = Math.max(0, (sign * (-0.35 * nx - 0.45 * ny + 0.82 * nz)) / size);
+    const size = (nz < 0 ? -1 : 1) * (Math.hypot(nx, ny, nz) || 1);
+    const light = Math.max(0, (-0.35 * nx - 0.45 * ny + 0.82 * nz) / size);
     const most = level ? Math.max(level[i / 3], level[j / 3], level[k / 3]) : 0;
     const colour = colours[Math.round((most / 255) * LEVELS) * (SHADES + 1) + Math.min(SHADES, Math.round(light * SHADES))];
-    if (colour !== last) context.fillStyle = context.strokeStyle = last = colour;
-    context.beginPath();
+    context.fillStyle = colour;
+    context.strokeStyle = edge || colour;
+    context.lineWidth = 0.6;
     context.moveTo(screen[i], screen[i + 1]);
     context.lineTo(screen[j], screen[j + 1]);
     context.lineTo(screen[k], screen[k + 1]);
@@ -151,8 +178,10 @@ function paintTriangles(context, screen, triangles, level, colours) {
   }
 }
 
-function paintPins(context, screen, pinned) {
-  context.fillStyle = getComputedStyle(document.documentElement).getPropertyValue("--ink");
+const styled = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+function paintPins({ context, screen }, pinned) {
+  context.fillStyle = styled("--ink");
   const r = pinned.length > 12 ? 1.6 : 3.2;
   for (const i of pinned) {
     context.beginPath();
@@ -164,52 +193,34 @@ function paintPins(context, screen, pinned) {
 /// The mesh in one state.
 function paintMesh(canvas, mesh, x, level, colours) {
   const { context, width, height } = prepared(canvas);
-  context.zoom = (0.47 * Math.min(width, height * 1.05)) / (0.82 * mesh.radius || 1);
-  const screen = project(x, [0, 0, 0], context.zoom, width, height);
-  paintTriangles(context, screen, mesh.triangles, level, colours);
-  paintPins(context, screen, mesh.pinned);
+  const zoom = fit(mesh, width, height);
+  const view = { context, zoom, screen: project(x, [0, 0, 0], zoom, width, height) };
+  paintInOrder(view, mesh.triangles, { level, colours });
+  paintPins(view, mesh.pinned);
 }
 
-/// The mesh at rest in grey, its limiting springs in red over it, the foremost ones widest.
+/// The mesh at rest in grey with its limiting springs on it, the foremost ones widest.
 function paintSprings(canvas, mesh, colours, close) {
   const { context, width, height } = prepared(canvas);
   const { springs, share, x } = mesh;
-  let centre = [0, 0, 0];
-  context.zoom = (0.47 * Math.min(width, height * 1.05)) / (0.82 * mesh.radius || 1);
-  if (close && share.length) {
-    const ends = [springs[0], springs[1]];
-    centre = [0, 1, 2].map((d) => (x[3 * ends[0] + d] + x[3 * ends[1] + d]) / 2);
-    const length = Math.hypot(...[0, 1, 2].map((d) => x[3 * ends[0] + d] - x[3 * ends[1] + d]));
-    context.zoom = Math.max(context.zoom, (0.085 * width) / (length || 1));
-  }
-  const screen = project(x, centre, context.zoom, width, height);
-  paintTriangles(context, screen, mesh.triangles, null, colours);
-  const style = getComputedStyle(document.documentElement);
-  if (close) {
-    context.strokeStyle = style.getPropertyValue("--paper");
-    context.lineWidth = 1;
-    context.beginPath();
-    for (let t = 0; t < mesh.triangles.length; t += 3) {
-      const [i, j, k] = [0, 1, 2].map((c) => 3 * mesh.triangles[t + c]);
-      context.moveTo(screen[i], screen[i + 1]);
-      context.lineTo(screen[j], screen[j + 1]);
-      context.lineTo(screen[k], screen[k + 1]);
-    }
+  const [a, b] = [3 * springs[0], 3 * springs[1]];
+  const length = Math.hypot(x[a] - x[b], x[a + 1] - x[b + 1], x[a + 2] - x[b + 2]);
+  const middle = [0, 1, 2].map((d) => (x[a + d] + x[b + d]) / 2);
+  const all = fit(mesh, width, height);
+  const zoom = close ? Math.max(2 * all, (0.13 * width) / (length || 1)) : all;
+  const view = { context, zoom, screen: project(x, close ? middle : [0, 0, 0], zoom, width, height) };
+  const red = styled("--refuted");
+  const stroke = (s) => {
+    const fraction = share[s] / share[0];
+    context.globalAlpha = 0.08 + 0.92 * fraction;
+    context.strokeStyle = red;
+    context.lineWidth = close ? 1 + 3.5 * fraction : 0.6 + 1.6 * fraction;
     context.stroke();
-  }
-  context.strokeStyle = style.getPropertyValue("--refuted");
-  for (let s = share.length - 1; s >= 0; --s) {
-    const fraction = share[0] > 0 ? share[s] / share[0] : 0;
-    const a = 3 * springs[2 * s], b = 3 * springs[2 * s + 1];
-    context.globalAlpha = 0.06 + 0.94 * fraction;
-    context.lineWidth = close ? 0.8 + 3.4 * fraction : 0.5 + 1.7 * fraction;
-    context.beginPath();
-    context.moveTo(screen[a], screen[a + 1]);
-    context.lineTo(screen[b], screen[b + 1]);
-    context.stroke();
-  }
-  context.globalAlpha = 1;
-  paintPins(context, screen, mesh.pinned);
+    context.globalAlpha = 1;
+  };
+  const lines = { pairs: springs, bias: 1.5 * length, stroke };
+  paintInOrder(view, mesh.triangles, { level: null, colours, edge: close ? styled("--edge") : null, lines });
+  paintPins(view, mesh.pinned);
 }
 
 /// Turns the camera with the pointer and calls `redraw`.

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+"use strict";
+
+// Put behind the page's own script by check_page.cmake: uses the page as a reader would and writes
+// what is wrong into <html data-check>. The page's errors are collected in pageErrors.
+
+const wrong = [];
+const expect = (holds, words) => holds || wrong.push(words);
+const visible = (element) => element.offsetParent !== null;
+
+function pixels(canvas) {
+  return canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+}
+
+/// The share of a canvas that is painted, and in how many colours.
+function painted(canvas) {
+  const rgba = pixels(canvas);
+  const colours = new Set();
+  let count = 0;
+  for (let i = 0; i < rgba.length; i += 4) {
+    if (rgba[i + 3] === 0) continue;
+    ++count;
+    colours.add((rgba[i] << 16) | (rgba[i + 1] << 8) | rgba[i + 2]);
+  }
+  return { share: count / (rgba.length / 4), colours: colours.size };
+}
+
+const same = (a, b) => a.length === b.length && a.every((v, i) => v === b[i]);
+
+function checkPictures() {
+  for (const canvas of document.querySelectorAll("canvas")) {
+    if (!visible(canvas)) continue;
+    const { share, colours } = painted(canvas);
+    expect(share > 0.05 && colours > 8, `canvas ${canvas.dataset.mesh}: ${share} painted, ${colours} colours`);
+  }
+  for (const box of document.querySelectorAll("[data-plot]")) {
+    if (visible(box)) expect(box.querySelectorAll("svg *").length > 12, `plot ${box.dataset.plot} is empty`);
+  }
+  for (const caption of document.querySelectorAll("figcaption")) {
+    if (visible(caption)) expect(caption.textContent.length > 80, `a caption is missing: ${caption.dataset.fill}`);
+  }
+  expect(!/undefined|NaN|Infinity|null/.test(document.querySelector("main").innerText), "a text holds no value");
+  for (const text of document.querySelectorAll("svg text")) expect(!/undefined|NaN|Infinity/.test(text.textContent), `chart text: ${text.textContent}`);
+  expect(document.documentElement.scrollWidth <= innerWidth, `wider than the window, ${innerWidth}`);
+}
+
+function scrubTo(frame) {
+  byId("scrub").value = frame;
+  byId("scrub").dispatchEvent(new Event("input"));
+  return ["below", "above"].map((side) => pixels(canvasOf(side)));
+}
+
+async function checkRuns() {
+  const { below, above, kick } = data.runs;
+  expect(Math.max(...below.reach) < 30 * kick, "the run below the limit does not stay near its kick");
+  expect(Math.max(...above.reach) > 1000 * kick, "the run above the limit does not grow");
+  for (const [side, run] of [["below", below], ["above", above]]) {
+    const predicted = predictedReach(data.multipliers[side].limiting, kick, 10);
+    const off = predicted.map((v, i) => Math.abs(run.reach[i] - v) / Math.max(...predicted.slice(0, i + 1)));
+    expect(Math.max(...off) < 0.02, `${side}: the first ten steps are ${Math.max(...off)} from the prediction`);
+  }
+  const last = films.above.frames - 1;
+  const first = scrubTo(0);
+  const end = scrubTo(last);
+  expect(!same(first[1], end[1]), "scrubbing leaves the run above the limit as it is");
+  scrubTo(0);
+  byId("play").click();
+  expect(byId("play").textContent === "Pause", "Play does not become Pause");
+  await new Promise((resolve) => setTimeout(resolve, 1500));
+  expect(shown > 0, "Play does not move on");
+  byId("play").click();
+  const stopped = shown;
+  await new Promise((resolve) => setTimeout(resolve, 500));
+  expect(shown === stopped, "Pause does not hold");
+  const canvas = canvasOf("whole");
+  const before = pixels(canvas);
+  camera.turn += 0.5;
+  drawMeshes();
+  expect(!same(before, pixels(canvas)), "turning leaves the mesh as it is");
+}
+
+async function check() {
+  checkPictures();
+  if (data.runs) await checkRuns();
+  expect(pageErrors.length === 0, `errors: ${pageErrors.join("; ")}`);
+  const hidden = [...document.querySelectorAll("figure")].filter((f) => !visible(f)).map((f) => f.id);
+  const numbers = [...document.querySelectorAll("#table td")].map((cell) => cell.textContent);
+  document.documentElement.dataset.numbers = `; ${numbers.join("; ")}; `;
+  document.documentElement.dataset.hidden = hidden.join(",");
+  document.documentElement.dataset.check = wrong.length ? wrong.join(" | ") : "good";
+}
+check().catch((error) => (document.documentElement.dataset.check = `check.js: ${error.stack}`));
