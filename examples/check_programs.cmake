@@ -74,6 +74,8 @@ expect(stability_report "${M} M.mtx --damping-matrix shape.mtx" 1 "shape.mtx: .*
 
 expect(stability_report "${cloth} --json missing/report.json" 1
     "--json: missing/report.json cannot be written")
+expect(stability_report "${cloth} --html missing/report.html" 1
+    "--html: missing/report.html cannot be written")
 expect(drape "${cloth} --output triangle.obj/frames" 1 "--output: .*cannot be written")
 expect(drape "${cloth} --output frames --duration 1 --step 0.01" 3 "diverged")
 expect(drape "${cloth} --output frames --step 1e-12" 1 "--step: ")

@@ -97,9 +97,10 @@ Findings report_on_scene(const Options& options) {
     }
     found.analysis = seconds_since(analysis);
     if (!options.html.empty()) {
-        found.page = example::page_data(stability, found, scene.system.rayleigh());
-        example::add_mesh(found.page, scene, stability);
-        example::add_runs(found.page, scene, stability, found.symplectic_euler);
+        const auto mode = stability.limiting_mode();
+        found.page = example::page_data(stability, found, mode, scene.system.rayleigh());
+        example::add_mesh(found.page, scene, stability, mode);
+        example::add_runs(found.page, scene, found.symplectic_euler, mode);
     }
     return found;
 }
@@ -134,7 +135,7 @@ Findings report_on_matrices(const Options& options) {
     if (!options.html.empty()) {
         std::optional<taut::RayleighDamping> undamped;
         if (options.damping_matrix.empty()) undamped.emplace();
-        found.page = example::page_data(stability, found, undamped);
+        found.page = example::page_data(stability, found, stability.limiting_mode(), undamped);
     }
     return found;
 }
@@ -161,7 +162,8 @@ int run(int argc, char** argv) {
         ->check(example::positive());
     app.add_option("--json", options.json,
                    "write the findings as JSON (- is stdout, without table)");
-    app.add_option("--html", options.html, "write the findings as one page to look at");
+    app.add_option("--html", options.html,
+                   "write the findings as one page to look at (- is stdout, without table)");
     for (const char* other : {"MESH", "--scene", "--size", "--d0", "--alpha", "--pin", "--stretch",
                               "--bend", "--mass", "--any-pose"}) {
         K->excludes(app.get_option(other));
@@ -185,7 +187,7 @@ int run(int argc, char** argv) {
     }
     const Findings found =
         options.stiffness_matrix.empty() ? report_on_scene(options) : report_on_matrices(options);
-    if (options.json != "-") example::print_table(found, options.scene.d0);
+    if (options.json != "-" && options.html != "-") example::print_table(found, options.scene.d0);
     if (!options.json.empty())
         example::write_text(example::to_json(found, options.scene.d0).dump(2), "--json",
                             options.json);

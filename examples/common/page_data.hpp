@@ -94,6 +94,7 @@ inline Json window_json(const taut::Stability<double>& stability, const Findings
 
 /// @param rayleigh  of the system, if Rayleigh damping is all it has
 inline Json page_data(const taut::Stability<double>& stability, const Findings& found,
+                      const taut::LimitingMode& mode,
                       const std::optional<taut::RayleighDamping>& rayleigh) {
     Json json;
     json["multipliers"] = nullptr;
@@ -102,7 +103,6 @@ inline Json page_data(const taut::Stability<double>& stability, const Findings& 
     json["runs"] = nullptr;
     const auto& limit = found.symplectic_euler;
     if (limit.certified > 0 && std::isfinite(limit.certified) && std::isfinite(limit.refuted)) {
-        const auto mode = stability.limiting_mode();
         json["multipliers"] = {
             {"below", multipliers_json(mode, rayleigh, below_limit * limit.certified)},
             {"above", multipliers_json(mode, rayleigh, above_limit * limit.refuted)}};
@@ -114,7 +114,9 @@ inline Json page_data(const taut::Stability<double>& stability, const Findings& 
 }
 
 /// Triangles, and the springs that hold at least a thousandth of what the foremost one holds.
-inline void add_mesh(Json& page, const Scene& scene, const taut::Stability<double>& stability) {
+inline void add_mesh(Json& page, const Scene& scene, const taut::Stability<double>& stability,
+                     const taut::LimitingMode& mode) {
+    constexpr std::size_t most_springs = 20'000;
     const auto x = scene.system.initial_state().x;
     const int width = scene.system.size() < 65536 ? 2 : 4;
     const Eigen::Vector3d low = x.rowwise().minCoeff();
@@ -132,28 +134,29 @@ inline void add_mesh(Json& page, const Scene& scene, const taut::Stability<doubl
                 append(triangles, std::uint64_t(corner), width);
         }
     }
-    const auto shares = stability.limiting_springs(scene.system.spring_count());
+    std::vector<taut::SpringShare> shares;
+    if (mode.shape.size() > 0) shares = stability.pencil().spring_shares(mode.shape);
+    std::sort(shares.begin(), shares.end(),
+              [](const auto& p, const auto& q) { return p.share > q.share; });
     Json share = Json::array();
-    double total = 0;
     for (const auto& spring : shares) {
-        if (!(spring.share > 1e-3 * shares.front().share)) break;
+        const double relative = spring.share / shares.front().share;
+        if (!(relative > 1e-3) || share.size() == most_springs) break;
         append(springs, std::uint64_t(spring.a), width);
         append(springs, std::uint64_t(spring.b), width);
-        share.push_back(rounded(spring.share));
-        total += spring.share;
+        share.push_back(rounded(relative));
     }
     const Eigen::Vector3d g = scene.system.gravity().cwiseAbs();
     page["name"] = scene.name;
     page["mesh"] = {{"index_bytes", width},
-                    {"low", {low[0], low[1], low[2]}},
                     {"extent", extent},
                     {"up", g[2] > g[1] ? 2 : 1},
                     {"positions", base64(positions)},
                     {"triangles", base64(triangles)},
                     {"pinned", base64(pinned)},
                     {"springs", base64(springs)},
-                    {"share", share},
-                    {"share_shown", total}};
+                    {"foremost", shares.empty() ? 0 : shares.front().share},
+                    {"share", share}};  // of the foremost one's
 }
 
 /// A displacement in four bytes: direction, and its length on a logarithmic scale from `floor` to
@@ -188,13 +191,13 @@ inline Json run_json(const KickedRun& run, const std::vector<taut::Index>& moved
 
 /// The runs at 0.99 of the certified and 1.01 of the refuted step, without gravity, so that the
 /// pose is at rest and nothing but the step moves it.
-inline void add_runs(Json& page, const Scene& scene, const taut::Stability<double>& stability,
-                     const taut::StepLimit<double>& limit) {
+inline void add_runs(Json& page, const Scene& scene, const taut::StepLimit<double>& limit,
+                     const taut::LimitingMode& mode) {
     if (page["multipliers"].is_null()) return;
     System still = scene.system;
     still.set_gravity({0, 0, 0});
-    const auto [kick, above, below] =
-        run_near_limit(still, mean_edge(scene), limit, stability.limiting_mode());
+    const auto [kick, above, below] = run_near_limit(still, mean_edge(scene), limit, mode);
+    if (!(kick > 0)) return;  // all particles in one point
     const double floor = kick / 100;
     const double ceiling = diagonal(scene);
     std::vector<taut::Index> moved;  // others would be drawn where they are

@@ -178,12 +178,12 @@ function drawWindow(box, data, method) {
   if (mark.empty || !(mark.h > x.from)) return;
   const [a, b] = [mark.lower, mark.upper === "unbounded" ? y.to : mark.upper].map(clamped);
   svg("line", { x1: x(mark.h), x2: x(mark.h), y1: a, y2: b, class: "mark", "stroke-width": 3 }, root);
-  label(root, x(mark.h), b - 10, `h = ${seconds(mark.h, 3)}`, "middle");
+  label(root, x(mark.h), b - 20, `h = ${seconds(mark.h, 3)}`, "middle");
 }
 
 /// How much of the vibration's energy the first n springs hold together.
 function drawShares(box, data) {
-  const { share } = data.mesh;
+  const { share, foremost } = data.mesh;
   const { root, width, height } = drawing(box, 220, "Energy held by the first springs together");
   const frame = { left: 58, right: width - 14, top: 32, bottom: height - 46 };
   const total = data.findings.springs;
@@ -193,6 +193,6 @@ function drawShares(box, data) {
     { scale: x, ticks: decades(x, width < 500 ? 5 : 12), text: (v) => v.toLocaleString("en-US"), title: `springs, the foremost first, of ${total.toLocaleString("en-US")}` },
     { scale: y, ticks: [0, 0.25, 0.5, 0.75, 1], text: (v) => percent(v), title: "elastic energy of the limiting vibration" });
   let sum = 0;
-  const points = share.map((s, i) => [x(i + 1), y(Math.min(1, (sum += s)))]);
+  const points = share.map((s, i) => [x(i + 1), y(Math.min(1, (sum += foremost * s)))]);
   svg("path", { d: path(points), class: "line-refuted", "stroke-linejoin": "round" }, root);
 }

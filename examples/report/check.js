@@ -35,7 +35,9 @@ function checkPictures() {
     expect(share > 0.05 && colours > 8, `canvas ${canvas.dataset.mesh}: ${share} painted, ${colours} colours`);
   }
   for (const box of document.querySelectorAll("[data-plot]")) {
-    if (visible(box)) expect(box.querySelectorAll("svg *").length > 12, `plot ${box.dataset.plot} is empty`);
+    if (!visible(box)) continue;
+    expect(box.querySelectorAll("svg *").length > 12, `plot ${box.dataset.plot} is empty`);
+    expect(box.querySelectorAll("text").length > 5, `plot ${box.dataset.plot} has no labels`);
   }
   for (const caption of document.querySelectorAll("figcaption")) {
     if (visible(caption)) expect(caption.textContent.length > 80, `a caption is missing: ${caption.dataset.fill}`);

@@ -4,7 +4,7 @@
 
 const data = JSON.parse(document.getElementById("data").textContent);
 const byId = (id) => document.getElementById(id);
-const fill = (name, text) => document.querySelector(`[data-fill="${name}"]`).replaceChildren(text);
+const fill = (name, ...parts) => document.querySelector(`[data-fill="${name}"]`).replaceChildren(...parts);
 const plot = (name) => document.querySelector(`[data-plot="${name}"]`);
 const canvasOf = (name) => document.querySelector(`[data-mesh="${name}"]`);
 const whole = (n) => n.toLocaleString("en-US");
@@ -24,8 +24,7 @@ function writeHead() {
   document.title = `${data.name}: stability report`;
   fill("name", data.name.split("/").pop());
   const parts = [];
-  if (findings.particles !== null) parts.push(`${whole(findings.particles)} particles`, `${whole(findings.springs)} springs`);
-  if (data.mesh) parts.push(`${whole(mesh.pinned.length)} pinned`);
+  if (mesh) parts.push(`${whole(findings.particles)} particles, ${mesh.pinned.length ? whole(mesh.pinned.length) : "none"} pinned`, `${whole(findings.springs)} springs`);
   parts.push(`${whole(findings.degrees_of_freedom)} degrees of freedom`);
   fill("scene", parts.join(", "));
   const fact = (name, limit) => {
@@ -87,15 +86,19 @@ function writeCaptions() {
   }
   if (data.runs) {
     const { kick, above, below } = data.runs;
-    const grown = Math.max(...above.reach) / kick;
-    fill("runs", `The same mesh, stepped by symplectic Euler with every spring at its full nonlinear force; the two differ in h alone. The limit is the one at this pose. Gravity is left out, so that the pose is at rest and nothing but the step moves it, and both start with a small kick along the limiting vibration, ${metres(kick, 2)} at most: without it the growth would begin at rounding and take longer to be seen. Below the limit the kick rings and stays within ${metres(Math.max(...below.reach), 2)}; above it, it has grown ${significant(grown, 2)}-fold after ${above.steps} steps. Dashed: the growth that the multipliers below predict, until the mesh is too far from its pose for any linear prediction. Colour is how far a particle is from its place, as along the chart's upright axis; every ${ordinal(data.runs.steps_a_frame)} step is shown.`);
+    const grown = +(Math.max(...above.reach) / kick).toPrecision(2);
+    const text = document.createElement("small");
+    text.textContent = `Both are symplectic Euler with the full nonlinear spring forces, and differ in h alone; the limit is the one at this pose. Gravity is left out, so that the pose is at rest and nothing but the step moves it. Both start with the same kick along the limiting vibration: without it the growth would begin at rounding and take longer to be seen. Dashed: the growth that the multipliers below predict, until the mesh is too far from its pose for a linear prediction. Colour: how far a particle is from its place, as along the chart's upright axis. Every ${ordinal(data.runs.steps_a_frame)} step is shown.`;
+    fill("runs", `Below the limit a kick of ${metres(kick, 2)} ${data.multipliers.below.radius < 0.9999 ? "rings, dies out" : "goes on ringing"} and stays within ${metres(Math.max(...below.reach), 2)}; above it, the same kick has grown ${whole(grown)}-fold after ${above.steps} steps.`, text);
   }
   if (data.mesh && data.mesh.share.length) {
-    const { share } = data.mesh;
+    const { share, foremost } = data.mesh;
     let half = 0;
-    for (let sum = 0; half < share.length && sum < 0.5; ) sum += share[half++];
+    let sum = 0;
+    while (half < share.length && sum < 0.5) sum += foremost * share[half++];
+    const held = `${sum < 0.5 ? percent(sum, 2) : "Half"} of that energy is in ${whole(half)} of ${whole(findings.springs)} springs`;
     const blame = half <= 100 ? "softening these, or making their ends heavier, lengthens the step" : "the vibration is spread out, and no few springs are to blame";
-    fill("springs", `Red: the springs that take part in the limiting vibration. The more of its elastic energy a spring holds, the stronger its line. Half of that energy is in ${whole(half)} of ${whole(findings.springs)} springs: ${blame}.`);
+    fill("springs", `Red: the springs that take part in the limiting vibration. The more of its elastic energy a spring holds, the stronger its line. ${held}: ${blame}.`);
   }
   if (data.window) {
     const mark = findings.rayleigh_window;
@@ -135,6 +138,7 @@ function writeTable() {
 // ---- pictures ----
 
 const mesh = data.mesh && decodeMesh(data.mesh);
+if (mesh) chooseNearest(mesh);
 const films = mesh && data.runs && {
   below: decodeRun(data.runs.below, data.runs, mesh, data.mesh.index_bytes),
   above: decodeRun(data.runs.above, data.runs, mesh, data.mesh.index_bytes),
@@ -215,7 +219,7 @@ function start() {
       drawFrame();
     });
   }
-  for (const canvas of document.querySelectorAll("canvas")) turnable(canvas, () => requestAnimationFrame(drawMeshes));
+  for (const canvas of document.querySelectorAll("canvas")) turnable(canvas, drawMeshes);
   drawAll();
   let pending = 0;
   let width = document.body.clientWidth;

@@ -199,11 +199,22 @@ function paintMesh(canvas, mesh, x, level, colours) {
   paintPins(view, mesh.pinned);
 }
 
+/// Of the springs that hold nearly as much as the foremost, the one nearest to the viewer; the
+/// camera goes to the other side of the mesh if that one is behind it.
+function chooseNearest(mesh) {
+  const { springs, share, x } = mesh;
+  const depth = project(x, [0, 0, 0], 1, 0, 0);
+  const nearness = (s) => depth[3 * springs[2 * s] + 2] + depth[3 * springs[2 * s + 1] + 2];
+  mesh.nearest = 0;
+  for (let s = 1; s < share.length && share[s] > 0.8 * share[0]; ++s) if (nearness(s) > nearness(mesh.nearest)) mesh.nearest = s;
+  if (share.length && nearness(mesh.nearest) < 0) camera.turn += Math.PI;
+}
+
 /// The mesh at rest in grey with its limiting springs on it, the foremost ones widest.
 function paintSprings(canvas, mesh, colours, close) {
   const { context, width, height } = prepared(canvas);
   const { springs, share, x } = mesh;
-  const [a, b] = [3 * springs[0], 3 * springs[1]];
+  const [a, b] = [0, 1].map((end) => 3 * springs[2 * mesh.nearest + end]);
   const length = Math.hypot(x[a] - x[b], x[a + 1] - x[b + 1], x[a + 2] - x[b + 2]);
   const middle = [0, 1, 2].map((d) => (x[a + d] + x[b + d]) / 2);
   const all = fit(mesh, width, height);
@@ -226,6 +237,7 @@ function paintSprings(canvas, mesh, colours, close) {
 /// Turns the camera with the pointer and calls `redraw`.
 function turnable(canvas, redraw) {
   let from = null;
+  let pending = 0;
   canvas.addEventListener("pointerdown", (event) => {
     from = [event.clientX, event.clientY];
     canvas.setPointerCapture(event.pointerId);
@@ -235,7 +247,8 @@ function turnable(canvas, redraw) {
     camera.turn += (event.clientX - from[0]) * 0.008;
     camera.tilt = Math.max(-1.5, Math.min(1.5, camera.tilt + (event.clientY - from[1]) * 0.008));
     from = [event.clientX, event.clientY];
-    redraw();
+    cancelAnimationFrame(pending);
+    pending = requestAnimationFrame(redraw);
   });
   for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => (from = null));
 }
