@@ -17,7 +17,11 @@ function bracket(limit) {
   return { certified, refuted: limit.refuted === null ? Infinity : limit.refuted };
 }
 
-const knownLimits = (data) => LIMITS.filter(([key]) => data.findings[key] && data.findings[key].cause);
+/// The limits that were asked for; bare matrices have no pose.
+function knownLimits(data) {
+  const posed = data.findings.particles !== null;
+  return LIMITS.filter(([key]) => data.findings[key].cause).map(([key, name, where]) => [key, name, posed ? where : ""]);
+}
 
 function drawLimits(box, data) {
   const rows = knownLimits(data);
@@ -46,18 +50,18 @@ function drawLimits(box, data) {
     if (refuted < Infinity && certified > 0) right = Math.max(right, left + 2);
     if (narrow) {
       const text = label(root, 0, top - 7, name, "start", "strong");
-      svg("tspan", { dx: 8, style: "font-size: 12px; fill: var(--soft)" }, text, where);
+      if (where) svg("tspan", { dx: 8, style: "font-size: 12px; fill: var(--soft)" }, text, where);
     } else {
-      label(root, 0, top + 13, name, "start", "strong");
+      label(root, 0, top + (where ? 13 : 19), name, "start", "strong");
       label(root, 0, top + 29, where);
     }
     svg("rect", { ...bar, x: frame.left, width: left - frame.left, class: "certified" }, root);
     svg("rect", { ...bar, x: left, width: right - left, fill: hatch }, root);
     svg("rect", { ...bar, x: right, width: frame.right - right, class: "refuted" }, root);
     const middle = top + 18.5;
-    if (certified === Infinity) label(root, frame.left + 10, middle, "every step is stable", "start", "in");
+    if (certified === Infinity) label(root, frame.left + 10, middle, "every step certified", "start", "in");
     else if (certified > 0) label(root, left - 8, middle, seconds(certified), "end", "in");
-    if (refuted === 0) label(root, frame.left + 10, middle, `no step is stable: ${limit.cause}`, "start", "in");
+    if (refuted === 0) label(root, frame.left + 10, middle, `every step refuted: ${limit.cause.replace(/_/g, " ")}`, "start", "in");
     else if (refuted < Infinity) label(root, right + 8, middle, seconds(refuted), "start", "in");
   });
   const frameTime = 1 / 60;

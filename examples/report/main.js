@@ -13,10 +13,10 @@ const whole = (n) => n.toLocaleString("en-US");
 
 function limitSentence(limit) {
   const { certified, refuted } = bracket(limit);
-  if (certified === Infinity) return "every step is stable";
-  if (certified > 0 && refuted < Infinity) return `up to ${seconds(certified)} is proved, from ${seconds(refuted)} on it fails`;
-  if (certified > 0) return `up to ${seconds(certified)} is proved`;
-  return "no step is proved";
+  if (certified === Infinity) return "every step is certified";
+  if (certified > 0 && refuted < Infinity) return `steps up to ${seconds(certified)} are certified, from ${seconds(refuted)} on refuted`;
+  if (certified > 0) return `steps up to ${seconds(certified)} are certified`;
+  return "no step is certified";
 }
 
 function writeHead() {
@@ -32,7 +32,7 @@ function writeHead() {
     const [value, unit] = certified === Infinity ? ["every step", ""] : certified > 0 ? seconds(certified).split("\u00a0") : ["none", ""];
     return [name, value, unit];
   };
-  const facts = [fact("Symplectic Euler, certified at this pose", findings.symplectic_euler)];
+  const facts = [fact(mesh ? "Symplectic Euler, certified at this pose" : "Symplectic Euler, certified", findings.symplectic_euler)];
   if (findings.any_pose.cause) facts.push(fact("Symplectic Euler, certified while it moves", findings.any_pose));
   const stiffest = findings.k_max.upper;
   facts.push(["Fastest vibration, at most", ...(stiffest > 0 ? frequency(Math.sqrt(stiffest) / (2 * Math.PI)) : ["none", ""])]);
@@ -54,7 +54,7 @@ function writeHead() {
   fill(
     "lede",
     `Symplectic Euler: ${limitSentence(findings.symplectic_euler)}.` +
-      (frame ? ` At the step proved ${findings.any_pose.cause ? "for a moving mesh" : "here"}, a frame of 1/60\u00a0s is ${whole(frame)} ${frame === 1 ? "step" : "steps"}.` : "") +
+      (frame ? ` At the step certified ${findings.any_pose.cause ? "for a moving mesh" : "here"}, a frame of 1/60\u00a0s is ${whole(frame)} ${frame === 1 ? "step" : "steps"}.` : "") +
       remedy(findings.want_step),
   );
 }
@@ -63,9 +63,9 @@ function writeHead() {
 function remedy(want) {
   if (!want) return "";
   const asked = ` The step asked for, ${seconds(want.h)},`;
-  if (want.safe_already) return `${asked} is proved at this pose as the mesh is.`;
+  if (want.safe_already) return `${asked} is certified at this pose as the mesh is.`;
   const added = want.added_mass === null ? "" : `, or ${significant(want.added_mass)} kg more on the particles that need it`;
-  return `${asked} is proved at this pose with all stiffness times ${significant(want.stiffness_scale)}, or all masses times ${significant(want.mass_scale)}${added}.`;
+  return `${asked} is certified at this pose with all stiffness times ${significant(want.stiffness_scale)}, or all masses times ${significant(want.mass_scale)}${added}.`;
 }
 
 function frequency(f) {
@@ -73,10 +73,20 @@ function frequency(f) {
   return [String(+(f / size).toPrecision(4)), unit];
 }
 
+/// What a reader can do something about, once for the integrators that share it.
+function causeSentences() {
+  const groups = new Map();
+  for (const [key, name] of knownLimits(data)) {
+    const cause = data.causes[key];
+    if (!cause || ["stiffness", "unconditional"].includes(data.findings[key].cause)) continue;
+    groups.set(cause, [...(groups.get(cause) || []), name]);
+  }
+  return [...groups].map(([cause, names]) => ` ${names.join(", ")}: ${cause}.`).join("");
+}
+
 function writeCaptions() {
-  const { findings, causes } = data;
-  const sentence = (key, name) => (findings[key].cause === "stiffness" || findings[key].cause === "unconditional" ? "" : ` ${name}: ${causes[key]}.`);
-  fill("limits", `Each bar is one integrator: steps in its first part are proved stable, steps in its last part are known to fail, and the true limit lies between.${sentence("explicit_euler", "Explicit Euler")}${sentence("symplectic_euler", "Symplectic Euler")}${sentence("implicit_euler", "Implicit Euler")}`);
+  const { findings } = data;
+  fill("limits", `Each bar is one integrator: steps in its first part are certified, steps in its last part are refuted, and the true limit lies between.${causeSentences()}`);
   if (data.multipliers) {
     const { below, above } = data.multipliers;
     for (const side of ["below", "above"])
@@ -103,7 +113,7 @@ function writeCaptions() {
   if (data.window) {
     const mark = findings.rayleigh_window;
     const at = mark.empty ? `At h = ${seconds(mark.h, 3)} none is left.` : `At h = ${seconds(mark.h, 3)}, the heavy line, explicit Euler needs α between ${seconds(mark.lower, 3)} and ${mark.upper === "unbounded" ? "any length" : seconds(mark.upper, 3)}.`;
-    fill("window", `Shaded: the damping α (the damping matrix is α times the stiffness matrix${mark.d0 > 0 ? `, beside d0 = ${significant(mark.d0)} 1/s on the mass` : ""}) for which a step is proved stable at this pose. ${at} Explicit Euler needs some damping and bears no more than the upper edge; symplectic Euler needs none. Both windows close at h = 2/√k, where k is the proved bound on the stiffest vibration.`);
+    fill("window", `Shaded: the damping α (the damping matrix is α times the stiffness matrix${mark.d0 > 0 ? `, beside d0 = ${significant(mark.d0)} 1/s on the mass` : ""}) for which a step is certified${mesh ? " at this pose" : ""}. ${at} Explicit Euler needs some damping and bears no more than the upper edge; symplectic Euler needs none. Both windows close at h = 2/√k, where k is the proved bound on the stiffest vibration.`);
   }
 }
 
@@ -115,7 +125,7 @@ function writeTable() {
   const rows = knownLimits(data).map(([key, name, where]) => {
     const limit = data.findings[key];
     const { certified, refuted } = bracket(limit);
-    return [`${name}, ${where}`, certified === Infinity ? "every step" : certified > 0 ? `${printed(certified)}` : "none", refuted === Infinity ? "none" : refuted > 0 ? `${printed(refuted)}` : "every step", limit.cause.replace(/_/g, " ")];
+    return [where ? `${name}, ${where}` : name, certified === Infinity ? "every step" : certified > 0 ? `${printed(certified)}` : "none", refuted === Infinity ? "none" : refuted > 0 ? `${printed(refuted)}` : "every step", limit.cause.replace(/_/g, " ")];
   });
   const table = byId("table");
   const row = (cells, kind) => {
