@@ -45,13 +45,14 @@ inline double mean_edge(const Scene& scene) {
     return sum / static_cast<double>(edges);
 }
 
-/// Symplectic Euler from the initial pose displaced by `kick`, until a particle has gone farther
-/// than `far` or for `steps` steps.
-inline KickedRun kicked_run(const System& system, const taut::Points<double, 3>& kick, double h,
-                            taut::Index steps, double far) {
+/// Symplectic Euler from the initial pose displaced by `kick` and moving at `speed`·kick, until a
+/// particle has gone farther than `far` or for `steps` steps.
+inline KickedRun kicked_run(const System& system, const taut::Points<double, 3>& kick, double speed,
+                            double h, taut::Index steps, double far) {
     const auto rest = system.initial_state().x;
     auto state = system.initial_state();
     state.x += kick;
+    state.v += speed * kick;
     taut::SymplecticEuler stepper(system);
     KickedRun run;
     run.h = h;
@@ -66,7 +67,8 @@ inline KickedRun kicked_run(const System& system, const taut::Points<double, 3>&
 }
 
 struct RunsNearLimit {
-    double kick = 0;  // m, of the particle that moves most
+    double kick = 0;   // m, of the particle that moves most
+    double speed = 0;  // 1/s, the kick's velocity over its displacement
     KickedRun above;
     KickedRun below;
 };
@@ -76,10 +78,11 @@ inline RunsNearLimit run_near_limit(const System& system, double edge,
                                     const taut::LimitingMode& mode) {
     constexpr double kick_of_edge = 1e-4;
     const double h = above_limit * limit.refuted;
-    // Three times what takes the kick to an edge's length: the rest shows what comes of it.
-    const double growth =
-        std::log(taut::spectral_radius(taut::Method::symplectic_euler, mode.k, mode.d, h));
-    const double wanted = -3 * std::log(kick_of_edge) / growth;
+    const auto mu = taut::multipliers(taut::Method::symplectic_euler, mode.k, mode.d, h);
+    const auto larger = std::abs(mu[0]) >= std::abs(mu[1]) ? mu[0] : mu[1];
+    // As many steps as it takes the kick to grow to an edge's length, three times over: the rest
+    // shows what comes of it.
+    const double wanted = -3 * std::log(kick_of_edge) / std::log(std::abs(larger));
     const taut::Index most_steps = wanted > 10 && wanted < 600 ? std::lround(wanted) : 600;
     const auto rest = system.initial_state().x;
     taut::Points<double, 3> shape = taut::Points<double, 3>::Zero(3, system.size());
@@ -90,9 +93,10 @@ inline RunsNearLimit run_near_limit(const System& system, double edge,
     const double far = 0.25 * (rest.rowwise().maxCoeff() - rest.rowwise().minCoeff()).norm();
     RunsNearLimit runs;
     runs.kick = kick_of_edge * edge;
-    runs.above = kicked_run(system, shape, h, most_steps, far);
+    runs.speed = ((larger - 1.0) / (h * larger)).real();  // x⁺ = μx, so that it grows at once
+    runs.above = kicked_run(system, shape, runs.speed, h, most_steps, far);
     const auto steps = static_cast<taut::Index>(runs.above.reach.size()) - 1;
-    runs.below = kicked_run(system, shape, below_limit * limit.certified, steps, far);
+    runs.below = kicked_run(system, shape, runs.speed, below_limit * limit.certified, steps, far);
     return runs;
 }
 

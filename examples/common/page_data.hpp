@@ -196,7 +196,7 @@ inline void add_runs(Json& page, const Scene& scene, const taut::StepLimit<doubl
     if (page["multipliers"].is_null()) return;
     System still = scene.system;
     still.set_gravity({0, 0, 0});
-    const auto [kick, above, below] = run_near_limit(still, mean_edge(scene), limit, mode);
+    const auto [kick, speed, above, below] = run_near_limit(still, mean_edge(scene), limit, mode);
     if (!(kick > 0)) return;  // all particles in one point
     const double floor = kick / 100;
     const double ceiling = diagonal(scene);
@@ -212,6 +212,7 @@ inline void add_runs(Json& page, const Scene& scene, const taut::StepLimit<doubl
     std::vector<std::uint8_t> indices;
     for (const auto i : moved) append(indices, std::uint64_t(i), width);
     page["runs"] = {{"kick", kick},
+                    {"speed", speed},
                     {"steps_a_frame", stride * KickedRun::steps_a_frame},
                     {"floor", floor},
                     {"ceiling", ceiling},

@@ -71,12 +71,16 @@ function drawLimits(box, data) {
   }
 }
 
-/// The amplitude after each step of a mode displaced by `kick` at rest, as its two multipliers give
-/// it: x₁ = (s − p) x₀ and xₙ₊₁ = s xₙ − p xₙ₋₁ with their sum s and product p.
-function predictedReach([[re0, im0], [re1, im1]], kick, steps) {
+/// The limiting mode's amplitude after each step of one side's run, as its two multipliers give it:
+/// with their sum s = 2 − hd − h²k and product p = 1 − hd, x₁ = (s − p) x₀ + p h v₀ and then
+/// xₙ₊₁ = s xₙ − p xₙ₋₁.
+function predictedReach(data, side, steps) {
+  const { h, limiting } = data.multipliers[side];
+  const [[re0, im0], [re1, im1]] = limiting;
+  const { kick, speed } = data.runs;
   const sum = re0 + re1;
   const product = re0 * re1 - im0 * im1;
-  const x = [kick, (sum - product) * kick];
+  const x = [kick, (sum - product + product * h * speed) * kick];
   while (x.length <= steps) x.push(sum * x[x.length - 1] - product * x[x.length - 2]);
   return x.map(Math.abs);
 }
@@ -100,7 +104,7 @@ function drawReach(box, data, step) {
     const fill = rampColour(Math.log(value / floor) / Math.log(ceiling / floor), 0.92);
     svg("rect", { x: frame.left, y: at, width: 7, height: Math.min(4.5, frame.bottom - at), fill }, root);
   }
-  const predicted = predictedReach(data.multipliers.above.limiting, kick, steps);
+  const predicted = predictedReach(data, "above", steps);
   const end = predicted.findIndex((v) => v > y.to);
   const seen = end < 0 ? predicted : predicted.slice(0, end);
   for (const [run, kind] of [[below, "certified"], [above, "refuted"]]) {

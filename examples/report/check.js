@@ -58,7 +58,7 @@ async function checkRuns() {
   expect(Math.max(...below.reach) < 30 * kick, "the run below the limit does not stay near its kick");
   expect(Math.max(...above.reach) > 1000 * kick, "the run above the limit does not grow");
   for (const [side, run] of [["below", below], ["above", above]]) {
-    const predicted = predictedReach(data.multipliers[side].limiting, kick, 10);
+    const predicted = predictedReach(data, side, 10);
     const off = predicted.map((v, i) => Math.abs(run.reach[i] - v) / Math.max(...predicted.slice(0, i + 1)));
     expect(Math.max(...off) < 0.02, `${side}: the first ten steps are ${Math.max(...off)} from the prediction`);
   }

@@ -211,7 +211,7 @@ function play() {
 function start() {
   byId("runs").hidden = !films;
   byId("multipliers").hidden = !data.multipliers;
-  byId("springs").hidden = !(data.mesh && data.mesh.share.length);
+  byId("springs").hidden = !(mesh && data.mesh.share.length && data.mesh.extent > 1e-100);
   byId("window").hidden = !data.window;
   let number = 0;
   for (const mark of document.querySelectorAll("figure:not([hidden]) h2 span")) mark.textContent = ++number;
