@@ -6,8 +6,10 @@ function(taut_private_flags target)
     if(MSVC)
         target_compile_options(${target} PRIVATE /W4 $<$<BOOL:${TAUT_WERROR}>:/WX>)
     else()
+        # Clang counts sign conversions among -Wconversion, GCC does not.
         target_compile_options(${target} PRIVATE
-            -Wall -Wextra -Wpedantic -Wconversion -Wshadow $<$<BOOL:${TAUT_WERROR}>:-Werror>)
+            -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wshadow
+            $<$<BOOL:${TAUT_WERROR}>:-Werror>)
     endif()
     if(TAUT_SANITIZE)
         set(flags -fsanitize=${TAUT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)

@@ -2,200 +2,144 @@
 // SPDX-License-Identifier: MIT
 
 // Simulates a cloth under gravity, by default at 95 % of the step that is proved for any pose, and
-// writes an OBJ sequence and the energy over time.
+// writes an OBJ sequence, the energy over time, and on request a point cache.
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <functional>
-#include <memory>
-#include <stdexcept>
 #include <string>
 
 #include "common/main.hpp"
-#include "common/scene.hpp"
+#include "drape/motion.hpp"
+#include "drape/obstacle.hpp"
+#include "drape/record.hpp"
 
 namespace {
 
+using drape::Cloth;
+using drape::Options;
+using drape::Plan;
+using drape::State;
+
 constexpr int diverged = 3;  // exit code
 
-struct Options {
-    example::SceneOptions scene;
-    std::string method = "symplectic";
-    double step = 0;      // s; 0: 0.95 of the any-pose limit, or a frame for the implicit method
-    double duration = 2;  // s
-    double frame_rate = 30;
-    std::string output = "drape";
-    bool quiet = false;
+/// What became of a run.
+struct Outcome {
+    std::string trouble;
+    double risen = 0;  // highest energy above that at the start, J
 };
 
-using State = example::System::State;
-using Step = std::function<taut::Report(State&, double, taut::Index)>;
-
-/// The chosen stepper behind one call; `system` must outlive it.
-Step make_stepper(const std::string& method, const example::System& system) {
-    const auto wrap = [](auto stepper) {
-        return [stepper](State& state, double h, taut::Index count) {
-            return stepper->step(state, h, count);
-        };
-    };
-    if (method == "explicit")
-        return wrap(std::make_shared<taut::ExplicitEuler<example::System>>(system));
-    if (method == "verlet")
-        return wrap(std::make_shared<taut::VelocityVerlet<example::System>>(system));
-    if (method == "implicit")
-        return wrap(std::make_shared<taut::ImplicitEuler<example::System>>(system));
-    return wrap(std::make_shared<taut::SymplecticEuler<example::System>>(system));
-}
-
-double default_step(const Options& options, const example::System& system) {
-    if (options.method == "implicit") return 1 / options.frame_rate;
-    if (options.method == "explicit" && options.scene.d0 == 0 && options.scene.alpha == 0) {
-        throw std::runtime_error("--method explicit: " +
-                                 std::string(describe(taut::Cause::undamped)));
-    }
-    const auto limit = taut::any_pose_limit(system);
-    if (limit.unbounded()) return 1 / options.frame_rate;
-    if (!(limit.certified > 0)) {
-        throw std::runtime_error("no step is certified: " + std::string(describe(limit.cause)));
-    }
-    return 0.95 * limit.certified;
-}
-
-/// A rise of the energy that no fall of the cloth by a hundred times its own size can explain.
-double energy_allowance(const example::System& system, const State& state) {
-    const double extent = (state.x.rowwise().maxCoeff() - state.x.rowwise().minCoeff()).norm();
+/// A rise of the energy that no fall of the cloth by a hundred times its own size can explain, J.
+double energy_allowance(const Cloth& cloth, const State& state) {
     double mass = 0;
-    for (taut::Index i = 0; i < system.size(); ++i) mass += system.mass(i);
-    return 100 * mass * system.gravity().norm() * extent;
+    for (taut::Index i = 0; i < cloth.size(); ++i) mass += cloth.mass(i);
+    return 100 * mass * cloth.gravity().norm() * drape::extent(state);
 }
 
-std::string frame_path(const std::string& folder, int frame) {
-    char name[32];
-    std::snprintf(name, sizeof name, "/frame_%05d.obj", frame);
-    return folder + name;
-}
-
-/// A longer run before this one would be taken for the end of it.
-void warn_of_old_frames(const std::string& folder, int first) {
-    std::error_code failed;
-    const std::string path = frame_path(folder, first);
-    if (!std::filesystem::exists(path, failed)) return;
-    std::fprintf(stderr, "drape: --output: %s and any after it are of an earlier run\n",
-                 path.c_str());
-}
-
-int simulate(const Options& options, const example::Scene& scene) {
-    const auto& system = scene.system;
-    State state = system.initial_state();
-    const Step stepper = make_stepper(options.method, system);
-    const double wanted_frames = std::round(options.duration * options.frame_rate);
-    if (wanted_frames > 99999) {
-        throw std::runtime_error("--duration, --frame-rate: more than 99999 frames");
+/// Empty, or what went wrong.
+std::string advance_frame(const Cloth& cloth, const Plan& plan, const drape::Advance& advance,
+                          const drape::Obstacle& obstacle, State& state) {
+    for (taut::Index span = 0; span < plan.spans; ++span) {
+        std::string trouble = advance(state, plan.span());
+        if (!trouble.empty()) return trouble;
+        obstacle.resolve(cloth, state);
     }
-    const int frames = std::max(1, static_cast<int>(wanted_frames));
-    const double wanted = options.step > 0 ? options.step : default_step(options, system);
-    const double frame_time = options.duration / frames;
-    if (!(frame_time / wanted <= 1e9)) {
-        throw std::runtime_error("--step: more than 1e9 steps for each frame");
-    }
-    const auto substeps =
-        std::max<taut::Index>(1, static_cast<taut::Index>(std::ceil(frame_time / wanted)));
-    const double h = frame_time / static_cast<double>(substeps);
-    std::printf("%s\n%s steps of %.4e s, %lld for each of %d frames of %.4g s\n",
-                example::describe(scene).c_str(), options.method.c_str(), h,
-                static_cast<long long>(substeps), frames, frame_time);
+    return {};
+}
 
-    std::error_code failed;
-    std::filesystem::create_directories(options.output, failed);
-    const std::string table = options.output + "/energy.csv";
-    std::FILE* csv = failed ? nullptr : std::fopen(table.c_str(), "w");
-    if (csv == nullptr) throw std::runtime_error("--output: " + table + " cannot be written");
-    std::fprintf(csv, "time_s,kinetic_J,potential_J,total_J\n");
-    const double start_energy = system.energy(state);
-    const double allowance = energy_allowance(system, state);
-    double highest = start_energy;
-    const auto start = std::chrono::steady_clock::now();
-    std::string trouble;
-    int frame = 0;
-    for (; frame <= frames; ++frame) {
+/// Frames until the end or the first that went wrong.
+Outcome run_frames(const Options& options, const Cloth& cloth, const Plan& plan,
+                   const drape::Obstacle& obstacle, drape::Record& record, State& state) {
+    const auto advance = make_motion(options, cloth, plan);
+    const double start_energy = cloth.energy(state);
+    const double allowance = energy_allowance(cloth, state);
+    Outcome outcome;
+    for (int frame = 0; frame <= plan.frames; ++frame) {
         if (frame > 0) {
-            const auto report = stepper(state, h, substeps);
-            if (!report) {
-                trouble = std::string(describe(report.status));
-                if (report.where >= 0) trouble += ", particle " + std::to_string(report.where);
-                break;
-            }
+            outcome.trouble = advance_frame(cloth, plan, advance, obstacle, state);
+            if (!outcome.trouble.empty()) break;
         }
-        const double kinetic = system.kinetic_energy(state);
-        const double potential = system.potential_energy(state);
-        highest = std::max(highest, kinetic + potential);
-        std::fprintf(csv, "%.9g,%.9g,%.9g,%.9g\n", state.time, kinetic, potential,
-                     kinetic + potential);
-        if (!(kinetic + potential <= start_energy + allowance)) {  // or it is NaN
+        const double kinetic = cloth.kinetic_energy(state);
+        const double potential = cloth.potential_energy(state);
+        const double risen = kinetic + potential - start_energy;
+        if (!(risen <= allowance)) {  // or it is NaN
+            record.add_energy(state.time, kinetic, potential);
             char text[96];
             std::snprintf(text, sizeof text, "the energy rose from %.3g J to %.3g J", start_energy,
                           kinetic + potential);
-            trouble = text;
+            outcome.trouble = text;
             break;
         }
-        if (!taut::write_obj(frame_path(options.output, frame), state.x, scene.faces)) {
-            std::fclose(csv);
-            throw std::runtime_error("--output: " + frame_path(options.output, frame) +
-                                     " cannot be written");
-        }
-        if (!options.quiet && frame % std::max(1, frames / 10) == 0) {
+        outcome.risen = std::max(outcome.risen, risen);
+        record.add(cloth, state, kinetic, potential);
+        if (!options.quiet && frame % std::max(1, plan.frames / 10) == 0) {
             std::fprintf(stderr, "%7.3f of %.3f s, energy %.4g J\n", state.time, options.duration,
                          kinetic + potential);
         }
     }
-    const bool written = std::ferror(csv) == 0;
-    if (std::fclose(csv) != 0 || !written)
-        throw std::runtime_error("--output: " + table + " cannot be written");
-    warn_of_old_frames(options.output, frame);
-    if (!trouble.empty()) {
-        std::fprintf(
-            stderr,
-            "drape: the simulation diverged in the frame after %.4g s: %s.\n"
-            "The step %.4e s is too large for this scene and method; stability_report says "
-            "which steps are safe.\n",
-            state.time, trouble.c_str(), h);
+    return outcome;
+}
+
+void print_start(const Options& options, const example::Scene& scene, const Plan& plan,
+                 const drape::Obstacle& obstacle) {
+    std::printf("%s, law %s\n", example::describe(scene).c_str(), options.law.c_str());
+    if (obstacle) std::printf("%s\n", obstacle.description().c_str());
+    std::printf("%s%s steps of %s%.4e s, %lld for each of %d frames of %.4g s\n",
+                options.integrator.c_str(), options.guard ? ", guarded" : "",
+                options.guard ? "at most " : "", plan.h,
+                static_cast<long long>(plan.spans * plan.steps), plan.frames, plan.frame);
+}
+
+/// The end of a sentence that says which step is too large.
+const char* cure(const Options& options) {
+    if (!options.implicit()) return "; stability_report says which steps are safe";
+    if (options.integrator == "newton" || options.integrator == "projective") return "";
+    return ", which makes one linearised solve of it; --integrator newton solves the step itself";
+}
+
+int simulate(const Options& options) {
+    const auto scene = example::make_scene(options.scene);
+    const Cloth cloth = make_cloth(options, scene);
+    State state = cloth.initial_state();
+    const Plan plan = make_plan(options, cloth);
+    const drape::Obstacle obstacle(options, cloth, state);
+    drape::Record record(options, cloth, scene.faces);
+    print_start(options, scene, plan, obstacle);
+
+    const auto start = std::chrono::steady_clock::now();
+    const Outcome outcome = run_frames(options, cloth, plan, obstacle, record, state);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    record.close();
+    if (!outcome.trouble.empty()) {
+        std::fprintf(stderr,
+                     "drape: the simulation diverged in the frame after %.4g s: %s.\n"
+                     "The step %.4e s is too large for this scene and integrator%s.\n",
+                     state.time, outcome.trouble.c_str(), plan.h, cure(options));
         return diverged;
     }
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    std::printf(
-        "%.4g s simulated in %.3g s; highest energy %.3e J above the start\n"
-        "%s/frame_*.obj (in Blender: import one after another, or an OBJ sequence add-on), %s\n",
-        state.time, seconds, highest - start_energy, options.output.c_str(), table.c_str());
+    std::printf("%.4g s simulated in %.3g s; highest energy %.3e J above the start\n", state.time,
+                elapsed.count(), outcome.risen);
+    std::printf("%s/frame_*.obj, %s\n", options.output.c_str(), record.energy_path().c_str());
+    if (!options.cache.empty()) {
+        std::printf(
+            "%s: in Blender, import %s/frame_00000.obj, add the modifier Mesh Cache, format "
+            "PC2\n",
+            options.cache.c_str(), options.output.c_str());
+    }
     return 0;
 }
 
 int run(int argc, char** argv) {
     Options options;
-    CLI::App app{"Simulates a cloth and writes an OBJ sequence. Exit code 3: the state diverged."};
-    options.scene.add_to(app);
-    app.add_option("--method", options.method, "symplectic, verlet, explicit or implicit")
-        ->check(CLI::IsMember({"symplectic", "verlet", "explicit", "implicit"}))
-        ->capture_default_str();
-    app.add_option(
-           "--step", options.step,
-           "largest time step, s (default: 0.95 of the any-pose limit; implicit: one frame)")
-        ->check(example::positive());
-    app.add_option("--duration", options.duration, "simulated time, s")
-        ->check(example::positive())
-        ->capture_default_str();
-    app.add_option("--frame-rate", options.frame_rate, "frames written per simulated second")
-        ->check(example::positive())
-        ->capture_default_str();
-    app.add_option("--output", options.output, "folder for the frames and energy.csv")
-        ->capture_default_str();
-    app.add_flag("--quiet", options.quiet, "no progress line");
+    CLI::App app{
+        "Simulates a cloth and writes an OBJ sequence, for Blender a point cache too.\n"
+        "Exit code 3: the state diverged.\n\n"
+        "  drape hanging_cloth --cache cloth.pc2\n"
+        "  drape hanging_cloth --free --collide sphere --law buckling --integrator implicit\n"
+        "  drape shirt.obj --pin 0-20 --integrator bdf2 --guard\n"};
+    options.add_to(app);
     CLI11_PARSE(app, argc, argv)
-    if (!options.scene.given()) throw std::runtime_error("name a mesh or --scene (see --help)");
-    return simulate(options, example::make_scene(options.scene));
+    options.check();
+    return simulate(options);
 }
 
 }  // namespace

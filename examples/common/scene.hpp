@@ -28,6 +28,7 @@ struct Scene {
     System system;
     std::vector<std::vector<taut::Index>> faces;  // corners are particles
     taut::Index unused_vertices = 0;
+    taut::Index stretch_springs = 0;  // they come first, the others bend
 };
 
 /// CLI11's own range checks print 309 digits.
@@ -54,6 +55,7 @@ struct SceneOptions {
     double bend = 100;        // N/m
     double mass = 0.3;        // kg
     std::string pins;
+    bool free = false;
     double d0 = 0;     // 1/s
     double alpha = 0;  // s
 
@@ -76,6 +78,7 @@ struct SceneOptions {
             ->check(positive())
             ->capture_default_str();
         app.add_option("--pin", pins, "vertices to pin, from 0: 3,7,10-20 (default: none)");
+        app.add_flag("--free", free, "the built-in scene without its pinned corners");
         app.add_option("--d0", d0, "mass-proportional Rayleigh damping, 1/s")
             ->check(non_negative())
             ->capture_default_str();
@@ -115,8 +118,12 @@ inline Scene hanging_cloth_scene(const SceneOptions& options) {
     cloth.stretch = options.stretch;
     cloth.bend = options.bend;
     cloth.mass = options.mass;
-    Scene scene{
-        "hanging_cloth " + std::to_string(cloth.rows), taut::hanging_cloth<double>(cloth), {}, 0};
+    cloth.pin_corners = !options.free;
+    Scene scene;
+    scene.name = "hanging_cloth " + std::to_string(cloth.rows);
+    scene.system = taut::hanging_cloth<double>(cloth);
+    const taut::Index bending = cloth.bend > 0 ? 2 * cloth.rows * (cloth.rows - 2) : 0;
+    scene.stretch_springs = scene.system.spring_count() - bending;
     for (taut::Index r = 0; r + 1 < cloth.rows; ++r) {
         for (taut::Index c = 0; c + 1 < cloth.columns; ++c) {
             const taut::Index i = r * cloth.columns + c;
@@ -132,6 +139,9 @@ inline Scene make_scene(const SceneOptions& options) {
     if (!built_in && options.size) {
         throw std::runtime_error("--size: " + options.mesh + " is a mesh, whose size is its own");
     }
+    if (!built_in && options.free) {
+        throw std::runtime_error("--free: " + options.mesh + " is a mesh; only --pin pins it");
+    }
     const auto pins = parse_pins(options.pins);
     Scene scene;
     std::vector<taut::Index> particle;
@@ -143,7 +153,8 @@ inline Scene make_scene(const SceneOptions& options) {
             return taut::springs_from_mesh<double>(file.vertices, file.faces,
                                                    {options.stretch, options.bend, options.mass});
         });
-        scene = {options.mesh, std::move(mesh.system), std::move(file.faces), mesh.unused_vertices};
+        scene = {options.mesh, std::move(mesh.system), std::move(file.faces), mesh.unused_vertices,
+                 mesh.stretch_springs};
         particle = std::move(mesh.particle_of_vertex);
         for (auto& face : scene.faces) {
             for (auto& corner : face) corner = particle[corner];

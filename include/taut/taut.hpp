@@ -16,6 +16,8 @@
 #include "integrator/symplectic_euler.hpp"
 #include "integrator/velocity_verlet.hpp"
 #include "io/obj.hpp"
+#include "io/pc2.hpp"
+#include "io/vtk.hpp"
 #include "model/buckling.hpp"
 #include "model/energy_guarantee.hpp"
 #include "model/particle_constraints.hpp"

@@ -268,7 +268,8 @@ TEST_CASE("bdf2: conjugate gradients take the direct solver's steps, and their c
     auto by_factors = random_state(random, system);
     auto by_gradients = by_factors;
     Bdf2 direct(system);
-    Bdf2<System, taut::ConjugateGradient<double, 3>> iterative(system);
+    using Solver = taut::ConjugateGradient<double, 3, taut::BlockJacobi<double, 3>>;
+    Bdf2<System, Solver> iterative(system);
     iterative.configure([](auto& solver) { solver.setTolerance(1e-12); });
     REQUIRE(direct.step(by_factors, 0.02, 5));
     REQUIRE(iterative.step(by_gradients, 0.02, 5));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include <cstdio>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <taut/io/obj.hpp>
@@ -10,6 +10,7 @@
 
 #include "../support/catch.hpp"
 #include "../support/random.hpp"
+#include "../support/temporary_file.hpp"
 #include "../support/tolerance.hpp"
 
 namespace taut_test::obj_test {
@@ -17,15 +18,6 @@ namespace taut_test::obj_test {
 namespace {
 
 using Faces = std::vector<std::vector<Index>>;
-
-/// A file in the working directory that is removed at the end of the test.
-struct TemporaryFile {
-    explicit TemporaryFile(std::string name) : path("taut_obj_test_" + std::move(name)) {}
-    ~TemporaryFile() { std::remove(path.c_str()); }
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-    std::string path;
-};
 
 struct Mesh {
     std::vector<Eigen::Vector3d> vertices;
@@ -63,7 +55,7 @@ TEMPLATE_TEST_CASE("obj: vertices and faces are read back as written", "[io]", (
                    (Case<float, 3>), (Case<double, 2>), (Case<double, 3>)) {
     using Scalar = typename TestType::Scalar;
     constexpr int Dim = TestType::Dim;
-    const TemporaryFile file("round_trip_" + std::to_string(sizeof(Scalar)) + "_" +
+    const TemporaryFile file("obj_round_trip_" + std::to_string(sizeof(Scalar)) + "_" +
                              std::to_string(Dim) + ".obj");
     Random random(1);
     const auto x = random.points<Scalar, Dim>(9, -100, 100);
@@ -84,7 +76,7 @@ TEMPLATE_TEST_CASE("obj: vertices and faces are read back as written", "[io]", (
 }
 
 TEST_CASE("obj: a state without faces is a cloud of points", "[io]") {
-    const TemporaryFile file("cloud.obj");
+    const TemporaryFile file("obj_cloud.obj");
     const auto cloth = taut::hanging_cloth<double>({3, 3});
     REQUIRE(taut::write_obj(file.path, cloth.initial_state().x, {}));
     const auto mesh = read(file.path);
@@ -94,23 +86,47 @@ TEST_CASE("obj: a state without faces is a cloud of points", "[io]") {
 }
 
 TEST_CASE("obj: a file is replaced as a whole", "[io]") {
-    const TemporaryFile file("replaced.obj");
+    const TemporaryFile file("obj_replaced.obj");
     Random random(2);
     REQUIRE(taut::write_obj(file.path, random.points<double, 3>(20, -1, 1), {{0, 1, 2}}));
     REQUIRE(taut::write_obj(file.path, random.points<double, 3>(4, -1, 1), {}));
     CHECK(read(file.path).vertices.size() == 4);
 }
 
-TEST_CASE("obj: bad input: a path that cannot be written gives false", "[io][bad_input]") {
+TEST_CASE("obj: a sequence numbers its files, and tries a frame again after a failure", "[io]") {
+    taut::ObjSequence frames("taut_test_sequence_", {{0, 1, 2}});
+    Random random(3);
+    const auto x = random.points<float, 3>(3, -1, 1);
+    taut::Points<float, 3> broken = x;
+    broken(1, 2) = std::numeric_limits<float>::infinity();
+    const TemporaryFile first("sequence_00000.obj");
+    const TemporaryFile second("sequence_00001.obj");
+    REQUIRE(frames.write(x));
+    CHECK(frames.path(0) == first.path);
+    const auto report = frames.write(broken);
+    CHECK(report.status == taut::FileStatus::not_finite);
+    CHECK(report.where == 2);
+    CHECK(second.bytes().empty());
+    REQUIRE(frames.write(x));
+    CHECK(frames.frames() == 2);
+    CHECK(frames.path(123456) == "taut_test_sequence_123456.obj");
+    CHECK(second.bytes() == first.bytes());
+    CHECK(read(second.path).faces == Faces{{0, 1, 2}});
+}
+
+TEST_CASE("obj: bad input: a path that cannot be written is named", "[io][bad_input]") {
     const taut::Points<double, 3> x = taut::Points<double, 3>::Zero(3, 2);
-    CHECK_FALSE(taut::write_obj("no_such_directory/mesh.obj", x, {}));
+    const auto report = taut::write_obj("no_such_directory/mesh.obj", x, {});
+    CHECK(report.status == taut::FileStatus::not_opened);
+    CHECK_THAT(report.message(), ContainsSubstring("no_such_directory/mesh.obj: cannot"));
     CHECK_FALSE(taut::write_obj("", x, {}));
 }
 
 #ifdef __linux__
-TEST_CASE("obj: bad input: a full disk gives false", "[io][bad_input]") {
+TEST_CASE("obj: bad input: a full disk is told from a missing folder", "[io][bad_input]") {
     const taut::Points<double, 3> x = taut::Points<double, 3>::Zero(3, 2);
-    if (std::ifstream("/dev/full")) CHECK_FALSE(taut::write_obj("/dev/full", x, {}));
+    if (!std::ifstream("/dev/full")) return;
+    CHECK(taut::write_obj("/dev/full", x, {}).status == taut::FileStatus::not_written);
 }
 #endif
 

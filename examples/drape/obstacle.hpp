@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <variant>
+
+#include "cloth.hpp"
+
+namespace drape {
+
+/// What --collide puts below a scene.
+class Obstacle {
+public:
+    Obstacle(const Options& options, const Cloth& cloth, const State& state);
+
+    /// Puts particles out of it; nothing without --collide.
+    void resolve(const Cloth& cloth, State& state) const;
+    const std::string& description() const { return description_; }
+    explicit operator bool() const { return !std::holds_alternative<std::monostate>(shape_); }
+
+private:
+    using Plane = taut::HalfSpace<double, 3>;
+    using Sphere = taut::Sphere<double, 3>;
+
+    std::variant<std::monostate, Plane, Sphere> shape_;
+    taut::ContactOptions contact_;
+    std::string description_;
+};
+
+inline Obstacle::Obstacle(const Options& options, const Cloth& cloth, const State& state) {
+    if (options.collide.empty()) return;
+    const double size = extent(state);
+    contact_.friction = options.friction;
+    contact_.thickness = options.thickness.value_or(0.002 * size);
+    const Eigen::Vector3d up = -cloth.gravity().normalized();
+    const double lowest = (up.transpose() * state.x).minCoeff();
+    const double top = lowest - options.gap.value_or(0.05 * size);
+    const Eigen::Vector3d middle =
+        (state.x.rowwise().maxCoeff() + state.x.rowwise().minCoeff()) / 2;
+    const Eigen::Vector3d below = middle + (top - up.dot(middle)) * up;
+    char text[128];
+    if (options.collide == "plane") {
+        shape_ = Plane(below, up);
+        std::snprintf(text, sizeof text, "plane through (%.4g, %.4g, %.4g) m", below[0], below[1],
+                      below[2]);
+    } else {
+        const double radius = options.radius.value_or(0.2 * size);
+        const Eigen::Vector3d centre = below - radius * up;
+        shape_ = Sphere(centre, radius);
+        std::snprintf(text, sizeof text, "sphere of %.4g m at (%.4g, %.4g, %.4g) m", radius,
+                      centre[0], centre[1], centre[2]);
+    }
+    description_ = text;
+}
+
+inline void Obstacle::resolve(const Cloth& cloth, State& state) const {
+    if (const auto* plane = std::get_if<Plane>(&shape_)) {
+        resolve_contacts(cloth, *plane, state, contact_);
+    } else if (const auto* sphere = std::get_if<Sphere>(&shape_)) {
+        resolve_contacts(cloth, *sphere, state, contact_);
+    }
+}
+
+}  // namespace drape

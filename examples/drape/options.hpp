@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "../common/scene.hpp"
+
+namespace drape {
+
+struct Options {
+    example::SceneOptions scene;
+    std::string law = "hookean";
+    std::optional<double> bending;  // k_b, N·m²
+    std::string integrator = "symplectic";
+    bool guard = false;
+    double step = 0;      // s; 0: the integrator's own
+    double duration = 2;  // s
+    double frame_rate = 30;
+    std::string collide;
+    std::optional<double> radius;     // m
+    std::optional<double> gap;        // m
+    std::optional<double> thickness;  // m
+    double friction = 0.3;
+    std::string output = "drape";
+    std::string cache;  // path of a PC2 file
+    bool springs = false;
+    bool quiet = false;
+
+    bool implicit() const {
+        return integrator != "symplectic" && integrator != "verlet" && integrator != "explicit";
+    }
+    void add_to(CLI::App& app);
+    /// Throws naming the options that do not go together.
+    void check() const;
+
+private:
+    void add_motion(CLI::App& app);
+    void add_obstacle(CLI::App& app);
+    void add_output(CLI::App& app);
+};
+
+inline void Options::add_to(CLI::App& app) {
+    scene.add_to(app);
+    app.add_option("--law", law,
+                   "hookean: all springs pull and push; tension-only: they only pull; buckling: "
+                   "as Choi and Ko, stretch springs only pull and bending springs push as a "
+                   "buckled beam does")
+        ->check(CLI::IsMember({"hookean", "tension-only", "buckling"}))
+        ->capture_default_str();
+    app.add_option("--bending", bending,
+                   "flexural rigidity k_b of a bending spring under --law buckling, N m^2 "
+                   "(default: a hundredth of --bend times its length cubed)")
+        ->check(example::non_negative());
+    add_motion(app);
+    add_obstacle(app);
+    add_output(app);
+}
+
+inline void Options::add_motion(CLI::App& app) {
+    app.add_option("--integrator,--method", integrator,
+                   "symplectic, verlet, explicit: one force a step; implicit: one linearised "
+                   "solve; newton: the nonlinear step, solved; bdf2: second order, livelier; "
+                   "projective: ten iterations with one constant factor")
+        ->check(CLI::IsMember(
+            {"symplectic", "verlet", "explicit", "implicit", "newton", "bdf2", "projective"}))
+        ->capture_default_str();
+    app.add_flag("--guard", guard,
+                 "watch the energy of every frame, and take back one that gains any");
+    app.add_option("--step", step,
+                   "largest time step, s (default: 0.95 of the any-pose limit; implicit and bdf2: "
+                   "1/60 s; newton and projective: a frame; with --collide at most 1/240 s)")
+        ->check(example::positive());
+    app.add_option("--duration", duration, "simulated time, s")
+        ->check(example::positive())
+        ->capture_default_str();
+    app.add_option("--frame-rate", frame_rate, "frames written per simulated second")
+        ->check(example::positive())
+        ->capture_default_str();
+}
+
+inline void Options::add_obstacle(CLI::App& app) {
+    auto* obstacle = app.add_option("--collide", collide,
+                                    "sphere or plane: an obstacle below the scene, which --pin "
+                                    "and --free decide whether it meets")
+                         ->check(CLI::IsMember({"sphere", "plane"}));
+    app.add_option("--radius", radius, "of the sphere, m (default: 0.2 of the scene's size)")
+        ->check(example::positive())
+        ->needs(obstacle);
+    app.add_option("--gap", gap,
+                   "from the scene's lowest point to the obstacle, m (default: 0.05 of its size)")
+        ->check(example::non_negative())
+        ->needs(obstacle);
+    app.add_option("--thickness", thickness,
+                   "kept between particles and obstacle, m (default: 0.002 of the scene's size)")
+        ->check(example::non_negative())
+        ->needs(obstacle);
+    app.add_option("--friction", friction, "Coulomb's coefficient")
+        ->check(example::non_negative())
+        ->capture_default_str()
+        ->needs(obstacle);
+}
+
+inline void Options::add_output(CLI::App& app) {
+    app.add_option("--output", output, "folder for the frames and energy.csv")
+        ->capture_default_str();
+    app.add_option("--cache", cache,
+                   "a PC2 point cache too: in Blender, import frame_00000.obj and give it a Mesh "
+                   "Cache modifier with this file");
+    app.add_flag("--springs", springs,
+                 "frame_*.vtk too, with the tension and strain of every spring, for ParaView");
+    app.add_flag("--quiet", quiet, "no progress line");
+}
+
+inline void Options::check() const {
+    if (!scene.given()) throw std::runtime_error("name a mesh or --scene (see --help)");
+    if (bending && law != "buckling") {
+        throw std::runtime_error("--bending: it belongs to --law buckling, not to " + law);
+    }
+    if (radius && collide != "sphere") {
+        throw std::runtime_error("--radius: it belongs to --collide sphere, not to " + collide);
+    }
+    if (guard && integrator == "explicit") {
+        throw std::runtime_error(
+            "--guard: explicit Euler has no limit that holds at every pose; use --integrator "
+            "symplectic, which costs the same");
+    }
+    if (guard && integrator == "newton") {
+        throw std::runtime_error(
+            "--guard: it takes the linearised step; use --integrator implicit, or newton alone");
+    }
+    if (integrator == "explicit" && scene.d0 == 0 && scene.alpha == 0) {
+        throw std::runtime_error("--integrator explicit: " +
+                                 std::string(describe(taut::Cause::undamped)));
+    }
+}
+
+}  // namespace drape

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "cloth.hpp"
+
+namespace drape {
+
+/// The files of a run. Everything throws naming the option and the file.
+class Record {
+public:
+    Record(const Options& options, const Cloth& cloth, std::vector<std::vector<taut::Index>> faces);
+
+    /// The next frame. @param kinetic, potential  J
+    void add(const Cloth& cloth, const State& state, double kinetic, double potential);
+    /// The energy of a frame that is not shown.
+    void add_energy(double time, double kinetic, double potential);
+    void close();
+    const std::string& energy_path() const { return energy_path_; }
+
+private:
+    static void require(const char* option, const taut::FileReport& report) {
+        if (!report) throw std::runtime_error(std::string(option) + ": " + report.message());
+    }
+    std::string springs_path(taut::Index frame) const;
+    /// A longer run before this one would be taken for the end of it.
+    void warn_of_old_frames() const;
+
+    std::string prefix_;
+    std::string energy_path_;
+    bool springs_;
+    taut::ObjSequence frames_;
+    std::optional<taut::Pc2Writer> cache_;
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> energy_{nullptr, &std::fclose};
+};
+
+inline Record::Record(const Options& options, const Cloth& cloth,
+                      std::vector<std::vector<taut::Index>> faces)
+    : prefix_(options.output + "/frame_"),
+      energy_path_(options.output + "/energy.csv"),
+      springs_(options.springs),
+      frames_(prefix_, std::move(faces)) {
+    std::error_code failed;
+    std::filesystem::create_directories(options.output, failed);
+    if (!failed) energy_.reset(std::fopen(energy_path_.c_str(), "w"));
+    if (energy_ == nullptr) {
+        throw std::runtime_error("--output: " + energy_path_ + " cannot be written");
+    }
+    std::fprintf(energy_.get(), "time_s,kinetic_J,potential_J,total_J\n");
+    if (!options.cache.empty()) cache_.emplace(options.cache, cloth.size());
+}
+
+inline void Record::add_energy(double time, double kinetic, double potential) {
+    std::fprintf(energy_.get(), "%.9g,%.9g,%.9g,%.9g\n", time, kinetic, potential,
+                 kinetic + potential);
+}
+
+inline void Record::add(const Cloth& cloth, const State& state, double kinetic, double potential) {
+    add_energy(state.time, kinetic, potential);
+    if (springs_) {
+        require("--springs", taut::write_vtk(springs_path(frames_.frames()), cloth, state));
+    }
+    if (cache_) require("--cache", cache_->write(state.x));
+    require("--output", frames_.write(state.x));
+}
+
+inline void Record::close() {
+    const bool written = std::ferror(energy_.get()) == 0;
+    if (std::fclose(energy_.release()) != 0 || !written) {
+        throw std::runtime_error("--output: " + energy_path_ + " cannot be written");
+    }
+    if (cache_) require("--cache", cache_->close());
+    warn_of_old_frames();
+}
+
+inline std::string Record::springs_path(taut::Index frame) const {
+    std::string path = frames_.path(frame);
+    return path.replace(path.size() - 3, 3, "vtk");
+}
+
+inline void Record::warn_of_old_frames() const {
+    std::error_code failed;
+    const std::string path = frames_.path(frames_.frames());
+    if (!std::filesystem::exists(path, failed)) return;
+    std::fprintf(stderr, "drape: --output: %s and any after it are of an earlier run\n",
+                 path.c_str());
+}
+
+}  // namespace drape

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+
+#include "../examples/common/matrix_market.hpp"
+
+#include <stdexcept>
+#include <taut/model/linear_system.hpp>
+
+#include "temporary_file.hpp"
+
+/// A matrix is read or refused, and so is the system that it is the stiffness of.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const auto path = taut_fuzz::temporary_file(data, size);
+    try {
+        const auto K = example::read_matrix_market(path);
+        const taut::SparseMatrix<double> D(K.rows(), K.cols());
+        (void)taut::LinearSystem<double>(Eigen::VectorXd::Ones(K.rows()), D, K);
+    } catch (const std::runtime_error&) {     // the reader's
+    } catch (const std::invalid_argument&) {  // the library's
+    }
+    return 0;
+}

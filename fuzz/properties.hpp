@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+
+#include "soup.hpp"
+
+// What must hold for every scene: build, analyse, step.
+
+namespace taut_fuzz {
+
+/// libFuzzer reports an abort and keeps the input.
+inline void require(bool holds, const char* property) {
+    if (holds) return;
+    std::fprintf(stderr, "does not hold: %s\n", property);
+    std::abort();
+}
+
+template <class Scalar>
+void require_numbers(const taut::StepLimit<Scalar>& limit) {
+    require(limit.certified >= 0, "a certified step is a number >= 0");
+    require(limit.refuted >= limit.certified, "no certified step is refuted");
+    require(!std::isnan(limit.growth_rate), "a growth rate is a number");
+    require(!std::isnan(limit.estimate), "an estimate is a number");
+}
+
+/// Brackets of two widths must overlap, and a step that is proved is not refuted.
+template <class Stability>
+void require_sound(const Stability& stability) {
+    using taut::Method;
+    for (const Method method : {Method::explicit_euler, Method::symplectic_euler,
+                                Method::velocity_verlet, Method::implicit_euler}) {
+        const auto bound = stability.max_step(method);
+        const auto narrow = stability.max_step(method, 1e-3);
+        require_numbers(bound);
+        require_numbers(narrow);
+        require(bound.certified <= narrow.refuted, "a bound is below a narrower refutation");
+        require(narrow.certified <= bound.refuted, "a narrower proof is below a refutation");
+        const auto h = static_cast<double>(bound.refuted);
+        if (h > 0 && std::isfinite(h) && h > static_cast<double>(bound.certified)) {
+            require(!stability.certify(method, h).proved, "a refuted step is not proved");
+        }
+        accepted([&] {
+            require(stability.spectral_radius(method, 0.01) >= 0, "a radius is a number >= 0");
+        });
+    }
+    const auto spectrum = stability.stiffness_spectrum(true);
+    require(spectrum.k_max.lower <= spectrum.k_max.upper, "the bracket of k_max is not empty");
+    require(spectrum.k_min.lower <= spectrum.k_min.upper, "the bracket of k_min is not empty");
+    accepted([&] { (void)stability.rayleigh_window(Method::explicit_euler, 0.01); });
+    (void)stability.limiting_springs(3);
+    (void)stability.limiting_particles(3);
+}
+
+template <class State>
+bool same(const State& a, const State& b) {
+    const auto equal = [](const auto& p, const auto& q) {
+        return p.cols() == q.cols() &&
+               (p.size() == 0 || std::memcmp(p.data(), q.data(),
+                                             sizeof(typename std::decay_t<decltype(p)>::Scalar) *
+                                                 static_cast<std::size_t>(p.size())) == 0);
+    };
+    return equal(a.x, b.x) && equal(a.v, b.v);
+}
+
+/// Five steps: each leaves a finite state, or a Report and the state as it was.
+template <class Stepper, class State, class Scalar>
+void require_steps(Stepper& stepper, State state, Scalar h) {
+    for (int i = 0; i < 5; ++i) {
+        const State before = state;
+        const taut::Report report = stepper.step(state, h, 1 + i);
+        if (report) {
+            require(state.finite(), "after a step the state is finite");
+        } else {
+            require(same(state, before), "a step that failed leaves the state as it was");
+            require(report.status != taut::Status::ok, "a Report says why");
+        }
+    }
+}
+
+template <class System>
+void require_all_steppers(const System& system, const typename System::State& state,
+                          typename System::Scalar h) {
+    taut::ExplicitEuler explicit_euler(system);
+    taut::SymplecticEuler symplectic_euler(system);
+    taut::VelocityVerlet velocity_verlet(system);
+    taut::ImplicitEuler<System> implicit_euler(system);
+    taut::Bdf2<System> bdf2(system);
+    require_steps(explicit_euler, state, h);
+    require_steps(symplectic_euler, state, h);
+    require_steps(velocity_verlet, state, h);
+    require_steps(implicit_euler, state, h);
+    require_steps(bdf2, state, h);
+}
+
+/// What only a SpringSystem has.
+template <class System>
+void require_wrappers(Bytes& bytes, const System& system, const typename System::State& state,
+                      typename System::Scalar h) {
+    using Scalar = typename System::Scalar;
+    typename taut::ImplicitEuler<System>::Options newton;
+    newton.newton_iterations = 5;
+    taut::ImplicitEuler<System> nonlinear(system, newton);
+    require_steps(nonlinear, state, h);
+    taut::ProjectiveDynamics<System> projective(system);
+    require_steps(projective, state, h);
+    taut::ImplicitEuler<System> constrained(system, newton);
+    if (system.size() > 0) {
+        const Index held = bytes.below(system.size());
+        const auto direction = place<Scalar, System::Dim>(bytes);
+        accepted([&] { constrained.constraints().hold(held, direction); });
+    }
+    require_steps(constrained, state, h);
+
+    typename taut::Guarded<taut::SymplecticEuler<System>>::Options few;
+    few.max_substeps = 20;
+    taut::Guarded<taut::SymplecticEuler<System>> guarded(system, few);
+    auto moved = state;
+    for (int frame = 0; frame < 3; ++frame) {
+        const auto before = moved;
+        const auto report = guarded.advance(moved, h);
+        require(report ? moved.finite() : same(moved, before),
+                "a guarded frame is finite, or taken back");
+    }
+    taut::SymplecticEuler<System> stepper(system);
+    typename taut::Adaptive<taut::SymplecticEuler<System>, System>::Options coarse;
+    coarse.max_step = Scalar(0.1);
+    coarse.min_step = Scalar(0.001);
+    taut::Adaptive<taut::SymplecticEuler<System>, System> adaptive(system, stepper, coarse);
+    moved = state;
+    const auto adapted = adaptive.advance(moved, Scalar(0.05));
+    if (adapted) require(moved.finite(), "after an adaptive step the state is finite");
+}
+
+template <class System>
+void run(Bytes bytes) {
+    using Scalar = typename System::Scalar;
+    const auto system = decode_system<System>(bytes);
+    const auto state = decode_state(bytes, system);
+    const auto h = static_cast<Scalar>(bytes.positive());
+
+    accepted([&] {
+        const taut::Stability<Scalar> stability(system, state);
+        require_sound(stability);
+        const auto any = taut::any_pose_limit(system);
+        const auto narrow_any = taut::any_pose_limit(system, 1e-3);
+        require_numbers(any);
+        require_numbers(narrow_any);
+        require(any.certified <= narrow_any.refuted && narrow_any.certified <= any.refuted,
+                "any-pose brackets overlap");
+        const auto here = stability.max_step(taut::Method::symplectic_euler, 1e-3);
+        require(any.certified <= here.refuted, "what holds at any pose holds at this one");
+    });
+    if (h > 0 && std::isfinite(h))
+        accepted([&] { (void)taut::added_mass(system, state, static_cast<double>(h)); });
+
+    require_all_steppers(system, state, h);
+    require_wrappers(bytes, system, state, h);
+    auto hanging = state;
+    accepted([&] { (void)taut::static_equilibrium(system, hanging); });
+
+    accepted([&] {
+        const auto linear = system.linearize(state);
+        require_sound(taut::Stability<Scalar>(linear));
+        taut::State<Scalar, 1> u = linear.to_free(state);
+        require_all_steppers(linear, u, h);
+    });
+}
+
+}  // namespace taut_fuzz

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "../core/error.hpp"
+#include "detail/output_file.hpp"
+
+namespace taut {
+
+struct Pc2Options {
+    float start = 0;     ///< frame number of the first sample
+    float sampling = 1;  ///< frames from one sample to the next, > 0
+};
+
+/// A PC2 point cache, frame after frame: the positions of a mesh's vertices as 3DS Max's Point
+/// Cache 2 writes them and Blender's Mesh Cache modifier reads them.
+///
+/// Little-endian: "POINTCACHE2\0", then int32 version (1) and number of points, float start and
+/// sampling, int32 number of samples; after these 32 bytes the samples, float x y z a point. The
+/// number of samples is brought up to date with every frame, so that a run cut short leaves a cache
+/// of the frames it had.
+///
+/// In Blender: import the first frame as OBJ, add a Mesh Cache modifier of format PC2 to it, and
+/// leave its axes as they are: the cache has the coordinates of the OBJ.
+class Pc2Writer {
+public:
+    /// Replaces the file. @param points  in every frame, 1 … 2³¹ − 1
+    Pc2Writer(std::string path, Index points, const Pc2Options& options = {});
+
+    /// Appends a frame, m. Nothing is appended when a position is not finite as a float.
+    /// @param x  Dim × points; one or two dimensions get zeros for the rest
+    template <class Scalar, int Dim>
+    FileReport write(const Points<Scalar, Dim>& x);
+    /// What became of the file as a whole; a destructor could not say. Frames after it are
+    /// not_opened.
+    FileReport close() { return file_.close(); }
+    Index frames() const { return frames_; }
+
+private:
+    static void put(std::uint32_t bits, unsigned char* bytes) {
+        for (int i = 0; i < 4; ++i) bytes[i] = static_cast<unsigned char>(bits >> (8 * i));
+    }
+    static void put(float number, unsigned char* bytes) {
+        static_assert(std::numeric_limits<float>::is_iec559, "taut::Pc2Writer: needs IEEE floats");
+        std::uint32_t bits = 0;
+        std::memcpy(&bits, &number, sizeof bits);
+        put(bits, bytes);
+    }
+
+    static constexpr long count_at = 28;  // of the number of samples, bytes
+
+    detail::OutputFile file_;
+    Index points_;
+    Index frames_ = 0;
+    std::vector<unsigned char> frame_;
+};
+
+inline Pc2Writer::Pc2Writer(std::string path, Index points, const Pc2Options& options)
+    : file_(std::move(path)), points_(points) {
+    if (points < 1 || points > std::numeric_limits<std::int32_t>::max()) {
+        fail("Pc2Writer: points is ", points, "; it must be 1 to 2147483647");
+    }
+    if (!(std::abs(options.start) <= std::numeric_limits<float>::max())) {
+        fail("Pc2Writer: start is ", options.start, "; it must be finite");
+    }
+    require_positive("Pc2Writer", "sampling", options.sampling);
+    if (!file_.is_open()) return;
+    unsigned char header[32] = "POINTCACHE2";
+    put(std::uint32_t(1), header + 12);
+    put(static_cast<std::uint32_t>(points), header + 16);
+    put(options.start, header + 20);
+    put(options.sampling, header + 24);
+    put(std::uint32_t(0), header + count_at);
+    std::fwrite(header, 1, sizeof header, file_.get());
+    frame_.resize(12 * static_cast<std::size_t>(points));
+}
+
+template <class Scalar, int Dim>
+FileReport Pc2Writer::write(const Points<Scalar, Dim>& x) {
+    if (x.cols() != points_) {
+        fail("Pc2Writer::write: ", x.cols(), " positions; the cache has ", points_, " points");
+    }
+    if (const FileReport report = file_.check(); !report) return report;
+    if (const Index i = detail::first_unwritable<float>(x); i >= 0) {
+        return file_.report(FileStatus::not_finite, i);
+    }
+    unsigned char* bytes = frame_.data();
+    for (Index i = 0; i < points_; ++i) {
+        for (int d = 0; d < 3; ++d, bytes += 4) {
+            put(d < Dim ? static_cast<float>(x(d < Dim ? d : 0, i)) : 0.0F, bytes);
+        }
+    }
+    std::FILE* file = file_.get();
+    unsigned char count[4];
+    put(static_cast<std::uint32_t>(frames_ + 1), count);
+    const bool written = std::fwrite(frame_.data(), 1, frame_.size(), file) == frame_.size() &&
+                         std::fseek(file, count_at, SEEK_SET) == 0 &&
+                         std::fwrite(count, 1, sizeof count, file) == sizeof count &&
+                         std::fseek(file, 0, SEEK_END) == 0 && std::fflush(file) == 0;
+    if (!written) return file_.report(FileStatus::not_written);
+    ++frames_;
+    return file_.check();
+}
+
+}  // namespace taut

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "../core/error.hpp"
+#include "../model/spring_system.hpp"
+#include "detail/output_file.hpp"
+
+namespace taut {
+namespace detail {
+
+/// visit(law, a, b, rest length, length, tension) for every spring at x, in index order.
+template <class System, class Visitor>
+void for_each_tension(const System& system, const typename System::Force& x, Visitor&& visit) {
+    using Scalar = typename System::Scalar;
+    int law = 0;
+    system.for_each_set([&](const auto& set) {
+        using Law = typename std::decay_t<decltype(set)>::Law;
+        for (std::size_t s = 0; s < set.a.size(); ++s) {
+            const Scalar L = set.rest_length[s];
+            const Scalar l = (x.col(set.b[s]) - x.col(set.a[s])).norm();
+            // Where the ends meet there is no direction, and so no force.
+            const Scalar T = l > 0 ? Law::tension(set.parameters[s], L, l) : Scalar(0);
+            visit(law, set.a[s], set.b[s], L, l, T);
+        }
+        ++law;
+    });
+}
+
+/// One number a spring, as cell data.
+template <class System, class Value>
+void write_spring_data(std::FILE* file, const char* name, const System& system,
+                       const typename System::Force& x, Value&& value) {
+    std::fprintf(file, "SCALARS %s double 1\nLOOKUP_TABLE default\n", name);
+    for_each_tension(system, x, [&](int law, int, int, auto L, auto l, auto T) {
+        std::fprintf(file, "%.9g\n", static_cast<double>(value(law, L, l, T)));
+    });
+}
+
+/// Three numbers a particle; missing dimensions are 0.
+template <class Points>
+void write_triples(std::FILE* file, const Points& values) {
+    for (Index i = 0; i < values.cols(); ++i) {
+        double p[3] = {0, 0, 0};
+        for (Index d = 0; d < values.rows(); ++d) p[d] = static_cast<double>(values(d, i));
+        std::fprintf(file, "%.9g %.9g %.9g\n", p[0], p[1], p[2]);
+    }
+}
+
+}  // namespace detail
+
+/// Writes a state as a legacy VTK file (ASCII, POLYDATA, read by ParaView): a point a particle with
+/// velocity (m/s), mass (kg) and pinned (0, 1), a line a spring with
+///     tension  T(l), N, of the spring alone: negative pushes, dampers are left out
+///     strain   l/L − 1; 0 for a spring without rest length
+///     law      its place among the system's laws, from 0.
+/// Files named cloth_0.vtk, cloth_1.vtk … are one animation to ParaView.
+template <class System>
+FileReport write_vtk(const std::string& path, const System& system,
+                     const typename System::State& state) {
+    if (state.x.cols() != system.size() || state.v.cols() != system.size()) {
+        fail("write_vtk: the state has ", state.x.cols(), " positions and ", state.v.cols(),
+             " velocities; the system has ", system.size(), " particles");
+    }
+    if (const Index i = detail::first_unwritable<double>(state.x); i >= 0) {
+        return {FileStatus::not_finite, path, i};
+    }
+    detail::OutputFile out(path);
+    if (!out.is_open()) return out.check();
+    std::FILE* file = out.get();
+    const auto particles = static_cast<long long>(system.size());
+    const auto springs = static_cast<long long>(system.spring_count());
+    std::fprintf(file,
+                 "# vtk DataFile Version 3.0\nTaut, t = %.9g s\nASCII\nDATASET POLYDATA\n"
+                 "POINTS %lld double\n",
+                 static_cast<double>(state.time), particles);
+    detail::write_triples(file, state.x);
+    std::fprintf(file, "LINES %lld %lld\n", springs, 3 * springs);
+    system.for_each_spring([&](Index a, Index b) {
+        std::fprintf(file, "2 %lld %lld\n", static_cast<long long>(a), static_cast<long long>(b));
+    });
+    std::fprintf(file, "CELL_DATA %lld\n", springs);
+    detail::write_spring_data(file, "tension", system, state.x,
+                              [](int, auto, auto, auto T) { return T; });
+    detail::write_spring_data(file, "strain", system, state.x, [](int, auto L, auto l, auto) {
+        return L > 0 ? l / L - 1 : decltype(L)(0);
+    });
+    detail::write_spring_data(file, "law", system, state.x,
+                              [](int law, auto, auto, auto) { return law; });
+    std::fprintf(file, "POINT_DATA %lld\nVECTORS velocity double\n", particles);
+    detail::write_triples(file, state.v);
+    std::fprintf(file, "SCALARS mass double 1\nLOOKUP_TABLE default\n");
+    for (Index i = 0; i < system.size(); ++i) {
+        std::fprintf(file, "%.9g\n", static_cast<double>(system.mass(i)));
+    }
+    std::fprintf(file, "SCALARS pinned int 1\nLOOKUP_TABLE default\n");
+    for (Index i = 0; i < system.size(); ++i) std::fputs(system.is_pinned(i) ? "1\n" : "0\n", file);
+    return out.close();
+}
+
+}  // namespace taut
