@@ -130,7 +130,7 @@ TEST_CASE("state_view: steppers with a history or a budget", "[integrator]") {
 }
 
 TEST_CASE("state_view: a guarded frame", "[integrator]") {
-    const auto cloth = taut::hanging_cloth<float>({6, 6});
+    auto cloth = taut::hanging_cloth<float>({6, 6});
     taut::Guarded<taut::SymplecticEuler<Cloth<float>>> on_view(cloth), on_state(cloth);
     auto expected = cloth.initial_state();
     Arrays<float, 3> arrays(cloth.size(), 4, 4);
@@ -143,6 +143,12 @@ TEST_CASE("state_view: a guarded frame", "[integrator]") {
     CHECK(view.x == expected.x);
     CHECK(view.v == expected.v);
     CHECK(arrays.padding_untouched());
+
+    cloth.set_external_force(
+        [](const auto&, auto& f) { f(0, 7) = std::numeric_limits<float>::infinity(); });
+    CHECK_FALSE(on_view.advance(view, 1.0f / 60));
+    CHECK(view.x == expected.x);
+    CHECK(view.v == expected.v);
 }
 
 TEST_CASE("state_view: a failed step leaves the arrays alone", "[integrator]") {
