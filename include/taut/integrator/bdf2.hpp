@@ -61,6 +61,11 @@ public:
         report ? last_.keep(*system_, state) : last_.forget();
         return report;
     }
+    /// change(solver): to set a tolerance, a cap of iterations.
+    template <class Change>
+    void configure(Change&& change) {
+        change(solver_);
+    }
     const Solver& solver() const { return solver_; }
 
 private:
