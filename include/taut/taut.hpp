@@ -33,3 +33,5 @@
 #include "stability/mass_scaling.hpp"
 #include "stability/rayleigh_design.hpp"
 #include "stability/stability.hpp"
+#include "tradeoff/measure.hpp"
+#include "tradeoff/recommend.hpp"

@@ -9,9 +9,9 @@
 namespace taut {
 
 /// The extrapolation method of W. B. Gragg on ẋ = v, v̇ = M⁻¹f(x, v), of order 12 where the force is
-/// smooth: the modified midpoint rule with 2, 4 … 12 substeps of H, extrapolated to none (E. Hairer,
-/// S. P. Nørsett, G. Wanner, "Solving ODEs I", II.9). Explicit, 37 force evaluations a step; for
-/// references, not for frames. Pinned particles keep the velocity that they have.
+/// smooth: the modified midpoint rule with 2, 4 … 12 substeps of H, extrapolated to none (E.
+/// Hairer, S. P. Nørsett, G. Wanner, "Solving ODEs I", II.9). Explicit, 37 force evaluations a
+/// step; for references, not for frames. Pinned particles keep the velocity that they have.
 template <class System>
 class GraggExtrapolation {
     static_assert((require_system<System>(), true));
