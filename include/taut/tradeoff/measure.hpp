@@ -124,6 +124,8 @@ public:
         Path coarse = reference(count);
         for (int repeat = 0;; ++repeat) {
             reference_ = reference(count *= 2);
+            const double earlier =
+                repeat == 0 ? std::numeric_limits<double>::infinity() : result_.reference_error;
             result_.reference_error = position_error(coarse, reference_);
             double best = std::numeric_limits<double>::infinity();
             for (std::size_t p = 0; p < paths_.size(); ++p) {
@@ -133,7 +135,9 @@ public:
                 best = std::min(best, point.position_error);
             }
             result_.reference_settled = options_.gain * result_.reference_error <= best;
-            if (result_.reference_settled || repeat == options_.refinements) break;
+            const bool rounding =
+                result_.reference_error < 1e-6 && !(result_.reference_error < earlier / 2);
+            if (result_.reference_settled || rounding || repeat == options_.refinements) break;
             coarse = std::move(reference_);
         }
         result_.modes = modes_;
