@@ -178,10 +178,12 @@ private:
         std::vector<Trial> trials;
         for (const Plan& plan : plans) {
             trials.push_back({plan, true});
+            trials.back().plan.cost = INFINITY;
             if (!goal_.accuracy || !is_implicit(plan.candidate.scheme)) continue;
             for (const Index fewer : {3 * plan.substeps / 4, plan.substeps / 2}) {
                 if (fewer < 1 || fewer == trials.back().plan.substeps) continue;
-                Trial trial{plan, false};
+                Trial trial = trials.back();
+                trial.recommended = false;
                 trial.plan.substeps = fewer;
                 trial.plan.candidate.h = goal_.frame / static_cast<double>(fewer);
                 trials.push_back(trial);
@@ -189,23 +191,30 @@ private:
         }
         return trials;
     }
-    /// The lesser of two measurements, with longer batches than recommend() takes. The time of a
-    /// factorisation does not depend on h.
+    /// What comes within twice the cheapest is measured twice, with longer batches than recommend()
+    /// takes. The time of a factorisation does not depend on h.
     void time(std::vector<Trial>& trials) const {
         taut::Calibration calibration;
         calibration.clock = &thread_seconds;
-        calibration.seconds = 0.1;
-        calibration.least_steps = 3;
-        for (Trial& trial : trials) trial.plan.cost = INFINITY;
+        calibration.seconds = 0.03;
+        calibration.least_steps = 1;
+        double least = INFINITY;
         for (int repeat = 0; repeat < 2; ++repeat) {
-            double last = 0;
+            double last = INFINITY;
             for (Trial& trial : trials) {
                 const auto& c = trial.plan.candidate;
+                const auto substeps = static_cast<double>(trial.plan.substeps);
                 const bool known = !trial.recommended && c.solver == LinearSolver::direct;
-                if (!known) last = taut::step_cost(system_, start_, c, calibration);
-                trial.plan.cost =
-                    std::min(trial.plan.cost, static_cast<double>(trial.plan.substeps) * last);
+                if (!known && repeat > 0 && trial.plan.cost > 2 * least) {
+                    last = INFINITY;
+                } else if (!known) {
+                    last = taut::step_cost(system_, start_, c, calibration, 5 * least / substeps);
+                }
+                trial.plan.cost = std::min(trial.plan.cost, substeps * last);
+                least = std::min(least, trial.plan.cost);
             }
+            calibration.seconds = 0.1;
+            calibration.least_steps = 4;
         }
     }
     bool meets(const Plan& plan) {
@@ -223,7 +232,7 @@ private:
         if (goal_.accuracy && !goal_.accuracy->admits(worst_)) return false;
         return survives(plan);
     }
-    /// Ten frames from the kick, or as many steps as 0.2 s of processor allow.
+    /// Ten frames from the kick, or as many steps as 0.1 s of processor allow.
     bool survives(const Plan& plan) const {
         Net::State state = start_;
         bool alive = true;
@@ -231,7 +240,7 @@ private:
         with_stepper(system_, plan.candidate, [&](auto& stepper) {
             const Index steps = 10 * plan.substeps;
             const Index batch = std::max<Index>(1, std::min<Index>(plan.substeps, steps / 50));
-            for (Index taken = 0; alive && taken < steps && thread_seconds() - start < 0.2;
+            for (Index taken = 0; alive && taken < steps && thread_seconds() - start < 0.1;
                  taken += batch) {
                 alive = static_cast<bool>(stepper.step(state, plan.candidate.h, batch));
             }

@@ -35,7 +35,8 @@ inline std::complex<double> multiplier_less_one(Scheme scheme, double z, double 
             const double b = z * (2 * zeta + z);
             const double under = (2 * z - b) * (2 * z + b);
             if (under > 0) return {-b / 2, std::sqrt(under) / 2};
-            return -(b + std::sqrt(-under)) / 2;
+            const double far = -(b + std::sqrt(-under)) / 2;
+            return b > 2 ? far : z * z / far;
         }
         case Scheme::implicit_euler: return w / (1.0 - w);
         case Scheme::bdf2: {
@@ -101,7 +102,7 @@ inline double accurate_step(Scheme scheme, const ModeTolerance& tolerance, doubl
     // Errors of a damped mode may change sign, so the first step that errs too much is sought from
     // below. All errors are below z at small z.
     constexpr double stride = 1.02;
-    constexpr double everything = 1e9;
+    constexpr double everything = 1e6;  // radians a step
     double low = 1e-2 * std::min({0.1, tolerance.damping_ratio, tolerance.period});
     while (tolerance.admits(mode_error(scheme, low * stride, zeta))) {
         low *= stride;

@@ -18,16 +18,18 @@ inline double cpu_seconds() {
 /// How costs are measured.
 struct Calibration {
     double seconds = 0.05;             ///< of steps, for each candidate
-    Index least_steps = 4;             ///< even where they take longer
+    Index least_steps = 3;             ///< even where they take longer
     double (*clock)() = &cpu_seconds;  ///< s
 };
 
 /// CPU seconds of a step of `candidate` from `state` on, which is left as it is: batches of 1, 2, 4
 /// … steps after a first one that sets up patterns and plans; the cheaper of the last two batches
 /// counts. Infinity when a step fails.
+/// @param hopeless  s: a first batch that costs more ends the measurement
 template <class System>
 double step_cost(const System& system, const typename System::State& state,
-                 const Candidate& candidate, const Calibration& calibration = {}) {
+                 const Candidate& candidate, const Calibration& calibration = {},
+                 double hopeless = std::numeric_limits<double>::infinity()) {
     const auto h = static_cast<typename System::Scalar>(candidate.h);
     double last = std::numeric_limits<double>::infinity();
     double before = last;
@@ -46,6 +48,7 @@ double step_cost(const System& system, const typename System::State& state,
             taken += batch;
             before = last;
             last = elapsed / static_cast<double>(batch);
+            if (batch == 1 && last > hopeless) break;
         }
         if (!alive) before = last = std::numeric_limits<double>::infinity();
     });

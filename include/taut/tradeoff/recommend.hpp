@@ -22,7 +22,7 @@ inline std::vector<Candidate> recommended_candidates(const Goal& goal) {
     candidates.push_back({Scheme::symplectic_euler});
     for (const Scheme scheme : {Scheme::implicit_euler, Scheme::bdf2}) {
         if (scheme == Scheme::bdf2 && !goal.accuracy) continue;
-        for (const auto solver : {LinearSolver::direct, LinearSolver::conjugate_gradient}) {
+        for (const auto solver : {LinearSolver::conjugate_gradient, LinearSolver::direct}) {
             candidates.push_back({scheme, 0, solver, tolerance});
         }
     }
@@ -76,9 +76,14 @@ Recommendation recommend(const SpringSystem<Scalar, Dim, Laws...>& system,
                          const std::vector<Candidate>& candidates,
                          const Calibration& calibration = {}) {
     std::vector<Plan> plans = feasible_plans(system, goal, candidates);
+    // A factorisation of a large scene takes seconds: one step shows that it is far behind.
+    constexpr double far = 5;
+    double least = std::numeric_limits<double>::infinity();
     for (Plan& plan : plans) {
-        plan.cost = static_cast<double>(plan.substeps) *
-                    step_cost(system, state, plan.candidate, calibration);
+        const auto substeps = static_cast<double>(plan.substeps);
+        plan.cost = substeps *
+                    step_cost(system, state, plan.candidate, calibration, far * least / substeps);
+        least = std::min(least, plan.cost);
     }
     return choose(std::move(plans), goal);
 }
