@@ -118,7 +118,7 @@ inline Recommendation choose(std::vector<Plan> plans, const Goal& goal) {
                       " the cost with " + detail::reason(answer.runner_up->bound);
     }
     if (!answer.within_budget) {
-        answer.why += "; neither keeps to the budget of " + detail::milliseconds(goal.budget);
+        answer.why += "; none keeps to the budget of " + detail::milliseconds(goal.budget);
     }
     answer.why += '.';
     answer.plans = std::move(plans);
