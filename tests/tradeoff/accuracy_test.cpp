@@ -65,7 +65,8 @@ TEST_CASE("accuracy: at small steps the errors of the theory's section 12", "[tr
             INFO(name(term.scheme) << ", z = " << z);
             const auto error = mode_error(term.scheme, z);
             const double scale = std::pow(z, term.damping_power);
-            CHECK_THAT(error.artificial_damping, WithinAbs(term.damping * scale, z * z * scale + 1e-15));
+            CHECK_THAT(error.artificial_damping,
+                       WithinAbs(term.damping * scale, z * z * scale + 1e-15));
             CHECK_THAT(error.period_error, WithinAbs(term.period * z * z, z * z * z));
         }
     }

@@ -86,13 +86,13 @@ public:
             point.modes.push_back(measured_mode_error(*linear_, mode, point.candidate));
         }
     }
-    /// @param h        s, the step to take; rounded so that whole steps fill the samples' interval,
-    ///                 or whole intervals the step
+    /// @param h        s, the step to take at most: whole steps fill an interval of the samples, or
+    ///                 whole intervals a step
     /// @param advance  bool advance(State&, double h, Index count); whether all went well
     template <class Advance>
     TradeoffPoint& add(std::string name, double h, Advance&& advance) {
         Path path;
-        path.stride = std::max<Index>(1, static_cast<Index>(std::llround(h / interval_)));
+        path.stride = std::max<Index>(1, static_cast<Index>(h / interval_ * (1 + 1e-9)));
         const double span = static_cast<double>(path.stride) * interval_;
         const auto count = static_cast<Index>(std::ceil(span / h * (1 - 1e-9)));
         TradeoffPoint point;
