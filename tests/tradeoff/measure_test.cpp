@@ -160,6 +160,8 @@ TEST_CASE("measure_tradeoff: a run that breaks off has no error but infinity", "
               [calls = 0](Cloth::State&, double, Index) mutable { return ++calls < 3; });
     // Above the interval of the samples, 1/600 s: whole intervals a step.
     meter.add(Candidate{Scheme::implicit_euler, 0.0101});
+    // One step is all there is time for.
+    meter.add(Candidate{Scheme::implicit_euler, 7});
     // Far above its limit.
     meter.add(Candidate{Scheme::symplectic_euler, 0.01});
     const auto result = meter.finish();
@@ -170,7 +172,9 @@ TEST_CASE("measure_tradeoff: a run that breaks off has no error but infinity", "
     CHECK_THAT(result.points[1].candidate.h, WithinRel(0.01, 1e-9));
     CHECK(result.points[1].steps == 10);
     CHECK(result.points[1].position_error < 1);
-    CHECK(!(result.points[2].position_error < 10));
+    CHECK_THAT(result.points[2].candidate.h, WithinRel(0.1, 1e-9));
+    CHECK(result.points[2].steps == 1);
+    CHECK(!(result.points[3].position_error < 10));
     const auto front = taut::pareto(result.points);
     for (const auto& point : front) CHECK(point.name != "gives up");
 }

@@ -92,7 +92,10 @@ public:
     template <class Advance>
     TradeoffPoint& add(std::string name, double h, Advance&& advance) {
         Path path;
-        path.stride = std::max<Index>(1, static_cast<Index>(h / interval_ * (1 + 1e-9)));
+        require_positive("measure_tradeoff", "h", h);
+        const double intervals = h / interval_ * (1 + 1e-9);
+        path.stride = std::max<Index>(
+            1, static_cast<Index>(std::min(intervals, static_cast<double>(options_.samples))));
         const double span = static_cast<double>(path.stride) * interval_;
         const auto count = static_cast<Index>(std::ceil(span / h * (1 - 1e-9)));
         TradeoffPoint point;
@@ -109,7 +112,7 @@ public:
             point.finished = point.finished && state.finite();
             if (point.finished) path.see(system_, state);
         }
-        point.cost /= static_cast<double>(path.x.size() - 1) * span;
+        point.cost /= static_cast<double>(std::max<std::size_t>(1, path.x.size() - 1)) * span;
         paths_.push_back(std::move(path));
         result_.points.push_back(std::move(point));
         return result_.points.back();
