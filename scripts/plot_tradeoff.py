@@ -64,6 +64,7 @@ def save(figure, folder, name):
 def work_precision(source, target):
     rows = read(source, "work_precision.csv")
     scenes = list(dict.fromkeys(row["scene"] for row in rows))
+    drawn = set()
     figure, axes = plt.subplots(1, len(scenes), figsize=(4.1 * len(scenes), 4.0), sharey=True)
     for axis, scene in zip(axes, scenes):
         series = defaultdict(list)
@@ -73,6 +74,7 @@ def work_precision(source, target):
                 series[row["integrator"]].append((float(row["cpu_ms_per_s"]), error))
         for name, (_, colour, marker, line) in INTEGRATORS.items():
             if series[name]:
+                drawn.add(name)
                 cost, error = zip(*series[name])
                 axis.loglog(cost, error, color=colour, marker=marker, linestyle=line, linewidth=1.1,
                             markersize=5, markerfacecolor="white" if line == ":" else colour)
@@ -84,8 +86,8 @@ def work_precision(source, target):
     axes[0].set_ylabel("RMS position error / largest displacement")
     handles = [Line2D([], [], color=colour, marker=marker, linestyle=line, label=label,
                       markerfacecolor="white" if line == ":" else colour)
-               for label, colour, marker, line in INTEGRATORS.values()]
-    figure.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=5)
+               for name, (label, colour, marker, line) in INTEGRATORS.items() if name in drawn]
+    figure.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=4)
     save(figure, target, "work_precision.svg")
 
 

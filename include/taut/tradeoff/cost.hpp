@@ -25,7 +25,9 @@ struct Calibration {
 /// CPU seconds of a step of `candidate` from `state` on, which is left as it is: batches of 1, 2, 4
 /// … steps after a first one that sets up patterns and plans; the cheaper of the last two batches
 /// counts. Infinity when a step fails.
-/// @param hopeless  s: a first batch that costs more ends the measurement
+/// @param hopeless  s: an implicit first step that costs more ends the measurement. (An explicit
+/// one
+///                  says nothing: each call converts the scene, for all of its steps.)
 template <class System>
 double step_cost(const System& system, const typename System::State& state,
                  const Candidate& candidate, const Calibration& calibration = {},
@@ -48,7 +50,7 @@ double step_cost(const System& system, const typename System::State& state,
             taken += batch;
             before = last;
             last = elapsed / static_cast<double>(batch);
-            if (batch == 1 && last > hopeless) break;
+            if (batch == 1 && last > hopeless && is_implicit(candidate.scheme)) break;
         }
         if (!alive) before = last = std::numeric_limits<double>::infinity();
     });
