@@ -27,6 +27,7 @@ plt.rcParams.update({
     "grid.linewidth": 0.5,
     "axes.axisbelow": True,
     "legend.frameon": False,
+    "savefig.dpi": 250,  # of what is rasterised
     "svg.hashsalt": "taut",  # the same bytes from the same numbers
 })
 
@@ -113,7 +114,8 @@ def stability_map(source, target):
         for grew, marker, colour, size in ((False, ".", BLACK, 5), (True, "x", "#a03000", 7)):
             points = [(float(row["alpha_s"]), float(row["h_s"])) for row in cells
                       if row["method"] == method and (float(row["growth"]) >= 100) == grew]
-            axis.scatter(*zip(*points), s=size, marker=marker, color=colour, linewidth=0.6)
+            axis.scatter(*zip(*points), s=size, marker=marker, color=colour, linewidth=0.6,
+                         rasterized=True)  # thousands of cells
         axis.set(xscale="log", yscale="log", xlim=(min(alpha), max(alpha)), ylim=(low, high),
                  xlabel="stiffness-proportional damping α, s", title=TITLES[method])
         axis.grid(False)

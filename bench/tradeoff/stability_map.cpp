@@ -20,8 +20,8 @@ using taut::Index;
 using taut::Method;
 
 constexpr Method methods[] = {Method::explicit_euler, Method::symplectic_euler};
-constexpr int columns = 36;  // over α
-constexpr int rows = 36;     // over h
+constexpr int columns = 44;  // over α
+constexpr int rows = 44;     // over h
 
 Cloth scene(double alpha) {
     taut::ClothOptions options;

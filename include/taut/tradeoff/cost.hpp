@@ -25,9 +25,8 @@ struct Calibration {
 /// CPU seconds of a step of `candidate` from `state` on, which is left as it is: batches of 1, 2, 4
 /// … steps after a first one that sets up patterns and plans; the cheaper of the last two batches
 /// counts. Infinity when a step fails.
-/// @param hopeless  s: an implicit first step that costs more ends the measurement. (An explicit
-/// one
-///                  says nothing: each call converts the scene, for all of its steps.)
+/// @param hopeless  s: one implicit step that costs more ends the measurement (an explicit one
+///                  says little: each call converts the scene, for all of its steps)
 template <class System>
 double step_cost(const System& system, const typename System::State& state,
                  const Candidate& candidate, const Calibration& calibration = {},
