@@ -14,6 +14,7 @@
 #include "cost.hpp"
 #include "extrapolation.hpp"
 #include "mode_probe.hpp"
+#include "pareto.hpp"
 #include "trajectory.hpp"
 
 namespace taut {
@@ -24,19 +25,6 @@ struct TradeoffOptions {
     int refinements = 6;  ///< of the reference at most, each of half the step
     Index modes = 0;  ///< lowest modes to be measured, where no spring is compressed at the start
     double (*clock)() = &cpu_seconds;  ///< s
-};
-
-/// Cost and error of one way to simulate a scene.
-struct TradeoffPoint {
-    std::string name;
-    Candidate candidate;    ///< h as taken; of a stepper of the caller's, h alone
-    Index steps = 0;        ///< taken, or asked for where the stepper chooses its own
-    bool finished = false;  ///< no step failed and all is finite
-    double cost = 0;        ///< CPU s for a simulated s
-    double position_error = std::numeric_limits<double>::infinity();  ///< see position_error()
-    double energy_drift = std::numeric_limits<double>::infinity();    ///< see energy_drift()
-    /// Of the lowest modes of the linearised scene; nothing where the steps do not swing.
-    std::vector<std::optional<ModeError>> modes;
 };
 
 struct Tradeoff {
@@ -191,21 +179,6 @@ Tradeoff measure_tradeoff(const SpringSystem<Scalar, Dim, Laws...>& system,
     TradeoffMeter<SpringSystem<Scalar, Dim, Laws...>> meter(system, start, duration, options);
     for (const Candidate& candidate : candidates) meter.add(candidate);
     return meter.finish();
-}
-
-/// The points that no other one beats in both cost and position error, the cheapest first.
-inline std::vector<TradeoffPoint> pareto(std::vector<TradeoffPoint> points) {
-    std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) {
-        return a.cost != b.cost ? a.cost < b.cost : a.position_error < b.position_error;
-    });
-    std::vector<TradeoffPoint> front;
-    double best = std::numeric_limits<double>::infinity();
-    for (auto& point : points) {
-        if (!point.finished || !(point.position_error < best)) continue;
-        best = point.position_error;
-        front.push_back(std::move(point));
-    }
-    return front;
 }
 
 }  // namespace taut
