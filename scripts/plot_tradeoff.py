@@ -201,7 +201,7 @@ def grid_costs(rows, goal, damping, pins):
 def crossover(source, target):
     rows = read(source, "recommend_grid.csv")
     goals = {"stable": "stable is enough", "accurate": "modes to 10 Hz within 5 %"}
-    figure, axes = plt.subplots(1, 3, figsize=(12.6, 4.0))
+    figure, axes = plt.subplots(1, 3, figsize=(13.6, 4.0))
     colours = [BLACK, SKY, GREEN, ORANGE, RED]
     for axis, (goal, title) in zip(axes, goals.items()):
         for colour, (n, points) in zip(colours, sorted(grid_costs(rows, goal, "light", "pinned").items())):
@@ -233,7 +233,7 @@ def crossover(source, target):
         Line2D([], [], color=BLACK, marker="^", markersize=4, linestyle="--",
                markerfacecolor="white", label="best implicit"),
         Line2D([], [], color="#888888", linestyle=":", label="1/60 s"),
-    ], loc="upper left", fontsize=7.5)
+    ], loc="lower right", fontsize=7.5)
     axes[2].legend(handles=[
         Line2D([], [], color=BLUE, label="stable is enough"),
         Line2D([], [], color=RED, label="modes to 10 Hz within 5 %"),
@@ -241,7 +241,7 @@ def crossover(source, target):
         Line2D([], [], color=BLACK, linestyle="--", label="heavily damped"),
         Line2D([], [], color=BLACK, linestyle="", marker="o", label="pinned"),
         Line2D([], [], color=BLACK, linestyle="", marker="s", markerfacecolor="white", label="free"),
-    ], fontsize=7, loc="best")
+    ], fontsize=7.5, loc="upper left", bbox_to_anchor=(1.0, 1.0))
     figure.tight_layout()
     save(figure, target, "crossover.svg")
 

@@ -291,8 +291,8 @@ int main(int argc, char** argv) {
     accurate.up_to_frequency = fork;
     for (const Index n : {8, 16, 32, 64, 100}) {
         if (n > largest) break;
-        const double step = n > 64 ? 1000 : n > 16 ? 100 : 10;
-        for (double stiffness = 10; stiffness<2e7; stiffness *= n> 32 ? 100 : 10) {
+        const double step = n > 32 ? 100 : 10;
+        for (double stiffness = 10; stiffness < 2e7; stiffness *= step) {
             for (const bool heavy : {false, true}) {
                 for (const bool pinned : {false, true}) {
                     for (const Goal& goal : {stable, accurate}) {
