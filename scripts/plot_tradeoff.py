@@ -213,7 +213,7 @@ def crossover(source, target):
                           textcoords="offset points", color=colour, fontsize=7.5)
         axis.axhline(1000 / 60, color="#888888", linewidth=0.8, linestyle=":")
         axis.set(title=title + "\n(hanging, lightly damped)", xlabel="spring stiffness, N/m",
-                 ylabel="processor time, ms a frame", xlim=(5, 1e8))
+                 ylabel="processor time, ms a frame", xlim=(5, 3e8))
     styles = {"light": "-", "heavy": "--"}
     for goal, colour in (("stable", BLUE), ("accurate", RED)):
         for damping, style in styles.items():
