@@ -27,7 +27,6 @@ using taut::Index;
 using Cloth = taut::SpringSystem<double, 3>;
 using State = Cloth::State;
 using Sparse = taut::SparseMatrix<double>;
-using Tangent = taut::SpringTangent<double, 3>;
 using Gradients = taut::ConjugateGradient<double, 3>;
 using JacobiGradients = taut::ConjugateGradient<double, 3, taut::BlockJacobi<double, 3>>;
 using Projective = taut::ProjectiveDynamics<Cloth>;
