@@ -256,7 +256,7 @@ int main() {
         "|---|---|---|---|---|---|\n");
     strengths_and_masses();
     steps();
+    sizes();
     lengths();
     topologies();
-    sizes();
 }
