@@ -17,6 +17,7 @@
 
 #include "measure.hpp"
 #include "outcome.hpp"
+#include "triplet_step.hpp"
 
 namespace {
 
@@ -26,7 +27,6 @@ using taut::Index;
 using Cloth = taut::SpringSystem<double, 3>;
 using State = Cloth::State;
 using Sparse = taut::SparseMatrix<double>;
-using Tangent = taut::SpringTangent<double, 3>;
 using Gradients = taut::ConjugateGradient<double, 3>;
 using JacobiGradients = taut::ConjugateGradient<double, 3, taut::BlockJacobi<double, 3>>;
 using Projective = taut::ProjectiveDynamics<Cloth>;
@@ -58,68 +58,6 @@ void row(const char* name, const Cloth& cloth, const std::function<bool(State&)>
     std::fflush(stdout);
 }
 
-/// The tutorials' step: triplets and a factorisation from nothing every time.
-class TripletStep {
-public:
-    /// @param project  leave the negative transverse stiffness out of the matrix
-    TripletStep(const Cloth& cloth, bool project) : cloth_(cloth), project_(project) {
-        for (Index i = 0; i < cloth.size(); ++i) {
-            row_.push_back(cloth.is_pinned(i) ? -1 : free_);
-            if (!cloth.is_pinned(i)) ++free_;
-        }
-    }
-    bool operator()(State& state) {
-        std::vector<Eigen::Triplet<double>> triplets;
-        Eigen::VectorXd b = Eigen::VectorXd::Zero(3 * free_);
-        cloth_.force(state, f_);
-        const auto add = [&](int i, int j, const Eigen::Matrix3d& block) {
-            if (i < 0 || j < 0) return;
-            for (int r = 0; r < 3; ++r) {
-                for (int c = 0; c < 3; ++c)
-                    triplets.emplace_back(3 * i + r, 3 * j + c, block(r, c));
-            }
-        };
-        cloth_.for_each_tangent(state.x, [&](const Tangent& raw) {
-            const auto t = project_ ? raw.projected() : raw;
-            const int i = row_[static_cast<std::size_t>(t.a)];
-            const int j = row_[static_cast<std::size_t>(t.b)];
-            const Eigen::Matrix3d K = t.transverse * Eigen::Matrix3d::Identity() +
-                                      (t.axial - t.transverse) * t.d * t.d.transpose();
-            const Eigen::Vector3d pull = h * h * K * (state.v.col(t.b) - state.v.col(t.a));
-            add(i, i, h * h * K);
-            add(j, j, h * h * K);
-            add(i, j, -h * h * K);
-            add(j, i, -h * h * K);
-            if (i >= 0) b.segment<3>(3 * i) += pull;
-            if (j >= 0) b.segment<3>(3 * j) -= pull;
-        });
-        for (Index i = 0; i < cloth_.size(); ++i) {
-            const int r = row_[static_cast<std::size_t>(i)];
-            if (r < 0) continue;
-            add(r, r, cloth_.mass(i) * Eigen::Matrix3d::Identity());
-            b.segment<3>(3 * r) += h * f_.col(i);
-        }
-        Sparse A(3 * free_, 3 * free_);
-        A.setFromTriplets(triplets.begin(), triplets.end());
-        Eigen::SimplicialLDLT<Sparse> solver;
-        solver.compute(A);
-        const Eigen::VectorXd dv = solver.solve(b);
-        for (Index i = 0; i < cloth_.size(); ++i) {
-            const int r = row_[static_cast<std::size_t>(i)];
-            if (r >= 0) state.v.col(i) += dv.segment<3>(3 * r);
-        }
-        state.x += h * state.v;
-        return solver.info() == Eigen::Success;
-    }
-
-private:
-    const Cloth& cloth_;
-    bool project_;
-    std::vector<int> row_;  // particle → free particle, or −1
-    int free_ = 0;
-    Eigen::Matrix3Xd f_;
-};
-
 template <class Stepper>
 auto by(Stepper& stepper) {
     return [&stepper](State& state) { return static_cast<bool>(stepper.step(state, h)); };
@@ -132,8 +70,8 @@ void steps(const std::vector<Index>& sizes) {
             "## hanging_cloth %lld, a second of free swing in steps of 1/60 s\n\n"
             "| step | ms: min | median | steps | %s |\n|---|---|---|---|---|---|---|\n",
             static_cast<long long>(n), bench::Outcome::columns);
-        row("Eigen: triplets, LDLT.compute, plain K", cloth, TripletStep(cloth, false));
-        row("Eigen: triplets, LDLT.compute, K⁺", cloth, TripletStep(cloth, true));
+        row("Eigen: triplets, LDLT.compute, plain K", cloth, bench::TripletStep(cloth, h, false));
+        row("Eigen: triplets, LDLT.compute, K⁺", cloth, bench::TripletStep(cloth, h, true));
         taut::ImplicitEuler<Cloth, Eigen::SimplicialLDLT<Sparse>> ldlt(cloth);
         row("pattern analysed once, SimplicialLDLT", cloth, by(ldlt));
         taut::ImplicitEuler<Cloth> llt(cloth);

@@ -42,13 +42,13 @@ Advance by_stepper(std::shared_ptr<Stepper> stepper, const Plan& plan) {
     };
 }
 
-template <class Stepper>
-Advance by_guard(const Cloth& cloth, const Plan& plan) {
+template <class Stepper, class... Arguments>
+Advance by_guard(const Cloth& cloth, const Plan& plan, const Arguments&... arguments) {
     using Guard = taut::Guarded<Stepper>;
     typename Guard::Options options;
     options.max_step = plan.h;
     options.max_substeps = std::numeric_limits<taut::Index>::max() / 64;
-    auto guard = std::make_shared<Guard>(cloth, options);
+    auto guard = std::make_shared<Guard>(cloth, options, arguments...);
     return [guard](State& state, double span) {
         const auto report = guard->advance(state, span);
         if (report) return std::string();
@@ -58,10 +58,12 @@ Advance by_guard(const Cloth& cloth, const Plan& plan) {
     };
 }
 
-template <class Stepper>
-Advance plain_or_guarded(bool guarded, const Cloth& cloth, const Plan& plan) {
-    if (guarded) return by_guard<Stepper>(cloth, plan);
-    return by_stepper(std::make_shared<Stepper>(cloth), plan);
+/// @param arguments  further ones of the stepper's constructor
+template <class Stepper, class... Arguments>
+Advance plain_or_guarded(bool guarded, const Cloth& cloth, const Plan& plan,
+                         const Arguments&... arguments) {
+    if (guarded) return by_guard<Stepper>(cloth, plan, arguments...);
+    return by_stepper(std::make_shared<Stepper>(cloth, arguments...), plan);
 }
 
 }  // namespace detail
@@ -73,7 +75,7 @@ inline Advance make_motion(const Options& options, const Cloth& cloth, const Pla
     if (options.integrator == "newton") {
         typename Implicit::Options newton;
         newton.newton_iterations = 100;
-        return detail::by_stepper(std::make_shared<Implicit>(cloth, newton), plan);
+        return plain_or_guarded<Implicit>(options.guard, cloth, plan, newton);
     }
     if (options.integrator == "explicit") {
         return detail::by_stepper(std::make_shared<taut::ExplicitEuler<Cloth>>(cloth), plan);

@@ -127,10 +127,6 @@ inline void Options::check() const {
             "--guard: explicit Euler has no limit that holds at every pose; use --integrator "
             "symplectic, which costs the same");
     }
-    if (guard && integrator == "newton") {
-        throw std::runtime_error(
-            "--guard: it takes the linearised step; use --integrator implicit, or newton alone");
-    }
     if (integrator == "explicit" && scene.d0 == 0 && scene.alpha == 0) {
         throw std::runtime_error("--integrator explicit: " +
                                  std::string(describe(taut::Cause::undamped)));

@@ -35,3 +35,5 @@
 #include "stability/mass_scaling.hpp"
 #include "stability/rayleigh_design.hpp"
 #include "stability/stability.hpp"
+#include "tradeoff/measure.hpp"
+#include "tradeoff/recommend.hpp"

@@ -28,7 +28,8 @@ endfunction()
 
 if(WAY STREQUAL "subdirectory")
     build(subdirectory 20 main.cpp)
-    build(fetched 17 version.cpp)  # that the target arrives; what it does, the others see
+    # That the targets arrive; what they do, the others see.
+    build(fetched 17 version.cpp -D CONSUMER_SUITESPARSE=${SUITESPARSE} -D CONSUMER_MODAL=${MODAL})
     return()
 endif()
 

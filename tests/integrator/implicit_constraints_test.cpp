@@ -165,6 +165,10 @@ TEST_CASE("implicit_constraints: Newton's step holds them and its forces stand i
     CHECK(distance(held.v.col(7), Eigen::Vector3d(0, 0, 1)) <= Tolerance<double>::accumulated);
     const auto forces = stepper.constraint_forces();
     CHECK((forces.col(5).array() == 0).all());
+    auto released = held;
+    stepper.constraints().clear();
+    REQUIRE(stepper.step(released, 0.05));
+    CHECK(stepper.constraint_forces().cols() == 0);
     system.set_external_force([forces](const auto&, auto& f) { f += forces; });
     auto pushed = start;
     ImplicitEuler free_stepper(system, options);
@@ -219,6 +223,18 @@ TEST_CASE("particle_constraints: contradictions and bad values are named by thei
     CHECK(report.status == taut::Status::invalid_state);
     CHECK(report.where == 8);
     CHECK(same_bits(state, before));
+}
+
+TEST_CASE("particle_constraints: a small contradiction beside a large speed is one",
+          "[model][bad_input]") {
+    ParticleConstraints<double, 2> constraints;
+    constraints.hold(4, {0, 1}, 100);
+    constraints.hold(4, {1, 0}, 0);
+    CHECK(missing(message_of([&] {
+                      constraints.hold(4, {1, 0}, 0.03);
+                  }),
+                  {"particle 4", "contradicts"}) == "");
+    constraints.hold(4, {3, 4}, 80);  // implied
 }
 
 TEST_CASE("particle_constraints: directions that are nearly one do not make a speed across them",

@@ -130,7 +130,7 @@ TEST_CASE("state_view: steppers with a history or a budget", "[integrator]") {
 }
 
 TEST_CASE("state_view: a guarded frame", "[integrator]") {
-    const auto cloth = taut::hanging_cloth<float>({6, 6});
+    auto cloth = taut::hanging_cloth<float>({6, 6});
     taut::Guarded<taut::SymplecticEuler<Cloth<float>>> on_view(cloth), on_state(cloth);
     auto expected = cloth.initial_state();
     Arrays<float, 3> arrays(cloth.size(), 4, 4);
@@ -143,6 +143,34 @@ TEST_CASE("state_view: a guarded frame", "[integrator]") {
     CHECK(view.x == expected.x);
     CHECK(view.v == expected.v);
     CHECK(arrays.padding_untouched());
+
+    cloth.set_external_force(
+        [](const auto&, auto& f) { f(0, 7) = std::numeric_limits<float>::infinity(); });
+    CHECK_FALSE(on_view.advance(view, 1.0f / 60));
+    CHECK(view.x == expected.x);
+    CHECK(view.v == expected.v);
+}
+
+TEST_CASE("state_view: a guard goes on from its own digits where the arrays have fewer",
+          "[integrator]") {
+    const auto cloth = taut::hanging_cloth<double>({6, 6});
+    taut::Guarded<taut::Bdf2<Cloth<double>>> on_view(cloth), on_state(cloth);
+    auto expected = cloth.initial_state();
+    Arrays<float, 3> arrays(cloth.size(), 3, 3);
+    auto view = arrays.view();
+    view.copy_from(expected);
+    for (int frame = 0; frame < 10; ++frame) {
+        REQUIRE(on_view.advance(view, 1.0 / 60));
+        REQUIRE(on_state.advance(expected, 1.0 / 60));
+    }
+    CHECK(view.x == expected.x.cast<float>());
+    CHECK(view.v == expected.v.cast<float>());
+    view.v(1, 20) += 1;  // what the engine changes counts
+    expected.x = view.x.cast<double>();
+    expected.v = view.v.cast<double>();
+    REQUIRE(on_view.advance(view, 1.0 / 60));
+    REQUIRE(on_state.advance(expected, 1.0 / 60));
+    CHECK(view.v == expected.v.cast<float>());
 }
 
 TEST_CASE("state_view: a failed step leaves the arrays alone", "[integrator]") {

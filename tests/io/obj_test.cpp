@@ -10,6 +10,7 @@
 
 #include "../support/catch.hpp"
 #include "../support/random.hpp"
+#include "../support/message.hpp"
 #include "../support/temporary_file.hpp"
 #include "../support/tolerance.hpp"
 
@@ -120,6 +121,11 @@ TEST_CASE("obj: bad input: a path that cannot be written is named", "[io][bad_in
     CHECK(report.status == taut::FileStatus::not_opened);
     CHECK_THAT(report.message(), ContainsSubstring("no_such_directory/mesh.obj: cannot"));
     CHECK_FALSE(taut::write_obj("", x, {}));
+    CHECK_THAT(message_of([&] {
+                   (void)taut::write_obj("not_written.obj", x, {{0, 1, 2}});
+               }),
+               ContainsSubstring("face 0 has the corner 2; there are 2 positions"));
+    CHECK_FALSE(std::ifstream("not_written.obj"));
 }
 
 #ifdef __linux__

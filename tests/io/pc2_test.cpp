@@ -132,6 +132,7 @@ TEST_CASE("pc2: bad input: a frame that is not finite is named and leaves the ca
 
 TEST_CASE("pc2: bad input: wrong sizes and options are named", "[io][bad_input]") {
     const TemporaryFile file("refused.pc2");
+    std::ofstream(file.path) << "an older cache";
     const auto zeros = [](Index n) -> taut::Points<double, 3> {
         return taut::Points<double, 3>::Zero(3, n);
     };
@@ -147,6 +148,7 @@ TEST_CASE("pc2: bad input: wrong sizes and options are named", "[io][bad_input]"
                    taut::Pc2Writer(file.path, 1, {std::nanf(""), 1});
                }),
                ContainsSubstring("start is"));
+    CHECK(file.bytes() == "an older cache");
     CHECK_THAT(message_of([&] {
                    taut::Pc2Writer cache(file.path, 2);
                    (void)cache.write(zeros(3));

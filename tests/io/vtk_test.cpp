@@ -168,6 +168,9 @@ TEST_CASE("vtk: bad input: a path, a size or a position that cannot be written",
     state.x(0, 1) = std::numeric_limits<float>::quiet_NaN();
     CHECK(taut::write_vtk("not_written.vtk", system, state).where == 1);
     CHECK_FALSE(std::ifstream("not_written.vtk"));
+    state.x(0, 1) = 1;
+    state.v(1, 0) = std::numeric_limits<float>::infinity();
+    CHECK(taut::write_vtk("not_written.vtk", system, state).where == 0);
     state.x.resize(2, 1);
     CHECK_THAT(message_of([&] { (void)taut::write_vtk("not_written.vtk", system, state); }),
                ContainsSubstring("1 positions and 2 velocities; the system has 2 particles"));

@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "../solver/block_ordering.hpp"
 #include "detail/last_state.hpp"
 #include "detail/step_equation.hpp"
 #include "detail/step_loop.hpp"
@@ -26,10 +27,12 @@ namespace taut {
 /// while: Guarded takes such a step back.
 ///
 /// The first step is implicit Euler (ω = 0 in the formula). So is the next one after the system or
-/// the state was changed from outside, and after a failure; and one that is more than `max_ratio`
-/// times its predecessor, for beyond 1 + √2 the formula is not zero-stable.
-/// @tparam Solver  as for ImplicitEuler
-template <class System, class Solver = Eigen::SimplicialLLT<SparseMatrix<typename System::Scalar>>>
+/// the state was changed from outside (a contact, a new velocity of a pin), and after a failure;
+/// and one that is more than `max_ratio` times its predecessor, for beyond 1 + √2 the formula is
+/// not zero-stable.
+/// @tparam Solver  as for ImplicitEuler, but each solve starts from 0
+template <class System, class Solver = Eigen::SimplicialLLT<SparseMatrix<typename System::Scalar>,
+                                                            Eigen::Lower, BlockOrdering<>>>
 class Bdf2 {
 public:
     using Scalar = typename System::Scalar;

@@ -81,7 +81,8 @@ struct [[nodiscard]] GuardedReport {
 /// The audit of a frame costs one and a half explicit steps, one of a retried frame as much a
 /// substep. It catches what no analysis sees: stiff external forces, and implicit steps that
 /// overshoot. What changes the state between frames is not judged.
-/// @tparam Stepper  SymplecticEuler, VelocityVerlet, ImplicitEuler, Bdf2 of a SpringSystem
+/// @tparam Stepper  SymplecticEuler, VelocityVerlet, ImplicitEuler, Bdf2, ProjectiveDynamics or
+///                  your own, of a SpringSystem; one without a `method` counts as implicit
 template <class Stepper, class System = typename detail::stepped_system<Stepper>::type>
 class Guarded {
 public:
@@ -116,14 +117,15 @@ public:
 
     /// Advances by `frame`, s, finite and > 0. No certified step (overflow) is invalid_step.
     /// @param respond  respond(state) after every substep: contacts, for example. What it does to
-    ///                 the energy is not judged.
+    ///                 the energy is not judged. It is called in attempts that are taken back, too.
     template <class Respond = detail::NoResponse>
     GuardedReport<Scalar> advance(State& state, Scalar frame, Respond&& respond = {});
-    /// The same on an engine's own arrays, copied there and back once a frame.
+    /// The same on an engine's own arrays, copied back once a frame, and there if they are not what
+    /// the last frame left.
     template <class Stored, class Respond = detail::NoResponse>
     GuardedReport<Scalar> advance(StateView<Stored, System::Dim>& view, Scalar frame,
                                   Respond&& respond = {}) {
-        view.copy_to(viewed_);
+        if (!holds(view)) view.copy_to(viewed_);
         const auto report = advance(viewed_, frame, respond);
         if (report) view.copy_from(viewed_);
         return report;
@@ -137,8 +139,15 @@ private:
     static constexpr bool limited =
         method == Method::symplectic_euler || method == Method::velocity_verlet;
 
+    template <class Stored>
+    bool holds(const StateView<Stored, System::Dim>& view) const {
+        return view.x.cols() == viewed_.x.cols() && view.v.cols() == viewed_.v.cols() &&
+               view.time == static_cast<double>(viewed_.time) &&
+               view.x == viewed_.x.template cast<Stored>() &&
+               view.v == viewed_.v.template cast<Stored>();
+    }
     Scalar largest_step();
-    const Points<Scalar, System::Dim>& constraint_forces() const;
+    const Points<Scalar, System::Dim>* constraint_forces() const;
     template <class Respond>
     Report attempt(State& state, const GuardedReport<Scalar>& report, Respond& respond);
     bool admits(Scalar span, GuardedReport<Scalar>& report);
@@ -151,9 +160,8 @@ private:
     std::optional<StepLimit<Scalar>> limit_;
     detail::LastState<State> start_;  // the last good one
     detail::EnergyAudit<System> audit_;
-    double slack_;                        // what is left of energy_slack
-    Points<Scalar, System::Dim> unheld_;  // the constraint forces of steppers without any
-    State viewed_;                        // of a StateView
+    double slack_;  // what is left of energy_slack
+    State viewed_;  // of a StateView
 };
 
 template <class Stepper, class System>
@@ -194,11 +202,11 @@ auto Guarded<Stepper, System>::largest_step() -> Scalar {
 }
 
 template <class Stepper, class System>
-auto Guarded<Stepper, System>::constraint_forces() const -> const Points<Scalar, System::Dim>& {
+auto Guarded<Stepper, System>::constraint_forces() const -> const Points<Scalar, System::Dim>* {
     if constexpr (detail::is_detected_v<detail::constraint_forces_of, Stepper>) {
-        return stepper_.constraint_forces();
+        return &stepper_.constraint_forces();
     } else {
-        return unheld_;
+        return nullptr;
     }
 }
 
@@ -230,11 +238,10 @@ Report Guarded<Stepper, System>::attempt(State& state, const GuardedReport<Scala
 template <class Stepper, class System>
 bool Guarded<Stepper, System>::admits(Scalar span, GuardedReport<Scalar>& report) {
     report.energy_rise = audit_.rise(method, static_cast<double>(report.h));
-    constexpr double rounding = 64 * static_cast<double>(std::numeric_limits<Scalar>::epsilon());
     const double moved = audit_.moved();
     const double share =
         std::min(options_.energy_slack, slack_ + options_.energy_drift * static_cast<double>(span));
-    if (!(report.energy_rise <= share * moved + rounding * audit_.size())) return false;
+    if (!(report.energy_rise <= share * moved + audit_.rounding())) return false;
     const double used = moved > 0 ? report.energy_rise / moved : 0;
     slack_ = std::min(options_.energy_slack, std::max(0.0, share - used));
     return true;

@@ -83,7 +83,7 @@ public:
     /// Change them between steps at will. Those of pinned particles have no effect.
     Constraints& constraints() { return constraints_; }
     /// Of the constraints on their particles in the last step, N, Dim × n, zero elsewhere: for
-    /// friction, or to decide on a release. Empty before the first step with any.
+    /// friction, or to decide on a release. Empty (0 columns) if that had none, or failed.
     const Points<Scalar, Dim>& constraint_forces() const { return forces_; }
 
     /// Takes `count` steps of h, s, finite and > 0, of a State or StateView. On failure the state
@@ -183,6 +183,7 @@ Report ImplicitEuler<System, Solver>::solve_linearised(const State& state, Scala
         dv_.setZero(A.rows());
     }
     projection_.begin(constraints_, state.v);
+    forces_.resize(Eigen::NoChange, 0);
     if (dv_.size() == 0) return {};  // nothing free; not every solver takes 0 × 0
     equation_.update_values(*system_, state, h);
     equation_.load(*system_, state, h, h, state.v, b_);
@@ -244,7 +245,8 @@ Report ImplicitEuler<System, Solver>::advance(State& state, Scalar h) {
                     return status == Status::ok ? solve(b, dx) : status;
                 },
                 [&](Points<Scalar, Dim>& g) { constraints_.filter(g); });
-            if (projected_) {
+            forces_.resize(Eigen::NoChange, 0);
+            if (projected_ && report) {
                 const auto& r = newton_.whole_gradient(*system_);
                 set_forces([&](Index particle) -> Vector { return r.col(particle) / (h * h); });
             }

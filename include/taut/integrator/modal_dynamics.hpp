@@ -91,7 +91,8 @@ ModalDynamics<Shape, Dim>::ModalDynamics(const LinearSystem<Real>& linear,
     const bool springs = map.dim != 0;
     const Index particles = springs ? map.particles : linear.size();
     if ((springs ? map.dim : 1) != Dim || pose.x.cols() != particles ||
-        basis.shapes.rows() != linear.size() || basis.shapes.cols() != basis.size()) {
+        basis.shapes.rows() != linear.size() || basis.shapes.cols() != basis.size() ||
+        basis.d.size() != basis.size() || basis.p.size() != basis.size()) {
         fail("ModalDynamics: a pose of ", pose.x.cols(), " particles in ", Dim,
              " dimensions and shapes of ", basis.shapes.rows(), " rows; the system has ", particles,
              " particles and ", linear.size(), " degrees of freedom");
@@ -119,6 +120,7 @@ ModalDynamics<Shape, Dim>::ModalDynamics(const LinearSystem<Real>& linear,
 template <class Shape, int Dim>
 Report ModalDynamics<Shape, Dim>::step(double h, Index count) {
     if (!(h > 0) || !std::isfinite(h)) return {Status::invalid_step};
+    if (count <= 0) return {};
     set_step(h);
     old_q_ = q_;
     old_v_ = v_;

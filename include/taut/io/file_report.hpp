@@ -13,7 +13,7 @@ enum class FileStatus {
     ok,
     not_opened,   ///< the file could not be created: no such folder, or no right to
     not_written,  ///< opened, but not everything could be written: a full disk
-    not_finite    ///< a position is not finite, or too large for the file's numbers
+    not_finite    ///< a position or velocity is not finite, or too large for the file's numbers
 };
 
 /// One sentence for people.
@@ -22,7 +22,8 @@ constexpr const char* describe(FileStatus status) {
         case FileStatus::ok: return "ok";
         case FileStatus::not_opened: return "cannot be written: it could not be created";
         case FileStatus::not_written: return "cannot be written completely";
-        case FileStatus::not_finite: return "a position is not finite, or too large for the file";
+        case FileStatus::not_finite:
+            return "a position or velocity is not finite, or too large for the file";
     }
     return "unknown status";
 }

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "../core/error.hpp"
+#include "detail/number_text.hpp"
 #include "detail/output_file.hpp"
 
 namespace taut {
@@ -19,12 +21,20 @@ FileReport write_obj(const std::string& path, const Points<Scalar, Dim>& x,
     if (const Index i = detail::first_unwritable<double>(x); i >= 0) {
         return {FileStatus::not_finite, path, i};
     }
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        for (const Index corner : faces[f]) {
+            if (corner >= 0 && corner < x.cols()) continue;
+            fail("write_obj: face ", f, " has the corner ", corner, "; there are ", x.cols(),
+                 " positions");
+        }
+    }
     detail::OutputFile out(path);
     if (!out.is_open()) return out.check();
     for (Index i = 0; i < x.cols(); ++i) {
         double p[3] = {0, 0, 0};
         for (int d = 0; d < Dim; ++d) p[d] = static_cast<double>(x(d, i));
-        std::fprintf(out.get(), "v %.9g %.9g %.9g\n", p[0], p[1], p[2]);
+        std::fputs("v ", out.get());
+        detail::put_numbers(out.get(), p);
     }
     for (const auto& face : faces) {
         std::fputc('f', out.get());

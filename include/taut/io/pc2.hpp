@@ -45,6 +45,8 @@ public:
     Index frames() const { return frames_; }
 
 private:
+    /// The path, once all else is right: opening the file empties it.
+    static std::string checked(std::string path, Index points, const Pc2Options& options);
     static void put(std::uint32_t bits, unsigned char* bytes) {
         for (int i = 0; i < 4; ++i) bytes[i] = static_cast<unsigned char>(bits >> (8 * i));
     }
@@ -63,8 +65,7 @@ private:
     std::vector<unsigned char> frame_;
 };
 
-inline Pc2Writer::Pc2Writer(std::string path, Index points, const Pc2Options& options)
-    : file_(std::move(path)), points_(points) {
+inline std::string Pc2Writer::checked(std::string path, Index points, const Pc2Options& options) {
     if (points < 1 || points > std::numeric_limits<std::int32_t>::max()) {
         fail("Pc2Writer: points is ", points, "; it must be 1 to 2147483647");
     }
@@ -72,6 +73,11 @@ inline Pc2Writer::Pc2Writer(std::string path, Index points, const Pc2Options& op
         fail("Pc2Writer: start is ", options.start, "; it must be finite");
     }
     require_positive("Pc2Writer", "sampling", options.sampling);
+    return path;
+}
+
+inline Pc2Writer::Pc2Writer(std::string path, Index points, const Pc2Options& options)
+    : file_(checked(std::move(path), points, options)), points_(points) {
     if (!file_.is_open()) return;
     unsigned char header[32] = "POINTCACHE2";
     put(std::uint32_t(1), header + 12);

@@ -6,6 +6,7 @@
 
 #include "../core/error.hpp"
 #include "../model/spring_system.hpp"
+#include "detail/number_text.hpp"
 #include "detail/output_file.hpp"
 
 namespace taut {
@@ -35,7 +36,7 @@ void write_spring_data(std::FILE* file, const char* name, const System& system,
                        const typename System::Force& x, Value&& value) {
     std::fprintf(file, "SCALARS %s double 1\nLOOKUP_TABLE default\n", name);
     for_each_tension(system, x, [&](int law, int, int, auto L, auto l, auto T) {
-        std::fprintf(file, "%.9g\n", static_cast<double>(value(law, L, l, T)));
+        put_number(file, static_cast<double>(value(law, L, l, T)), '\n');
     });
 }
 
@@ -45,7 +46,7 @@ void write_triples(std::FILE* file, const Points& values) {
     for (Index i = 0; i < values.cols(); ++i) {
         double p[3] = {0, 0, 0};
         for (Index d = 0; d < values.rows(); ++d) p[d] = static_cast<double>(values(d, i));
-        std::fprintf(file, "%.9g %.9g %.9g\n", p[0], p[1], p[2]);
+        put_numbers(file, p);
     }
 }
 
@@ -67,15 +68,17 @@ FileReport write_vtk(const std::string& path, const System& system,
     if (const Index i = detail::first_unwritable<double>(state.x); i >= 0) {
         return {FileStatus::not_finite, path, i};
     }
+    if (const Index i = detail::first_unwritable<double>(state.v); i >= 0) {
+        return {FileStatus::not_finite, path, i};
+    }
     detail::OutputFile out(path);
     if (!out.is_open()) return out.check();
     std::FILE* file = out.get();
     const auto particles = static_cast<long long>(system.size());
     const auto springs = static_cast<long long>(system.spring_count());
-    std::fprintf(file,
-                 "# vtk DataFile Version 3.0\nTaut, t = %.9g s\nASCII\nDATASET POLYDATA\n"
-                 "POINTS %lld double\n",
-                 static_cast<double>(state.time), particles);
+    std::fputs("# vtk DataFile Version 3.0\nTaut, t in s: ", file);
+    detail::put_number(file, static_cast<double>(state.time), '\n');
+    std::fprintf(file, "ASCII\nDATASET POLYDATA\nPOINTS %lld double\n", particles);
     detail::write_triples(file, state.x);
     std::fprintf(file, "LINES %lld %lld\n", springs, 3 * springs);
     system.for_each_spring([&](Index a, Index b) {
@@ -93,7 +96,7 @@ FileReport write_vtk(const std::string& path, const System& system,
     detail::write_triples(file, state.v);
     std::fprintf(file, "SCALARS mass double 1\nLOOKUP_TABLE default\n");
     for (Index i = 0; i < system.size(); ++i) {
-        std::fprintf(file, "%.9g\n", static_cast<double>(system.mass(i)));
+        detail::put_number(file, static_cast<double>(system.mass(i)), '\n');
     }
     std::fprintf(file, "SCALARS pinned int 1\nLOOKUP_TABLE default\n");
     for (Index i = 0; i < system.size(); ++i) std::fputs(system.is_pinned(i) ? "1\n" : "0\n", file);

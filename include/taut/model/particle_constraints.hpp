@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "../core/error.hpp"
@@ -94,8 +95,10 @@ void ParticleConstraints<Scalar, Dim>::add(Held& at, Index particle, const Vecto
     // Nearer directions count as one: the speed implied across them would be 10⁴ times as large.
     constexpr Scalar parallel = static_cast<Scalar>(1e-4);
     if (size <= parallel) {
-        const Scalar scale = std::abs(speed) + at.speeds.cwiseAbs().maxCoeff();
-        if (std::abs(speed - implied) > 4 * parallel * scale) {
+        const Scalar known_speed = at.speeds.cwiseAbs().maxCoeff();
+        const Scalar rounding =
+            64 * std::numeric_limits<Scalar>::epsilon() * (std::abs(speed) + known_speed);
+        if (std::abs(speed - implied) > rounding + 2 * size * known_speed) {
             fail("ParticleConstraints: particle ", particle, " is held to a speed of ", implied,
                  " along this direction; ", speed, " contradicts it");
         }
@@ -110,7 +113,7 @@ void ParticleConstraints<Scalar, Dim>::add(Held& at, Index particle, const Vecto
 
 template <class Scalar, int Dim>
 void ParticleConstraints<Scalar, Dim>::hold_on_line(Index particle, const Vector& direction) {
-    // The axes, least aligned first, less their part along the line, span its complement.
+    // All axes but the most aligned one, less their part along the line, span its complement.
     if (!direction.allFinite() || !(direction.stableNorm() > 0)) {
         fail("ParticleConstraints: particle ", particle,
              ": the direction of a line must be finite and not zero");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -91,8 +92,8 @@ struct SpringSet {
         return static_cast<Index>(count - kept);
     }
 
-    /// The tangent of spring s with its ends at x, in the precision of x. At l = 0 it is the law's
-    /// bound times the identity: no direction is preferred, and no tangent is larger.
+    /// The tangent of spring s with its ends at x, in the precision of x. At l = 0, and where l
+    /// overflows, it is the law's bound times the identity: no tangent is larger.
     template <class Real, int Dim>
     SpringTangent<Real, Dim> tangent(std::size_t s, const Points<Real, Dim>& x) const {
         SpringTangent<Real, Dim> t;
@@ -104,7 +105,7 @@ struct SpringSet {
         t.damping = static_cast<Real>(damping_of(s));
         t.d = x.col(t.b) - x.col(t.a);
         const Real l = t.d.norm();
-        if (l > 0) {
+        if (l > 0 && std::isfinite(l)) {
             t.d /= l;
             t.axial = Law::tension_slope(p, L, l);
             t.transverse = Law::tension(p, L, l) / l;

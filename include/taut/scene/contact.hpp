@@ -32,7 +32,8 @@ struct ContactReport {
 /// No particle gains speed. One that starts inside is moved out at once, and without a velocity
 /// from it; the springs bear what that stretches. An explicit or one-step method goes on as if
 /// nothing had happened; Bdf2 starts anew. Nothing is seen between steps: a step must be short
-/// against the obstacle. For several obstacles call it for each; in a wedge, twice.
+/// against the obstacle. For several obstacles call it for each; in an acute
+/// wedge repeat that until `depth` is small: each round leaves cos² of the angle between them.
 /// @param obstacle  `Surface surface(point) const`: HalfSpace, Sphere or your own
 /// @throws when friction or thickness is negative or not finite, or the state does not fit
 template <class System, class Obstacle>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "../../core/concepts.hpp"
 #include "../../core/method.hpp"
@@ -13,12 +14,12 @@ namespace taut::detail {
 
 /// The energy of a pose and what makes it oscillate under the explicit steps.
 struct EnergyBooks {
-    double kinetic = 0;  ///< of the free particles, J
-    double elastic = 0;  ///< of the springs, J
-    double gravity = 0;  ///< −Σ m g·x over the free particles, J
-    double heights = 0;  ///< Σ m|g·x|, J: what the rounding of `gravity` is relative to
-    double power = 0;    ///< vᵀf of springs and gravity, W
-    double jerk = 0;     ///< fᵀM⁻¹f of the same, W/s
+    double kinetic = 0;   ///< of the free particles, J
+    double elastic = 0;   ///< of the springs, J
+    double gravity = 0;   ///< −Σ m g·x over the free particles, J
+    double rounding = 0;  ///< what the rounding of positions and forces may make of all this, J
+    double power = 0;     ///< vᵀf of springs and gravity, W
+    double jerk = 0;      ///< fᵀM⁻¹f of the same, W/s
 
     double energy() const { return kinetic + elastic + gravity; }
 
@@ -39,6 +40,7 @@ template <class System, class State, class Force>
 EnergyBooks energy_books(const System& system, const State& state, Force& f) {
     using Vector = typename System::Vector;
     using Scalar = typename System::Scalar;
+    constexpr double unit = 64 * static_cast<double>(std::numeric_limits<Scalar>::epsilon());
     EnergyBooks books;
     f.resize(System::Dim, system.size());
     const auto inverse_mass = system.inverse_mass();
@@ -53,6 +55,10 @@ EnergyBooks energy_books(const System& system, const State& state, Force& f) {
             const Scalar l = dx.norm();
             const auto& p = set.parameters[s];
             const Scalar L = set.rest_length[s];
+            const double grain =
+                unit * (static_cast<double>(state.x.col(set.a[s]).norm()) + static_cast<double>(l));
+            books.rounding += static_cast<double>(std::abs(Law::tension(p, L, l))) * grain +
+                              static_cast<double>(Law::stiffness_bound(p, L)) * grain * grain / 64;
             books.elastic += static_cast<double>(Law::energy(p, L, l));
             if (!(l > 0)) continue;
             const Vector pull = (Law::tension(p, L, l) / l) * dx;
@@ -65,9 +71,9 @@ EnergyBooks energy_books(const System& system, const State& state, Force& f) {
         if (w == Scalar(0)) continue;
         const Scalar mass = system.mass(i);
         const auto height = static_cast<double>(mass * system.gravity().dot(state.x.col(i)));
+        books.rounding += unit * std::abs(height);
         books.kinetic += 0.5 * static_cast<double>(mass * state.v.col(i).squaredNorm());
         books.gravity -= height;
-        books.heights += std::abs(height);
         books.power += static_cast<double>(f.col(i).dot(state.v.col(i)));
         books.jerk += static_cast<double>(w * f.col(i).squaredNorm());
     }
@@ -99,8 +105,8 @@ public:
         given_ = 0;
     }
     /// Steps have led to `state`; their work is by the mean of the forces at both ends of the way.
-    /// @param held  forces of constraints on the way, N, Dim × n, or empty
-    void add_motion(const System& system, const State& state, const Force& held);
+    /// @param held  forces of constraints on the way, N, Dim × n; may be null or empty
+    void add_motion(const System& system, const State& state, const Force* held);
     /// Somebody else has made the last state into this one; its energy is no fault of the steps.
     void add_response(const System& system, const State& state, Method method, double h) {
         const double before = pages_[last_].books.kept(method, h);
@@ -118,8 +124,8 @@ public:
         const double fallen = std::max(0.0, start.gravity - pages_[last_].books.gravity);
         return start.kinetic + start.elastic + fallen + std::abs(work_) + std::abs(given_);
     }
-    /// What the rounding of the sums is relative to.
-    double size() const { return moved() + pages_[first_].books.heights; }
+    /// What rounding may make of rise(), J.
+    double rounding() const { return pages_[first_].books.rounding + pages_[last_].books.rounding; }
 
 private:
     struct Page {
@@ -132,6 +138,24 @@ private:
         page.books = energy_books(system, state, page.force);
         page.x = state.x;
         system.external_force(state, page.external);
+        add_damping_on_moving_pins(system, state, page);
+    }
+
+    /// A moving pin works through dampers too.
+    static void add_damping_on_moving_pins(const System& system, const State& state, Page& page) {
+        bool moving = false;
+        for (Index i = 0; i < system.size(); ++i) {
+            moving = moving || (system.is_pinned(i) && !state.v.col(i).isZero(0));
+        }
+        if (!moving) return;
+        Force all;
+        system.force(state, all);
+        const auto d0 = static_cast<typename System::Scalar>(system.rayleigh().mass_proportional);
+        for (Index i = 0; i < system.size(); ++i) {
+            if (!system.is_pinned(i)) continue;
+            page.force.col(i) = all.col(i) - page.external.col(i) -
+                                system.mass(i) * (system.gravity() - d0 * state.v.col(i));
+        }
     }
 
     std::array<Page, 3> pages_;
@@ -142,7 +166,7 @@ private:
 };
 
 template <class System>
-void EnergyAudit<System>::add_motion(const System& system, const State& state, const Force& held) {
+void EnergyAudit<System>::add_motion(const System& system, const State& state, const Force* held) {
     const Page& from = pages_[last_];
     std::size_t next = 0;
     while (next == first_ || next == last_) ++next;
@@ -156,7 +180,9 @@ void EnergyAudit<System>::add_motion(const System& system, const State& state, c
             work_ += 0.5 * static_cast<double>((from.external + to.external).col(i).dot(path));
         }
     }
-    if (held.cols() > 0) work_ += static_cast<double>(held.cwiseProduct(to.x - from.x).sum());
+    if (held != nullptr && held->cols() > 0) {
+        work_ += static_cast<double>(held->cwiseProduct(to.x - from.x).sum());
+    }
     last_ = next;
 }
 

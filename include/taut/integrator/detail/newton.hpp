@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
-
 #include "../../core/status.hpp"
 #include "step_equation.hpp"
 #include "step_objective.hpp"
@@ -81,7 +79,7 @@ template <class Options, class Solve, class Filter>
 Report Newton<System>::step(const System& system, State& state, const VectorX<Scalar>& dv, Scalar h,
                             const Options& options, StepEquation<System>& equation, Solve&& solve,
                             Filter&& filter) {
-    objective_.begin(system, state, h);
+    objective_.begin(system, state, h, filter);
     objective_.weigh_energy(system, state);
     u_ = h * state.v;
     equation.scatter(h, dv, u_);
@@ -101,8 +99,8 @@ Report Newton<System>::step(const System& system, State& state, const VectorX<Sc
     report.solves = 1;
     bool stuck = false;
     const auto open = [&] {
-        return residual() > options.tolerance &&
-               objective_.force_residual(g_) > objective_.rounding(system);
+        return !(residual() <= options.tolerance) &&
+               !(objective_.force_residual(g_) <= objective_.rounding(system));
     };
     while (report.solves < options.newton_iterations && !stuck && open()) {
         ++report.solves;
@@ -125,7 +123,7 @@ Report Newton<System>::step(const System& system, State& state, const VectorX<Sc
         stuck = !line_search(system, equation, value, filter);
     }
     report.residual = residual();
-    if (open() || std::isnan(report.residual)) {
+    if (open()) {
         report.status = Status::not_converged;
         return report;
     }

@@ -26,8 +26,12 @@ public:
     using Moves = Points<Scalar, Dim>;
     using Vector = Eigen::Matrix<Scalar, Dim, 1>;
 
-    /// A step of h, s, from `state`.
-    void begin(const System& system, const State& state, Scalar h);
+    /// A step of h, s, from `state`. @param filter  takes what constraints hold out of a gradient
+    template <class Filter>
+    void begin(const System& system, const State& state, Scalar h, Filter&& filter);
+    void begin(const System& system, const State& state, Scalar h) {
+        begin(system, state, h, [](Moves&) {});
+    }
     /// After begin(), for energy_residual().
     void weigh_energy(const System& system, const State& state);
     /// w, Dim × n, m, and hv for pinned particles.
@@ -42,7 +46,9 @@ public:
     double energy_residual(const Moves& u, const Moves& g) const;
     /// The larger one of both.
     double residual(const Moves& u, const Moves& g) const {
-        return std::max(force_residual(g), energy_residual(u, g));
+        const double force = force_residual(g);
+        const double energy = energy_residual(u, g);
+        return force >= energy ? force : energy;  // NaN if the energy's is
     }
     /// @param g  ← ∇φ(u), Dim × n, kg·m, zero for pinned particles   @returns φ(u), kg·m²
     Scalar evaluate(const System& system, const Moves& u, Moves& g);
@@ -75,7 +81,9 @@ private:
 };
 
 template <class System>
-void StepObjective<System>::begin(const System& system, const State& state, Scalar h) {
+template <class Filter>
+void StepObjective<System>::begin(const System& system, const State& state, Scalar h,
+                                  Filter&& filter) {
     h_ = h;
     start_ = state.x;
     system.external_force(state, f_);
@@ -89,6 +97,7 @@ void StepObjective<System>::begin(const System& system, const State& state, Scal
     }
     set_dampers(system, state);
     evaluate(system, w_, f_);
+    filter(f_);
     scale_ = std::max(std::sqrt(momentum2), f_.template cast<double>().norm());
 }
 

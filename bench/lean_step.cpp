@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+
+// Steps of a cloth without damping, pins or a second law, by Taut or by the loop that one would
+// write by hand: `lean_step taut|plain STEPS`, for lean_step.sh to count instructions.
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <taut/integrator/symplectic_euler.hpp>
+#include <taut/scene/cloth.hpp>
+#include <vector>
+
+#include "plain_loop.hpp"
+
+int main(int argc, char** argv) {
+    if (argc != 3) return 1;
+    taut::ClothOptions options;
+    options.rows = options.columns = 32;
+    options.pin_corners = false;
+    const auto cloth = taut::hanging_cloth<double>(options);
+    const int steps = std::atoi(argv[2]);
+    constexpr double h = 1e-4;
+    if (std::strcmp(argv[1], "plain") == 0) {
+        bench::PlainLoop<double> plain(cloth);
+        for (int i = 0; i < steps; ++i) plain.step(h);
+        return 0;
+    }
+    auto state = cloth.initial_state();
+    taut::SymplecticEuler stepper(cloth);
+    const auto report = stepper.step(state, h, steps);
+    if (!report) std::puts(describe(report.status));
+    return report ? 0 : 1;
+}

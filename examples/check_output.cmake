@@ -1,0 +1,28 @@
+# SPDX-FileCopyrightText: 2026 Taut contributors
+# SPDX-License-Identifier: MIT
+
+# The program succeeds, and prints every line that the page quotes ("    > …"), its numbers apart:
+# these depend on the compiler's rounding.
+execute_process(COMMAND ${program} OUTPUT_VARIABLE output RESULT_VARIABLE result)
+if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${program} exits with ${result}:\n${output}")
+endif()
+
+function(without_numbers text result)
+    string(REGEX REPLACE "[-+]?[0-9][0-9.]*(e[-+]?[0-9]+)?" "#" text "${text}")
+    set(${result} "${text}" PARENT_SCOPE)
+endfunction()
+
+without_numbers("${output}" printed)
+file(STRINGS ${page} quoted REGEX "^    > ")
+if(NOT quoted)
+    message(FATAL_ERROR "${page} quotes no output")
+endif()
+foreach(line IN LISTS quoted)
+    string(SUBSTRING "${line}" 6 -1 line)
+    without_numbers("${line}" wanted)
+    string(FIND "${printed}" "${wanted}\n" found)
+    if(found EQUAL -1)
+        message(SEND_ERROR "${page} quotes \"${line}\"; the program prints\n${output}")
+    endif()
+endforeach()

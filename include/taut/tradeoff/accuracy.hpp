@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+#include "../core/error.hpp"
+#include "scheme.hpp"
+
+// How well each integrator follows one mode ẍ + 2ζω ẋ + ω² x = 0, from its exact multiplier [T25].
+// z = hω is the step in radians of the undamped mode.
+
+namespace taut {
+
+/// What a step does to a mode that it should leave as it is.
+struct ModeError {
+    double artificial_damping = 0;  ///< damping ratio of the steps less ζ; negative: they feed it
+    double period_error = 0;        ///< period of the steps over the true one, less 1
+};
+
+namespace detail {
+
+/// μ − 1 of the multiplier μ that stands for e^(hλ), λ = ω(−ζ + i√(1 − ζ²)), without cancellation
+/// at small z. Where a step too large has turned the pair real, the root of larger modulus.
+inline std::complex<double> multiplier_less_one(Scheme scheme, double z, double zeta) {
+    const std::complex<double> w(-zeta * z, std::sqrt((1 - zeta) * (1 + zeta)) * z);
+    switch (scheme) {
+        case Scheme::explicit_euler: return w;
+        case Scheme::symplectic_euler:
+        case Scheme::velocity_verlet: {
+            // ε² + bε + z² = 0 for ε = μ − 1, from μ² − (2 − hd − h²k)μ + (1 − hd) = 0 [T10].
+            const double b = z * (2 * zeta + z);
+            const double under = (2 * z - b) * (2 * z + b);
+            if (under > 0) return {-b / 2, std::sqrt(under) / 2};
+            const double far = -(b + std::sqrt(-under)) / 2;
+            return b > 2 ? far : z * z / far;
+        }
+        case Scheme::implicit_euler: return w / (1.0 - w);
+        case Scheme::bdf2: {
+            // (3 − 2w)μ² − 4μ + 1 = 0, so μ = (2 + s)/(3 − 2w) with s = √(1 + 2w).
+            const std::complex<double> s = std::sqrt(1.0 + 2.0 * w);
+            return 2.0 * w * (2.0 + s) / ((1.0 + s) * (3.0 - 2.0 * w));
+        }
+    }
+    fail("mode_error: unknown scheme");
+}
+
+inline void require_mode(const char* function, double z, double zeta) {
+    require_positive(function, "z", z);
+    if (!(zeta >= 0) || !(zeta < 1)) {
+        fail(function, ": zeta is ", zeta, "; it must be >= 0 and < 1, or there is no period");
+    }
+}
+
+}  // namespace detail
+
+/// The exact errors of one mode: ln μ/h against λ. For ζ = 0 and small z the damping ratio is
+/// −z/2 (explicit Euler), 0, 0, z/2 (implicit Euler) and z³/4 (BDF2), the period error z²/3,
+/// −z²/24, −z²/24, z²/3 and z²/3 (theory, section 12). With ζ > 0 all but BDF2, of order 2, err
+/// like z.
+/// @param z  hω, rad, > 0   @param zeta  the mode's own damping ratio, in [0, 1)
+inline ModeError mode_error(Scheme scheme, double z, double zeta = 0) {
+    detail::require_mode("mode_error", z, zeta);
+    const std::complex<double> e = detail::multiplier_less_one(scheme, z, zeta);
+    const double decay = -std::log1p(2 * e.real() + std::norm(e)) / 2;
+    const double phase = std::atan2(e.imag(), 1 + e.real());
+    return {decay / std::hypot(decay, phase) - zeta,
+            std::sqrt((1 - zeta) * (1 + zeta)) * z / phase - 1};
+}
+
+inline double artificial_damping(Scheme scheme, double z, double zeta = 0) {
+    return mode_error(scheme, z, zeta).artificial_damping;
+}
+inline double period_error(Scheme scheme, double z, double zeta = 0) {
+    return mode_error(scheme, z, zeta).period_error;
+}
+
+/// How much error is tolerable; infinity where one of the two does not matter.
+struct ModeTolerance {
+    double damping_ratio = 0.05;  ///< on |artificial damping ratio|
+    double period = 0.05;         ///< on |period error|
+
+    bool admits(const ModeError& error) const {
+        return std::abs(error.artificial_damping) <= damping_ratio &&
+               std::abs(error.period_error) <= period;
+    }
+};
+
+/// The largest h, s, up to which every step keeps a mode of that frequency within tolerance, solved
+/// on the exact multiplier; modes below it with the same damping ratio err less. Infinity when
+/// every step does. Safe is another question: usable h = min(safe h, accurate h) [T25].
+/// @param up_to_frequency  ω, rad/s, > 0   @param zeta  the mode's own damping ratio, in [0, 1)
+inline double accurate_step(Scheme scheme, const ModeTolerance& tolerance, double up_to_frequency,
+                            double zeta = 0) {
+    require_positive("accurate_step", "up_to_frequency", up_to_frequency);
+    for (const double bound : {tolerance.damping_ratio, tolerance.period}) {
+        if (!(bound > 0)) fail("accurate_step: a tolerance is ", bound, "; both must be > 0");
+    }
+    // Errors of a damped mode may change sign, so the first step that errs too much is sought from
+    // below. All errors are below z at small z.
+    constexpr double stride = 1.02;
+    constexpr double everything = 1e6;  // radians a step
+    double low = 1e-2 * std::min({0.1, tolerance.damping_ratio, tolerance.period});
+    while (tolerance.admits(mode_error(scheme, low * stride, zeta))) {
+        low *= stride;
+        if (low > everything) return std::numeric_limits<double>::infinity();
+    }
+    double high = low * stride;
+    for (int repeat = 0; repeat < 60; ++repeat) {
+        const double middle = (low + high) / 2;
+        (tolerance.admits(mode_error(scheme, middle, zeta)) ? low : high) = middle;
+    }
+    return low / up_to_frequency;
+}
+
+}  // namespace taut

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "../stability/detail/low_modes.hpp"
+#include "../stability/spring_pencil.hpp"
+#include "accuracy.hpp"
+#include "candidate.hpp"
+
+// The errors of accuracy.hpp, measured: a stepper is started in one mode and its swing is fitted.
+
+namespace taut {
+
+/// A mode of vibration as linear theory has it.
+struct Mode {
+    double omega = 0;       ///< √k, rad/s
+    double zeta = 0;        ///< uᵀDu/(2ω)
+    Eigen::VectorXd shape;  ///< u, one entry for each free degree of freedom, uᵀMu = 1
+};
+
+namespace detail {
+
+/// The multiplier μ, Im μ ≥ 0, that evenly spaced samples of one swing follow: least squares on
+/// a_{j+1} = t·a_j − q·a_{j−1} (R. de Prony, 1795). Nothing where the fit has real roots.
+inline std::optional<std::complex<double>> fitted_multiplier(const Eigen::VectorXd& samples) {
+    const Index rows = samples.size() - 2;
+    if (rows < 2 || !samples.allFinite()) return std::nullopt;
+    // In ε = μ − 1, from second and first differences, so that slow swings lose no digits.
+    Eigen::MatrixXd A(rows, 2);
+    A.col(0) = samples.segment(1, rows) - samples.head(rows);
+    A.col(1) = samples.segment(1, rows);
+    const Eigen::VectorXd second =
+        samples.tail(rows) - 2 * samples.segment(1, rows) + samples.head(rows);
+    // a_{j+1} − 2a_j + a_{j−1} = −r(a_j − a_{j−1}) − s·a_j with q = 1 − r, t = 2 − r − s.
+    const Eigen::VectorXd fit = A.colPivHouseholderQr().solve(second);
+    const double q = 1 + fit[0];
+    const double half = (2 + fit[0] + fit[1]) / 2;
+    // q − half² without cancellation for slow swings.
+    const double a = fit[0];
+    const double b = fit[1];
+    const double under = -b - (a + b) * (a + b) / 4;
+    if (!(under > 0) || !std::isfinite(q)) return std::nullopt;
+    return std::complex<double>(half, std::sqrt(under));
+}
+
+}  // namespace detail
+
+/// Up to `count` of the lowest modes above the zero modes at a pose, K⁺ for K, ascending.
+/// Dense eigenvectors for small scenes, Krylov vectors for large ones: numerical, no proof.
+template <class Scalar, int Dim, class... Laws>
+std::vector<Mode> lowest_modes(const SpringSystem<Scalar, Dim, Laws...>& system,
+                               const State<Scalar, Dim>& state, Index count) {
+    const auto pencil =
+        SpringPencil<Dim>::at_pose(system, Points<double, Dim>(state.x.template cast<double>()));
+    std::vector<Mode> modes;
+    const Eigen::MatrixXd shapes = detail::low_modes(pencil);
+    Eigen::VectorXd y;
+    for (Index j = 0; j < std::min<Index>(count, shapes.cols()); ++j) {
+        Mode mode;
+        mode.shape = shapes.col(j);
+        pencil.multiply({0, 1, 0}, mode.shape, y);
+        mode.omega = std::sqrt(std::max(0.0, mode.shape.dot(y)));
+        pencil.multiply({0, 0, 1}, mode.shape, y);
+        mode.zeta = mode.shape.dot(y) / (2 * mode.omega);
+        modes.push_back(std::move(mode));
+    }
+    return modes;
+}
+
+/// What the steps of `candidate` do to one mode of a linear system without load: started in the
+/// mode's shape, its swing is projected on the mode and fitted. Nothing where a step fails or the
+/// steps do not swing.
+/// @param most_steps  the swing is followed for less than a period where that would take more
+template <class Scalar>
+std::optional<ModeError> measured_mode_error(const LinearSystem<Scalar>& system, const Mode& mode,
+                                             const Candidate& candidate, Index most_steps = 4000) {
+    constexpr Index samples = 26;
+    constexpr Index settling = 40;  // the second multiplier of BDF2 shrinks by 3 and more a step
+    const auto h = static_cast<Scalar>(candidate.h);
+    const double z = mode.omega * static_cast<double>(h);
+    const Index stride = std::clamp<Index>(static_cast<Index>(0.5 / z), 1,
+                                           std::max<Index>(1, (most_steps - settling) / samples));
+    const Eigen::VectorXd weights = system.mass().template cast<double>().cwiseProduct(mode.shape);
+    Eigen::VectorXd swing(samples);
+    bool alive = true;
+    with_stepper(system, candidate, [&](auto& stepper) {
+        auto state = system.initial_state();
+        state.x = mode.shape.template cast<Scalar>().transpose();
+        alive = static_cast<bool>(stepper.step(state, h, settling));
+        for (Index j = 0; alive && j < samples; ++j) {
+            swing[j] = weights.dot(state.x.transpose().template cast<double>());
+            alive = static_cast<bool>(stepper.step(state, h, stride));
+        }
+    });
+    if (!alive) return std::nullopt;
+    const auto mu = detail::fitted_multiplier(swing);
+    if (!mu) return std::nullopt;
+    const std::complex<double> rate = std::log(*mu) / (static_cast<double>(stride) * z);
+    const double frequency = std::sqrt(std::max(0.0, (1 - mode.zeta) * (1 + mode.zeta)));
+    return ModeError{-rate.real() / std::abs(rate) - mode.zeta, frequency / rate.imag() - 1};
+}
+
+}  // namespace taut

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "../stability/any_pose.hpp"
+#include "../stability/rayleigh_design.hpp"
+#include "choose.hpp"
+#include "cost.hpp"
+
+namespace taut {
+
+/// What recommend() compares: symplectic Euler at its any-pose step and implicit Euler with both
+/// solvers; BDF2 with both where accuracy is asked for, and not where stability is all that counts,
+/// for one of its linearised steps may gain energy.
+inline std::vector<Candidate> recommended_candidates(const Goal& goal) {
+    // What is left of a linear solve must not blur the mode errors that the goal admits.
+    const double tolerance = goal.accuracy ? 1e-6 : 1e-3;
+    std::vector<Candidate> candidates;
+    candidates.push_back({Scheme::symplectic_euler});
+    for (const Scheme scheme : {Scheme::implicit_euler, Scheme::bdf2}) {
+        if (scheme == Scheme::bdf2 && !goal.accuracy) continue;
+        for (const auto solver : {LinearSolver::conjugate_gradient, LinearSolver::direct}) {
+            candidates.push_back({scheme, 0, solver, tolerance});
+        }
+    }
+    return candidates;
+}
+
+/// Explicit or implicit? The plans that reach a goal, without their costs: explicit steps at 0.95
+/// of any_pose_limit, so that they hold while the scene moves [T23], implicit ones as large as the
+/// frame, and none above its accurate_step [T25]. The damping that accuracy is predicted with is
+/// the scene's Rayleigh damping; dampers on springs are not in it.
+template <class Scalar, int Dim, class... Laws>
+std::vector<Plan> feasible_plans(const SpringSystem<Scalar, Dim, Laws...>& system, const Goal& goal,
+                                 const std::vector<Candidate>& candidates) {
+    constexpr double margin = 0.95;
+    double zeta = 0;
+    if (goal.accuracy) {
+        require_positive("recommend", "Goal::up_to_frequency", goal.up_to_frequency);
+        // An overdamped mode has no period; what errs least is asked of it instead.
+        zeta = std::min(0.95, damping_ratio(system.rayleigh(), goal.up_to_frequency));
+    }
+    const double moving = margin * static_cast<double>(any_pose_limit(system).certified);
+    std::vector<Plan> plans;
+    for (const Candidate& candidate : candidates) {
+        switch (candidate.scheme) {
+            case Scheme::explicit_euler: continue;  // nothing is certified of it at every pose
+            case Scheme::symplectic_euler:
+            case Scheme::velocity_verlet:
+                if (moving > 0) plans.push_back(plan_for(candidate, moving, goal, zeta));
+                break;
+            case Scheme::implicit_euler:
+            case Scheme::bdf2:
+                plans.push_back(
+                    plan_for(candidate, std::numeric_limits<double>::infinity(), goal, zeta));
+        }
+    }
+    return plans;
+}
+
+/// The integrator, solver, step and substeps that reach a goal at the least cost on this machine:
+/// feasible_plans(), each timed by a few steps from `state` on a copy, then choose().
+///
+///     taut::Goal goal;                                  // 1/60 s a frame, stable is enough
+///     auto advice = taut::recommend(cloth, state, goal);
+///     advice.pick.candidate.h, advice.why
+///
+/// Costs are those of the code as compiled and of the machine as busy as it is; everything else is
+/// deterministic.
+template <class Scalar, int Dim, class... Laws>
+Recommendation recommend(const SpringSystem<Scalar, Dim, Laws...>& system,
+                         const State<Scalar, Dim>& state, const Goal& goal,
+                         const std::vector<Candidate>& candidates,
+                         const Calibration& calibration = {}) {
+    std::vector<Plan> plans = feasible_plans(system, goal, candidates);
+    // A factorisation of a large scene takes seconds: one step shows that it is far behind.
+    constexpr double far = 5;
+    double least = std::numeric_limits<double>::infinity();
+    for (Plan& plan : plans) {
+        const auto substeps = static_cast<double>(plan.substeps);
+        plan.cost = substeps *
+                    step_cost(system, state, plan.candidate, calibration, far * least / substeps);
+        least = std::min(least, plan.cost);
+    }
+    return choose(std::move(plans), goal);
+}
+
+template <class Scalar, int Dim, class... Laws>
+Recommendation recommend(const SpringSystem<Scalar, Dim, Laws...>& system,
+                         const State<Scalar, Dim>& state, const Goal& goal,
+                         const Calibration& calibration = {}) {
+    return recommend(system, state, goal, recommended_candidates(goal), calibration);
+}
+
+}  // namespace taut

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#include <taut/scene/chain.hpp>
+#include <taut/scene/cloth.hpp>
+#include <taut/tradeoff/recommend.hpp>
+
+#include "../support/catch.hpp"
+#include "../support/message.hpp"
+
+using namespace taut_test;
+using taut::Candidate;
+using taut::Goal;
+using taut::Scheme;
+
+namespace {
+
+using taut::Index;
+using Cloth = taut::SpringSystem<double, 3>;
+
+Cloth cloth(double stiffness) {
+    taut::ClothOptions options;
+    options.rows = options.columns = 5;
+    options.stretch = stiffness;
+    options.bend = stiffness / 10;
+    return taut::hanging_cloth<double>(options);
+}
+
+/// A clock that ticks once a look: every batch of steps takes one second by it.
+double ticking() {
+    static double now = 0;
+    return now += 1;
+}
+
+}  // namespace
+
+TEST_CASE("feasible_plans: explicit steps are proved at every pose, all are accurate",
+          "[tradeoff]") {
+    Goal goal;
+    goal.accuracy = taut::ModeTolerance{0.03, 0.03};
+    for (const double frequency : {1.0, 30.0, 400.0}) {
+        goal.up_to_frequency = frequency;
+        for (const double stiffness : {10.0, 1e4, 1e7}) {
+            const Cloth scene = cloth(stiffness);
+            const auto limit = taut::any_pose_limit(scene);
+            const auto plans =
+                taut::feasible_plans(scene, goal, taut::recommended_candidates(goal));
+            CHECK(plans.size() == 5);
+            for (const auto& plan : plans) {
+                const double h = plan.candidate.h;
+                INFO(name(plan.candidate) << ", h = " << h);
+                CHECK_THAT(h * static_cast<double>(plan.substeps), WithinRel(goal.frame, 1e-12));
+                if (!is_implicit(plan.candidate.scheme)) CHECK(h <= 0.95 * limit.certified);
+                CHECK(
+                    goal.accuracy->admits(taut::mode_error(plan.candidate.scheme, h * frequency)));
+            }
+        }
+    }
+}
+
+TEST_CASE("feasible_plans: the scene's damping counts", "[tradeoff]") {
+    Goal goal;
+    goal.accuracy = taut::ModeTolerance{0.03, 0.03};
+    goal.up_to_frequency = 20;
+    Cloth scene = cloth(1e5);
+    scene.set_rayleigh({4, 0});  // a damping ratio of 0.1 at 20 rad/s
+    for (const auto& plan : taut::feasible_plans(scene, goal, taut::recommended_candidates(goal))) {
+        const auto expected = taut::mode_error(plan.candidate.scheme, plan.candidate.h * 20, 0.1);
+        CHECK(plan.error.artificial_damping == expected.artificial_damping);
+        CHECK(plan.error.period_error == expected.period_error);
+        CHECK(goal.accuracy->admits(plan.error));
+    }
+    // A mode too damped to swing has plans all the same.
+    scene.set_rayleigh({400, 0});
+    CHECK(taut::feasible_plans(scene, goal, taut::recommended_candidates(goal)).size() == 5);
+}
+
+TEST_CASE("recommend: where all steps cost the same, the fewest win", "[tradeoff]") {
+    taut::Calibration calibration;
+    calibration.clock = &ticking;
+    Goal stable;
+    Goal accurate;
+    accurate.accuracy = taut::ModeTolerance{};
+    accurate.up_to_frequency = 100;
+    for (const double stiffness : {1.0, 1e3, 1e6}) {
+        const Cloth scene = cloth(stiffness);
+        const auto start = scene.initial_state();
+        for (const Goal& goal : {stable, accurate}) {
+            const auto answer = taut::recommend(scene, start, goal, calibration);
+            Index fewest = answer.pick.substeps;
+            for (const auto& plan : answer.plans) fewest = std::min(fewest, plan.substeps);
+            CHECK_THAT(answer.pick.cost, WithinRel(0.5 * static_cast<double>(fewest), 1e-12));
+            CHECK(answer.pick.substeps == fewest);
+            CHECK(answer.plans.size() == (goal.accuracy ? 5u : 3u));
+            CHECK(missing(answer.why, {name(answer.pick.candidate.scheme), "next comes"}) == "");
+        }
+        CHECK(start.x == scene.initial_state().x);
+        CHECK(start.v == scene.initial_state().v);
+    }
+}
+
+TEST_CASE("recommend: the pick keeps its word when stepped", "[tradeoff]") {
+    Goal goal;
+    for (const double stiffness : {10.0, 1e3, 1e6}) {
+        const Cloth scene = cloth(stiffness);
+        const auto answer = taut::recommend(scene, scene.initial_state(), goal);
+        auto state = scene.initial_state();
+        taut::with_stepper(scene, answer.pick.candidate, [&](auto& stepper) {
+            for (int frame = 0; frame < 60; ++frame) {
+                REQUIRE(stepper.step(state, answer.pick.candidate.h, answer.pick.substeps));
+            }
+        });
+        CHECK_THAT(state.time, WithinRel(1.0, 1e-9));
+        CHECK(state.x.cwiseAbs().maxCoeff() < 10);
+        CHECK(std::isfinite(answer.pick.cost));
+        CHECK(answer.pick.cost > 0);
+    }
+}
+
+TEST_CASE("recommend: scenes at the edge", "[tradeoff]") {
+    Goal goal;
+    Cloth dust;
+    dust.add_particle({0, 0, 0}, 1);
+    const auto alone = taut::recommend(dust, dust.initial_state(), goal);
+    CHECK(alone.pick.substeps == 1);  // nothing limits a step
+    Cloth held = cloth(100);
+    for (Index i = 0; i < held.size(); ++i) held.pin(i);
+    CHECK(taut::recommend(held, held.initial_state(), goal).pick.substeps == 1);
+    const auto flat = taut::chain<float, 2>();
+    CHECK(taut::recommend(flat, flat.initial_state(), goal).plans.size() == 3);
+}
+
+TEST_CASE("step_cost: a step that fails costs infinity", "[tradeoff]") {
+    const Cloth scene = cloth(100);
+    const auto start = scene.initial_state();
+    CHECK(std::isinf(taut::step_cost(scene, start, Candidate{Scheme::symplectic_euler, -1})));
+    CHECK(taut::step_cost(scene, start, Candidate{Scheme::symplectic_euler, 1e-4}) > 0);
+}
+
+TEST_CASE("recommend: wrong input is named", "[tradeoff]") {
+    const Cloth scene = cloth(100);
+    Goal goal;
+    goal.accuracy = taut::ModeTolerance{};
+    CHECK(missing(message_of([&] { (void)taut::recommend(scene, scene.initial_state(), goal); }),
+                  {"Goal::up_to_frequency is 0"}) == "");
+}
