@@ -14,7 +14,7 @@
 #include "../support/temporary_file.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::pc2_test {
 
 namespace {
 
@@ -168,3 +168,5 @@ TEST_CASE("pc2: bad input: a full disk is noticed at the frame it meets", "[io][
     CHECK(cache.frames() == 0);
 }
 #endif
+
+}  // namespace taut_test::pc2_test

@@ -15,7 +15,7 @@
 #include "../support/temporary_file.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::vtk_test {
 
 namespace {
 
@@ -175,3 +175,5 @@ TEST_CASE("vtk: bad input: a path, a size or a position that cannot be written",
     CHECK_THAT(message_of([&] { (void)taut::write_vtk("not_written.vtk", system, state); }),
                ContainsSubstring("1 positions and 2 velocities; the system has 2 particles"));
 }
+
+}  // namespace taut_test::vtk_test

@@ -9,7 +9,8 @@
 #include "../support/random.hpp"
 #include "../support/tolerance.hpp"
 
-using namespace taut_test;
+namespace taut_test::accuracy_test {
+
 using taut::accurate_step;
 using taut::Candidate;
 using taut::LinearSolver;
@@ -202,3 +203,5 @@ TEST_CASE("accuracy: wrong input is named", "[tradeoff]") {
                   }),
                   {"tolerance is 0"}) == "");
 }
+
+}  // namespace taut_test::accuracy_test

@@ -6,7 +6,8 @@
 #include "../support/message.hpp"
 #include "../support/random.hpp"
 
-using namespace taut_test;
+namespace taut_test::choose_test {
+
 using taut::Candidate;
 using taut::choose;
 using taut::Goal;
@@ -106,3 +107,5 @@ TEST_CASE("choose: wrong input is named", "[tradeoff]") {
     CHECK(missing(message_of([&] { (void)plan_for(Candidate{}, 1, none); }),
                   {"Goal::frame is 0"}) == "");
 }
+
+}  // namespace taut_test::choose_test

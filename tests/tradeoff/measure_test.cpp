@@ -8,7 +8,8 @@
 #include "../support/message.hpp"
 #include "../support/random.hpp"
 
-using namespace taut_test;
+namespace taut_test::measure_test {
+
 using taut::Candidate;
 using taut::Scheme;
 
@@ -226,3 +227,5 @@ TEST_CASE("measure_tradeoff: wrong input is named", "[tradeoff]") {
     CHECK(missing(message_of([&] { (void)taut::measure_tradeoff(scene, start, 1, {}, options); }),
                   {"samples is 0", ">= 1"}) == "");
 }
+
+}  // namespace taut_test::measure_test

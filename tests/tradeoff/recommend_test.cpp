@@ -7,7 +7,8 @@
 #include "../support/catch.hpp"
 #include "../support/message.hpp"
 
-using namespace taut_test;
+namespace taut_test::recommend_test {
+
 using taut::Candidate;
 using taut::Goal;
 using taut::Scheme;
@@ -143,3 +144,5 @@ TEST_CASE("recommend: wrong input is named", "[tradeoff]") {
     CHECK(missing(message_of([&] { (void)taut::recommend(scene, scene.initial_state(), goal); }),
                   {"Goal::up_to_frequency is 0"}) == "");
 }
+
+}  // namespace taut_test::recommend_test
