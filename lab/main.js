@@ -29,7 +29,7 @@ const view = new ClothView(byId("view"), SIDE);
 const KNOBS = {
   stiffness: { of: (v) => between(100, 10000, v), at: (v) => share(100, 10000, v), first: 1000, text: (v) => `${significant(v, 3)}\u00a0N/m` },
   mass: { of: (v) => between(0.03, 3, v), at: (v) => share(0.03, 3, v), first: 0.3, text: (v) => `${withPrefix(1000 * v, "g", 3)}` },
-  alpha: { of: (v) => (v === 0 ? 0 : between(1e-6, 1e-2, v)), at: (v) => share(1e-6, 1e-2, v), first: 5e-5, text: (v) => (v === 0 ? "none" : seconds(v, 3)) },
+  alpha: { of: (v) => (v === 0 ? 0 : between(1e-6, 1e-2, v)), at: (v) => share(1e-6, 1e-2, v), first: 1e-4, text: (v) => (v === 0 ? "none" : seconds(v, 3)) },
   drag: { of: (v) => 3 * v, at: (v) => v / 3, first: 0.4, text: (v) => (v === 0 ? "none" : `${significant(v, 2)}\u00a0/s`) },
 };
 const settings = { method: 1, h: 0 };
@@ -125,6 +125,7 @@ let anchor = null;  // where the growth that is predicted begins: {ringing, step
 let rising = 0;
 let last = performance.now();
 let pace = 1;
+let frames = 0;
 
 function forgetGrowth() {
   anchor = null;
@@ -208,7 +209,7 @@ function tick(now) {
   last = now;
   if (!blown) observe(advance(elapsed));
   view.draw(lab.drawnPositions(), lab.ringing(), EDGE);
-  drawRinging(byId("chart"), samples, SAMPLES, EDGE);
+  if (++frames % 3 === 0) drawRinging(byId("chart"), samples, SAMPLES, EDGE);
   requestAnimationFrame(tick);
 }
 
