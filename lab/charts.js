@@ -35,9 +35,9 @@ export function drawBands(bands, scale, limits) {
   rect(c, width, { class: "refuted" });
   const middle = top + 21.5;
   if (a >= width) label(root, 14, middle, "every step certified", "start", "in");
-  else if (a > 90) label(root, a - 9, middle, seconds(limits.anyPose, 3), "end", "in");
+  else if (a > 90) label(root, a - 14, middle, seconds(limits.anyPose, 3), "end", "in");
   if (c <= 0) label(root, 14, middle, "every step refuted", "start", "in");
-  else if (c < width - 90) label(root, c + 9, middle, seconds(limits.refuted, 3), "start", "in");
+  else if (c < width - 90) label(root, c + 22, middle, seconds(limits.refuted, 3), "start", "in");
 
   const ruler = drawing(scale, 30, "Scale of the time step").root;
   for (const h of decades(x, width < 640 ? 5 : 11)) {
@@ -62,7 +62,7 @@ export function drawRinging(box, samples, most, edge) {
   label(root, frame.right, frame.bottom + 18, "now", "end");
   label(root, frame.left, frame.bottom + 18, `${most} frames ago`);
   line(root, frame.left, y(edge), frame.right, y(edge), "mark dash");
-  label(root, frame.right, y(edge) - 6, `spacing of the particles, ${metres(edge, 2)}`, "end");
+  label(root, frame.left + 8, y(edge) - 6, `spacing of the particles, ${metres(edge, 2)}`);
   const height_ = (v) => y(Math.min(1, Math.max(LOWEST, v)));
   for (let start = 0; start + 1 < samples.length;) {  // one line for each stretch of one standing
     let end = start + 1;
@@ -76,6 +76,6 @@ export function drawRinging(box, samples, most, edge) {
   if (predicted.length > 1) {
     svg("path", { d: path(predicted), class: "mark dash", fill: "none" }, root);
     const [i, v] = predicted[Math.floor(predicted.length / 2)];
-    label(root, i - 8, v - 6, "predicted", "end", "strong");
+    label(root, i - 10, v - 2, "predicted", "end", "strong");
   }
 }

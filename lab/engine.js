@@ -53,14 +53,13 @@ export async function loadLab(bytes) {
     size: wasm.lab_size,
     springs: wasm.lab_springs,
     time: wasm.lab_time,
-    energy: wasm.lab_energy,
     growth: wasm.lab_growth,
     positions: () => doubles(wasm.lab_positions(), 3 * wasm.lab_size()),
     drawnPositions: () => floats(wasm.lab_drawn_positions(), 3 * wasm.lab_size()),
     ringing: () => floats(wasm.lab_ringing(), wasm.lab_size()),
     analyse(method, h) {
-      const [anyPose, certified, refuted, alphaLower, alphaUpper, growth] = doubles(wasm.lab_analyse(method, h), 6);
-      return { anyPose, certified, refuted, alphaLower, alphaUpper, growth, cause: text(wasm.lab_cause()) };
+      const [anyPose, certified, refuted, alphaLower, alphaUpper] = doubles(wasm.lab_analyse(method, h), 5);
+      return { anyPose, certified, refuted, alphaLower, alphaUpper, cause: text(wasm.lab_cause()) };
     },
     recommend(seconds) {
       const why = text(wasm.lab_recommend(seconds));

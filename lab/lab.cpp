@@ -121,7 +121,6 @@ const float* lab_drawn_positions() {
     return lab.drawn.data();
 }
 const float* lab_ringing() { return lab.ringing.data(); }
-double lab_energy() { return lab.cloth.energy(lab.state); }
 
 const LabLimits* lab_analyse(int which, double h) {
     const auto method = static_cast<Method>(which);
@@ -131,7 +130,7 @@ const LabLimits* lab_analyse(int which, double h) {
     lab.cause = limit.cause;
     lab.mode_k = mode.k;
     lab.mode_d = mode.d;
-    lab.limits = {any_pose(method), limit.certified, limit.refuted, 0, 0, lab_growth(which, h)};
+    lab.limits = {any_pose(method), limit.certified, limit.refuted, 0, 0};
     const double drag = lab.cloth.rayleigh().mass_proportional;
     const taut::AlphaWindow window = stability.rayleigh_window(method, h, drag);
     if (window.empty == taut::EmptyWindow::none) {

@@ -21,7 +21,6 @@ struct LabLimits {
     double refuted;      ///< s; at that pose; infinity: none is
     double alpha_lower;  ///< s; the stiffness-proportional damping that makes step h stable …
     double alpha_upper;  ///< s; … is above the one and below the other; both 0: none does
-    double growth;       ///< largest |multiplier| of the limiting mode at step h
 };
 
 /// One of the plans that lab_recommend() compared, the cheapest first.
@@ -53,15 +52,13 @@ LAB_CALL const float* lab_drawn_positions();
 /// n; m: how far each particle swings from step to step, h|v⁺ − v|/4 over the last step taken. A
 /// mode with the multiplier −1 has this amplitude; slow motion has next to none.
 LAB_CALL const float* lab_ringing();
-/// J.
-LAB_CALL double lab_energy();
 
 /// Limits of `method` for the cloth as it was laid out, whatever its pose now; h, s, is the step
-/// that the window of alpha and `growth` are about.
+/// that the window of alpha is about.
 LAB_CALL const LabLimits* lab_analyse(int method, double h);
 /// The cause of the last analysis, as one sentence.
 LAB_CALL const char* lab_cause();
-/// Largest |multiplier| of the limiting mode last analysed, at another step.
+/// Largest |multiplier| of the limiting mode last analysed, at step h, s.
 LAB_CALL double lab_growth(int method, double h);
 
 /// Times symplectic and implicit Euler on this machine, for frames of 1/60 s and `seconds` each.

@@ -5,7 +5,7 @@ import { STEP, drawBands, drawRinging, standing } from "./charts.js";
 import { loadLab } from "./engine.js";
 import { ClothView } from "./view.js";
 
-/* global seconds, withPrefix, significant */
+/* global seconds, metres, withPrefix, significant */
 
 const SIDE = 24;
 const EDGE = 1 / (SIDE - 1);  // m, between neighbours
@@ -14,6 +14,7 @@ const BUDGET = 11;            // ms of stepping a frame, so that the page stays 
 const SLOW = 1.12;            // an unstable vibration grows by at most this in a frame
 const SAMPLES = 300;          // frames in the chart
 const NAMES = ["Explicit Euler", "Symplectic Euler", "Velocity Verlet", "Implicit Euler"];
+const GRAVITY = 9.81;         // m/s²
 const EXPLICIT = 0, IMPLICIT = 3;
 
 const byId = (id) => document.getElementById(id);
@@ -59,6 +60,7 @@ function sentence() {
   const grows = lab.growth(method, h);
   if (method === EXPLICIT && where !== "certified" && where !== "posed") {
     const { alphaLower, alphaUpper } = limits;
+    if (settings.alpha === 0 && settings.drag === 0) return `Explicit Euler: ${limits.cause}.`;
     if (!(alphaUpper > 0)) return `At this step no damping α makes explicit Euler stable: take a smaller step, or symplectic or implicit Euler.`;
     return `Explicit Euler needs damping: at this step, α between ${seconds(Math.max(0, alphaLower), 3)} and ${seconds(alphaUpper, 3)} is proved stable; it is ${settings.alpha > 0 ? seconds(settings.alpha, 3) : "none"}.`;
   }
@@ -66,7 +68,7 @@ function sentence() {
   if (where === "certified") return method === EXPLICIT ? "" : `Proved stable for every pose that the cloth takes, rounding included. A frame of 1/60\u00a0s is ${whole(Math.ceil(FRAME / h))} such steps.`;
   if (where === "posed") return method === EXPLICIT ? "Proved stable at the pose in which the cloth starts. Explicit Euler has no limit that holds at every pose." : `Proved stable at the pose in which the cloth starts, up to ${seconds(limits.certified, 3)}; not proved for all poses to come.`;
   if (where === "open") return `Between what is proved, up to ${seconds(limits.certified, 3)}, and what is refuted, from ${seconds(limits.refuted, 3)} on.`;
-  return `${significant(h / limits.refuted, 3)} times the refuted step: the limiting vibration grows ${significant(grows, 4)}-fold with every step. Watch it.`;
+  return `${significant(h / limits.refuted, 3)} times the refuted step: the limiting vibration grows ${significant(grows, 4)}-fold with every step.`;
 }
 const STANDING = { certified: "certified", posed: "certified at the starting pose", open: "not decided", refuted: "refuted" };
 
@@ -119,17 +121,22 @@ function recommendSoon() {
 let blown = false;
 let owed = 0;      // s of simulated time that the clock is ahead
 let steps = 0;     // since the last reset
-let beyond = 0;    // frames in a row in which particles swung by half their spacing
+let changedAt = 0;  // steps when something was last set
+let beyond = 0;    // frames in a row in which the swing was no motion of a cloth
 let samples = [];
 let anchor = null;  // where the growth that is predicted begins: {ringing, step}
 let rising = 0;
+let grown = false;  // past small amplitudes, for which alone a multiplier speaks
 let last = performance.now();
 let pace = 1;
 let frames = 0;
 
 function forgetGrowth() {
+  changedAt = steps;
+  beyond = 0;
   anchor = null;
   rising = 0;
+  grown = false;
   for (const sample of samples) sample.predicted = NaN;
   byId("growth-words").textContent = "";
 }
@@ -147,8 +154,10 @@ function blowUp() {
   blown = true;
   const { method, h } = settings;
   const ratio = limits.refuted < Infinity && limits.refuted > 0 ? `, ${significant(h / limits.refuted, 3)} times the refuted step` : "";
+  const ringing = samples.length ? samples[samples.length - 1].ringing : Infinity;
+  const swing = ringing < 1 ? metres(ringing, 2) : "metres";
   const cure = limits.anyPose > 0 ? `up to ${seconds(limits.anyPose, 3)} every pose is certified` : limits.certified > 0 ? `up to ${seconds(limits.certified, 3)} the starting pose is certified` : "with this damping no step is certified";
-  byId("reason").textContent = `${NAMES[method]} at h = ${seconds(h, 3)}${ratio}: after ${whole(steps)} steps particles swing by more than they are apart. ${cure[0].toUpperCase()}${cure.slice(1)}; implicit Euler holds at every step.`;
+  byId("reason").textContent = `${NAMES[method]} at h = ${seconds(h, 3)}${ratio}: after ${whole(steps - changedAt)} steps particles swing by ${swing} from one step to the next. ${cure[0].toUpperCase()}${cure.slice(1)}; of implicit Euler, every step.`;
   byId("verdict").hidden = false;
 }
 
@@ -189,19 +198,21 @@ function observe(taken) {
   if (samples.length > SAMPLES) samples.shift();
 
   const foreseen = growth ** taken;
+  grown = grown || ringing > EDGE / 30;
   if (growth > 1.0005 && before) {
-    rising = ringing > before.ringing * Math.sqrt(foreseen) && ringing < EDGE / 3 ? rising + 1 : 0;
-    if (!anchor && rising >= 6) anchor = { ringing, steps };
+    rising = ringing > before.ringing * Math.sqrt(foreseen) && !grown ? rising + 1 : 0;
+    if (!anchor && rising >= 4) anchor = { ringing, steps };
     if (anchor) sample.predicted = anchor.ringing * growth ** (steps - anchor.steps);
-    if (anchor && ringing < EDGE / 3 && steps > anchor.steps) {
+    if (anchor && !grown && steps > anchor.steps) {
       const measured = (ringing / anchor.ringing) ** (1 / (steps - anchor.steps));
-      byId("growth-words").textContent = `Every step multiplies it by ${measured.toFixed(4)}; the limiting vibration’s multiplier says ${growth.toFixed(4)}.`;
+      byId("growth-words").textContent = `Every step multiplies it by ${measured.toFixed(3)}; the limiting vibration’s multiplier says ${growth.toFixed(3)}.`;
     }
   }
   const x = lab.drawnPositions();
   const far = x.reduce((a, b) => Math.max(a, Math.abs(b)), 0);
-  beyond = ringing > EDGE / 2 ? beyond + 1 : 0;
-  if (!blown && (beyond > 24 || far > 3)) blowUp();
+  // Slow motion swings by h²g/4 and a little more; springs that go taut by more, for a moment.
+  beyond = ringing > EDGE / 20 + 2 * GRAVITY * h * h ? beyond + 1 : 0;
+  if (!blown && (beyond > 40 || far > 3)) blowUp();
 }
 
 function tick(now) {

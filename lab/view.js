@@ -35,9 +35,9 @@ export class ClothView {
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(32, 1, 0.05, 50);
     this.camera.up.set(0, 0, 1);
-    this.camera.position.set(1.95, -2.45, 0.85);
+    this.camera.position.set(1.75, -2.2, 0.7);
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.target.set(0.5, 0.1, -0.42);
+    this.controls.target.set(0.5, 0.05, -0.5);
     this.controls.enablePan = false;
     this.controls.minDistance = 1.2;
     this.controls.maxDistance = 6;
@@ -112,6 +112,7 @@ export class ClothView {
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
+    this.camera.fov = width > height ? 32 : 38;  // a narrow picture would cut the cloth off
     this.camera.updateProjectionMatrix();
   }
 }
