@@ -35,7 +35,7 @@ export function drawBands(bands, scale, limits) {
   rect(c, width, { class: "refuted" });
   const middle = top + 21.5;
   if (a >= width) label(root, 14, middle, "every step certified", "start", "in");
-  else if (a > 90) label(root, a - 14, middle, seconds(limits.anyPose, 3), "end", "in");
+  else if (a > 110) label(root, a - 36, middle, seconds(limits.anyPose, 3), "end", "in");
   if (c <= 0) label(root, 14, middle, "every step refuted", "start", "in");
   else if (c < width - 90) label(root, c + 22, middle, seconds(limits.refuted, 3), "start", "in");
 

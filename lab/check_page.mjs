@@ -157,7 +157,7 @@ async function clickThrough(page, name) {
 }
 
 try {
-  for (const [name, width, height, options] of [["desktop", 1280, 1120, {}], ["phone", 390, 844, { deviceScaleFactor: 2 }]]) {
+  for (const [name, width, height, options] of [["desktop", 1280, 900, {}], ["phone", 390, 844, { deviceScaleFactor: 2 }]]) {
     const page = await open(width, height, options);
     await clickThrough(page, name);
     expect(page.problems.length === 0, `${name}: no errors, nothing asked of the network${page.problems.map((p) => `; ${p}`).join("")}`);

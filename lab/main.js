@@ -65,7 +65,7 @@ function sentence() {
     return `Explicit Euler needs damping: at this step, α between ${seconds(Math.max(0, alphaLower), 3)} and ${seconds(alphaUpper, 3)} is proved stable; it is ${settings.alpha > 0 ? seconds(settings.alpha, 3) : "none"}.`;
   }
   if (method === IMPLICIT) return `Implicit Euler’s linearised step is certified at every h; what a large step costs is motion, which it damps. A frame in one step is 16.7\u00a0ms.`;
-  if (where === "certified") return method === EXPLICIT ? "" : `Proved stable for every pose that the cloth takes, rounding included. A frame of 1/60\u00a0s is ${whole(Math.ceil(FRAME / h))} such steps.`;
+  if (where === "certified") return `Proved stable for every pose that the cloth takes, rounding included. A frame of 1/60\u00a0s is ${whole(Math.ceil(FRAME / h))} such steps.`;
   if (where === "posed") return method === EXPLICIT ? "Proved stable at the pose in which the cloth starts. Explicit Euler has no limit that holds at every pose." : `Proved stable at the pose in which the cloth starts, up to ${seconds(limits.certified, 3)}; not proved for all poses to come.`;
   if (where === "open") return `Between what is proved, up to ${seconds(limits.certified, 3)}, and what is refuted, from ${seconds(limits.refuted, 3)} on.`;
   return `${significant(h / limits.refuted, 3)} times the refuted step: the limiting vibration grows ${significant(grows, 4)}-fold with every step.`;

@@ -35,10 +35,11 @@ export class ClothView {
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(32, 1, 0.05, 50);
     this.camera.up.set(0, 0, 1);
-    this.camera.position.set(1.75, -2.2, 0.7);
+    this.camera.position.set(1.6, -2.55, 0.75);
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.target.set(0.5, 0.05, -0.5);
+    this.controls.target.set(0.46, -0.1, -0.42);
     this.controls.enablePan = false;
+    canvas.style.touchAction = "pan-y";  // a finger must be able to scroll past the cloth
     this.controls.minDistance = 1.2;
     this.controls.maxDistance = 6;
 
