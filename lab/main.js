@@ -156,8 +156,8 @@ function blowUp() {
   const ratio = limits.refuted < Infinity && limits.refuted > 0 ? `, ${significant(h / limits.refuted, 3)} times the refuted step` : "";
   const ringing = samples.length ? samples[samples.length - 1].ringing : Infinity;
   const swing = ringing < 1 ? metres(ringing, 2) : "metres";
-  const cure = limits.anyPose > 0 ? `up to ${seconds(limits.anyPose, 3)} every pose is certified` : limits.certified > 0 ? `up to ${seconds(limits.certified, 3)} the starting pose is certified` : "with this damping no step is certified";
-  byId("reason").textContent = `${NAMES[method]} at h = ${seconds(h, 3)}${ratio}: after ${whole(steps - changedAt)} steps particles swing by ${swing} from one step to the next. ${cure[0].toUpperCase()}${cure.slice(1)}; of implicit Euler, every step.`;
+  const cure = limits.anyPose > 0 ? `at every pose, up to ${seconds(limits.anyPose, 3)}` : limits.certified > 0 ? `at the starting pose, up to ${seconds(limits.certified, 3)}` : "no step, with this damping";
+  byId("reason").textContent = `${NAMES[method]} at h = ${seconds(h, 3)}${ratio}: after ${whole(steps - changedAt)} steps particles swing by ${swing} from one step to the next. Certified: ${cure}; with implicit Euler, every step.`;
   byId("verdict").hidden = false;
 }
 
