@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -58,6 +59,10 @@ public:
     /// it is never below c.mass + c.damping·d0.
     /// @param enough  stop improving the bound once it is at most this
     virtual double upper_bound(const Combination& c, double enough = 0) const = 0;
+    /// An ε ≥ 0, 1/s², with S ⪰ −εM proved: by the bound, for bare matrices also by factorisation.
+    virtual double deficit(const Combination& c) const {
+        return std::max(0.0, upper_bound({-c.mass, -c.stiffness, -c.damping, c.project}));
+    }
     /// S as a sparse matrix, both triangles.
     virtual SparseMatrix<double> assemble(const Combination& c) const = 0;
     /// A bound on max_i Σ_j s_i |E_ij| s_j, E the rounding errors of assemble(c) and of
