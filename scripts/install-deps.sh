@@ -12,7 +12,13 @@ libcli11-dev libtinyobjloader-dev nlohmann-json3-dev"
 
 case "${1-}" in
     '') ;;
-    --ci) packages="$packages git clang-format-14 clang-16 libclang-rt-16-dev chromium" ;;
+    --ci)
+        packages="$packages git clang-format-14 clang-16 libclang-rt-16-dev chromium"
+        # The lab. Node reads the certificates of the system, and only recommends them.
+        packages="$packages emscripten nodejs ca-certificates python3"
+        # A nodejs from elsewhere brings npm, and Debian's will not go beside it.
+        command -v npm >/dev/null || packages="$packages npm"
+        ;;
     --bench) packages="$packages libboost-dev libbullet-dev libbenchmark-dev libsundials-dev
 python3-matplotlib valgrind" ;;
     *) echo "install-deps: unknown option '$1'; there are --ci and --bench" >&2; exit 1 ;;
