@@ -13,7 +13,7 @@ libcli11-dev libtinyobjloader-dev nlohmann-json3-dev"
 case "${1-}" in
     '') ;;
     --ci)
-        packages="$packages git clang-format-14 clang-16 libclang-rt-16-dev chromium"
+        packages="$packages git clang-format-14 clang-16 libclang-rt-16-dev chromium libassimp-dev"
         # The lab. Node reads the certificates of the system, and only recommends them.
         packages="$packages emscripten nodejs ca-certificates python3"
         # A nodejs from elsewhere brings npm, and Debian's will not go beside it.
