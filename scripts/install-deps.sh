@@ -19,7 +19,7 @@ python3-matplotlib valgrind" ;;
 esac
 if [ "${1-}" = --ci ]; then
     # The lab, and a reader of meshes. Node reads the system's certificates, which it only recommends.
-    packages="$packages emscripten nodejs ca-certificates python3 libassimp-dev"
+    packages="$packages emscripten nodejs ca-certificates python3 libassimp-dev zlib1g-dev"
     # A nodejs from elsewhere brings npm, and Debian's will not go beside it.
     command -v npm >/dev/null || packages="$packages npm"
 fi
