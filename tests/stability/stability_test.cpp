@@ -5,6 +5,7 @@
 #include <taut/stability/stability.hpp>
 
 #include "../support/catch.hpp"
+#include "../support/methods.hpp"
 #include "../support/stability_scenes.hpp"
 
 namespace taut_test::stability_test {
@@ -14,8 +15,6 @@ using taut::Method;
 
 namespace {
 
-constexpr Method all_methods[] = {Method::explicit_euler, Method::symplectic_euler,
-                                  Method::velocity_verlet, Method::implicit_euler};
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// certified ≤ truth ≤ refuted, the truth by dense multipliers; empty when it holds.

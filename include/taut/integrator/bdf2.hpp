@@ -114,11 +114,9 @@ Report Bdf2<System, Solver>::advance(State& state, Scalar h) {
     equation_.load(*system_, state, tau, 1, past_.x, b_);
     equation_.add_momentum(*system_, past_.v, b_);
     dv_ = solver_.solve(b_);
-    Report report;
+    Report report{detail::solve_status(solver_, dv_, Status::solver_failed)};
     report.solves = 1;
-    if (solver_.info() != Eigen::Success || !dv_.allFinite()) {
-        report.status =
-            solver_.info() == Eigen::NoConvergence ? Status::not_converged : Status::solver_failed;
+    if (!report) {
         report.where = detail::first_not_finite(equation_, dv_);
         return report;
     }

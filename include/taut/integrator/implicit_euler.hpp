@@ -111,6 +111,8 @@ public:
     std::int64_t factorizations() const { return factors_.count(); }
 
 private:
+    static constexpr Status refused =
+        symmetric ? Status::not_positive_definite : Status::solver_failed;
     static constexpr bool springs = detail::is_spring_system_v<std::decay_t<System>>;
     using Vector = Eigen::Matrix<Scalar, Dim, 1>;
     using Equation = detail::StepEquation<System>;
@@ -155,7 +157,7 @@ Status ImplicitEuler<System, Solver>::factorize(Scalar h) {
     if (factors_.find(h)) return Status::ok;
     const auto& A = equation_.matrix();
     if (factors_.factorize(projected_ ? projection_.matrix(A) : A, h)) return Status::ok;
-    return symmetric ? Status::not_positive_definite : Status::solver_failed;
+    return refused;
 }
 
 /// x ← A⁻¹ b, from x as it is where the solver can make use of it.
@@ -166,11 +168,7 @@ Status ImplicitEuler<System, Solver>::solve(const VectorX<Scalar>& b, VectorX<Sc
     } else {
         x = factors_.solver().solve(b);
     }
-    switch (factors_.solver().info()) {
-        case Eigen::Success: return x.allFinite() ? Status::ok : Status::solver_failed;
-        case Eigen::NoConvergence: return Status::not_converged;
-        default: return symmetric ? Status::not_positive_definite : Status::solver_failed;
-    }
+    return detail::solve_status(factors_.solver(), x, refused);
 }
 
 /// dv_ ← Δv of the linearised step.

@@ -60,12 +60,7 @@ struct StateView {
         return (sum == Stored(0)).all();
     }
     /// Index of the first particle with a coordinate that is not finite, or -1.
-    Index first_not_finite() const {
-        for (Index i = 0; i < x.cols(); ++i) {
-            if (!x.col(i).allFinite() || !v.col(i).allFinite()) return i;
-        }
-        return -1;
-    }
+    Index first_not_finite() const { return detail::first_not_finite(x, v); }
     /// What is not a step (Stability, an energy) takes a State.
     template <class Scalar>
     void copy_to(State<Scalar, Dim>& state) const {
