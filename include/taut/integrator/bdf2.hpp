@@ -71,6 +71,7 @@ public:
     void configure(Change&& change) {
         change(solver_);
     }
+    /// The solver of every step, as the last one left it.
     const Solver& solver() const { return solver_; }
 
 private:

@@ -45,6 +45,7 @@ public:
 
     static_assert((require_solver<Solver, Scalar>(), true));
 
+    /// What a step may cost.
     struct Options {
         int iterations = 10;   ///< budget of a step, ≥ 1
         double tolerance = 0;  ///< stops the iterations when the residual is no larger; ≥ 0
@@ -53,6 +54,7 @@ public:
 
     /// Keeps a reference: the system must outlive the stepper.
     explicit ProjectiveDynamics(const System& system) : ProjectiveDynamics(system, Options()) {}
+    /// The same with options; those out of range go to fail().
     ProjectiveDynamics(const System& system, const Options& options);
     explicit ProjectiveDynamics(const System&&) = delete;
     ProjectiveDynamics(const System&&, const Options&) = delete;

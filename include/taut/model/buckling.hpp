@@ -22,17 +22,20 @@ namespace taut {
 struct Buckling {
     static constexpr bool convex = false;
 
+    /// What one spring needs beside its rest length.
     template <class Scalar>
     struct Parameters {
         Scalar stiffness;  ///< when pulled, N/m, ≥ 0
         Scalar bending;    ///< k_b, N·m², ≥ 0
         Scalar onset;      ///< c_b, N/m, ≥ 0; Choi & Ko: of the order of the stiffness
 
+        /// Fails with a message that begins with `where` unless the parameters are in range.
         void require_valid(const char* where) const {
             require_non_negative(where, "stiffness", stiffness);
             require_non_negative(where, "bending", bending);
             require_non_negative(where, "onset", onset);
         }
+        /// The parameters in another precision.
         template <class Other>
         Parameters<Other> cast() const {
             return {static_cast<Other>(stiffness), static_cast<Other>(bending),

@@ -15,6 +15,7 @@ struct ModalBasis {
     Eigen::VectorXd p;       ///< r, of the constant load, m·√kg/s²
     Eigen::MatrixXd shapes;  ///< Φ, N × r, 1/√kg
 
+    /// r, the number of modes.
     Index size() const { return k.size(); }
     /// Modes without stiffness; they come first, after those of a buckled pose (k < 0).
     Index rigid() const { return (k.array() == 0).count(); }

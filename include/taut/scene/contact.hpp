@@ -8,6 +8,7 @@
 
 namespace taut {
 
+/// How resolve_contacts answers a contact.
 struct ContactOptions {
     double friction = 0;   ///< Coulomb's μ, ≥ 0
     double thickness = 0;  ///< kept between particles and the surface, m, ≥ 0

@@ -15,6 +15,7 @@ namespace taut {
 /// The pencil of a LinearSystem: bare matrices, without springs behind them.
 class MatrixPencil final : public Pencil {
 public:
+    /// Copies M, D and K.
     template <class Scalar>
     explicit MatrixPencil(const LinearSystem<Scalar>& system);
 
