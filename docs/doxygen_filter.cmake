@@ -31,7 +31,8 @@ function(identifier result page slug)
 endfunction()
 
 # Pages are written for their place in the repository, where links to headings, programs and folders
-# work: a heading is called by its words, a program has its page among the examples, a folder none.
+# work. On the site a heading is called by its words, a program has its page among the examples, and
+# other files and folders have none; what does not exist becomes a reference that Doxygen refuses.
 function(filter_page text)
     # CMake's lists would split at these.
     string(REPLACE ";" "<semicolon>" text "${text}")
@@ -52,7 +53,20 @@ function(filter_page text)
         endif()
     endforeach()
 
-    string(REGEX MATCHALL "<close>\\([^)\n]+\\)" links "${text}")
+    # To Doxygen an apostrophe ends a code span of single backticks.
+    string(REGEX MATCHALL "`[^`]+`" spans "${text}")
+    list(FILTER spans INCLUDE REGEX "^[^\n]*'[^\n]*$")
+    foreach(span IN LISTS spans)
+        string(REPLACE "${span}" "`${span}`" text "${text}")
+    endforeach()
+
+    # The README of a folder of docs/ stands above the other pages there.
+    set(contents "")
+    if(file MATCHES "docs/([a-z_]+)/README\\.md$")
+        set(contents "${CMAKE_MATCH_1}")
+    endif()
+    # Without a space: "](auto& x)" is C++.
+    string(REGEX MATCHALL "<close>\\([^) \n]+\\)" links "${text}")
     list(REMOVE_DUPLICATES links)
     foreach(link IN LISTS links)
         string(REGEX REPLACE "^<close>\\(|\\)$" "" target "${link}")
@@ -63,10 +77,19 @@ function(filter_page text)
             endif()
             identifier(id "${page}" "${CMAKE_MATCH_2}")
             string(REPLACE "${link}" "<close>(@ref ${id})" text "${text}")
+        elseif(contents AND target MATCHES "^([a-z_]+)\\.md$")
+            string(REGEX REPLACE "<open>([^<\n]+)<close>\\(${target}\\)"
+                "@subpage md_docs_${contents}_${CMAKE_MATCH_1} \"\\1\"" text "${text}")
         elseif(target MATCHES "([^/:]+\\.cpp)$")
             string(REPLACE "${link}" "<close>(@ref ${CMAKE_MATCH_1})" text "${text}")
-        elseif(IS_DIRECTORY "${folder}/${target}")
-            string(REGEX REPLACE "<open>([^<\n]+)<close>\\(${target}\\)" "\\1" text "${text}")
+        elseif(target MATCHES ":|\\.(md|png|svg)$" AND
+                (target MATCHES ":" OR EXISTS "${folder}/${target}"))
+            continue()
+        elseif(EXISTS "${folder}/${target}")
+            string(REPLACE "<close>(${target})" "<nowhere>" text "${text}")
+            string(REGEX REPLACE "<open>([^<\n]+)<nowhere>" "\\1" text "${text}")
+        else()
+            string(REPLACE "${link}" "<close>(@ref ${target})" text "${text}")
         endif()
     endforeach()
 
