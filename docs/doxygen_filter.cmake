@@ -55,7 +55,8 @@ function(filter_page text)
 
     # To Doxygen an apostrophe ends a code span of single backticks.
     string(REGEX MATCHALL "`[^`]+`" spans "${text}")
-    list(FILTER spans INCLUDE REGEX "^[^\n]*'[^\n]*$")
+    list(FILTER spans INCLUDE REGEX "'")
+    list(FILTER spans EXCLUDE REGEX "\n`$")  # a fenced block
     foreach(span IN LISTS spans)
         string(REPLACE "${span}" "`${span}`" text "${text}")
     endforeach()
@@ -82,8 +83,8 @@ function(filter_page text)
                 "@subpage md_docs_${contents}_${CMAKE_MATCH_1} \"\\1\"" text "${text}")
         elseif(target MATCHES "([^/:]+\\.cpp)$")
             string(REPLACE "${link}" "<close>(@ref ${CMAKE_MATCH_1})" text "${text}")
-        elseif(target MATCHES ":|\\.(md|png|svg)$" AND
-                (target MATCHES ":" OR EXISTS "${folder}/${target}"))
+        elseif(target MATCHES ":" OR
+                (target MATCHES "\\.(md|png|svg)$" AND EXISTS "${folder}/${target}"))
             continue()
         elseif(EXISTS "${folder}/${target}")
             string(REPLACE "<close>(${target})" "<nowhere>" text "${text}")
