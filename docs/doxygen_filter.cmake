@@ -54,9 +54,8 @@ function(filter_page text)
     endforeach()
 
     # To Doxygen an apostrophe ends a code span of single backticks.
-    string(REGEX MATCHALL "`[^`]+`" spans "${text}")
-    list(FILTER spans INCLUDE REGEX "'")
-    list(FILTER spans EXCLUDE REGEX "\n`$")  # a fenced block
+    string(REGEX MATCHALL "```[^`]*```|`[^`]+`" spans "${text}")
+    list(FILTER spans INCLUDE REGEX "^`[^`]+'")
     foreach(span IN LISTS spans)
         string(REPLACE "${span}" "`${span}`" text "${text}")
     endforeach()
