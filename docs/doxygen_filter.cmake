@@ -6,8 +6,10 @@
 
 cmake_minimum_required(VERSION 3.21)
 
-# Doxygen finds the declaration of a member template by the words of its return type.
+# Doxygen takes an initial's dot for the end of the first sentence, and finds the declaration of a
+# member template by the words of its return type.
 function(filter_header text)
+    string(REGEX REPLACE "([ (-][A-Z])\\. " "\\1.&nbsp;" text "${text}")
     string(REGEX REPLACE "\nauto ([^;{}]+)\n    -> ([^;{}]+) {" "\n\\2 \\1\n{" text "${text}")
     string(REGEX REPLACE "\nauto ([^;{}]+) -> ([^;{}]+) {" "\n\\2 \\1 {" text "${text}")
     string(REGEX MATCHALL "\n[A-Za-z]+<[A-Za-z]+> [A-Za-z]+<[A-Za-z]+>::" starts "${text}")

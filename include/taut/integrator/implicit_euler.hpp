@@ -27,6 +27,7 @@ struct NoNewton {};
 }  // namespace detail
 
 /// Implicit Euler by one linearised solve a step [T6]:
+///
 ///     (M + hD + h²K) v⁺ = M v + h(f − Kx),  x⁺ = x + h v⁺.
 ///
 /// On a SpringSystem K⁺ stands for K, so the matrix is positive definite at every pose and every h

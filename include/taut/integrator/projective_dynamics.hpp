@@ -15,6 +15,7 @@
 namespace taut {
 /// Implicit Euler with the true, nonlinear spring forces, approached by iterations that share one
 /// constant n × n matrix P = M + hL_c + h²L_k, factorised once for an h and a scene:
+///
 ///     M(v⁺ − v) = h(f(x⁺) − D(x)v⁺),  x⁺ = x + u,  u = hv⁺;   u ← u − P⁻¹∇φ(u).
 ///
 /// φ is the objective of the step (detail/step_objective.hpp). For Hooke's law an iteration is the

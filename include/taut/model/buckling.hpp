@@ -13,6 +13,7 @@ namespace taut {
 
 /// The bending spring of Choi & Ko, "Stable but responsive cloth", SIGGRAPH 2002: pulled, it is
 /// linear; pushed, it answers as a beam that has buckled to a circular arc of its own length,
+///
 ///     T = max(c_b(l − L), k_b κ²/(cos(κL/2) − sinc(κL/2))),  κ = (2/L)·sinc⁻¹(l/L),
 /// the derivative of the arc's bending energy ½k_b κ² L [T30]. The beam alone goes from −12k_b/L²
 /// at l → L to −4π²k_b/L² at l → 0; the line closes its jump at l = L.

@@ -7,6 +7,7 @@
 namespace taut {
 
 /// A linear system M ü + D u̇ + K u = f in r of its modes, u ≈ Φq, one scalar equation each:
+///
 ///     q̈ + d q̇ + k q = p,   ΦᵀMΦ = I,  k = diag ΦᵀKΦ,  d = diag ΦᵀDΦ,  p = Φᵀf.
 /// What ΦᵀDΦ has off its diagonal is dropped; for Rayleigh damping on K that is nothing.
 struct ModalBasis {
