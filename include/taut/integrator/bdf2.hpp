@@ -15,6 +15,7 @@ namespace taut {
 
 /// The second-order backward difference formula, by one linearised solve a step. With ω = h/h⁻ the
 /// ratio to the last step, c = ω²/(1 + 2ω) and τ = h(1 + ω)/(1 + 2ω) (equal steps: ⅓ and ⅔h),
+///
 ///     M (v⁺ − v − c(v − v⁻)) = τ f(x⁺, v⁺),   x⁺ = x + c(x − x⁻) + τ v⁺ [T29],
 /// f linearised about (x, v) with K⁺ for K on springs. K.-J. Choi, H.-S. Ko, "Stable but responsive
 /// cloth", SIGGRAPH 2002, at variable steps (E. Hairer, G. Wanner, "Solving ODEs II", V.5).
@@ -71,6 +72,7 @@ public:
     void configure(Change&& change) {
         change(solver_);
     }
+    /// The solver of every step, as the last one left it.
     const Solver& solver() const { return solver_; }
 
 private:

@@ -27,6 +27,7 @@ struct NoNewton {};
 }  // namespace detail
 
 /// Implicit Euler by one linearised solve a step [T6]:
+///
 ///     (M + hD + h²K) v⁺ = M v + h(f − Kx),  x⁺ = x + h v⁺.
 ///
 /// On a SpringSystem K⁺ stands for K, so the matrix is positive definite at every pose and every h
@@ -63,6 +64,7 @@ public:
                   "taut::ImplicitEuler: a GeneralLinearSystem needs an unsymmetric solver "
                   "(taut::Umfpack, Eigen::SparseLU); a symmetric one would read one triangle only");
 
+    /// The linearised step, or the nonlinear one.
     struct Options {
         /// Linear solves of a step at most. 1: the linearised step; more: the nonlinear one, and
         /// not_converged if they do not reach the tolerance. Without effect on matrices.
@@ -76,6 +78,7 @@ public:
 
     /// Keeps a reference: the system must outlive the stepper.
     explicit ImplicitEuler(const System& system) : ImplicitEuler(system, Options()) {}
+    /// The same with options; those out of range go to fail().
     ImplicitEuler(const System& system, const Options& options);
     explicit ImplicitEuler(const System&&) = delete;
     ImplicitEuler(const System&&, const Options&) = delete;

@@ -15,6 +15,7 @@
 
 namespace taut {
 
+/// The times of a point cache.
 struct Pc2Options {
     float start = 0;     ///< frame number of the first sample
     float sampling = 1;  ///< frames from one sample to the next, > 0
@@ -42,6 +43,7 @@ public:
     /// What became of the file as a whole; a destructor could not say. Frames after it are
     /// not_opened.
     FileReport close() { return file_.close(); }
+    /// Frames written so far.
     Index frames() const { return frames_; }
 
 private:

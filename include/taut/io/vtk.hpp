@@ -50,6 +50,7 @@ void write_triples(std::FILE* file, const Points<Scalar, Dim>& values) {
 
 /// Writes a state as a legacy VTK file (ASCII, POLYDATA, read by ParaView): a point a particle with
 /// velocity (m/s), mass (kg) and pinned (0, 1), a line a spring with
+///
 ///     tension  T(l), N, of the spring alone: negative pushes, dampers are left out
 ///     strain   l/L − 1; 0 for a spring without rest length
 ///     law      its place among the system's laws, from 0.

@@ -30,6 +30,7 @@ struct State {
 
     /// Dim × n zeros.
     static Points<Scalar, Dim> zero(Index n) { return Points<Scalar, Dim>::Zero(Dim, n); }
+    /// Whether every coordinate is, of x and v.
     bool finite() const { return x.allFinite() && v.allFinite(); }
     /// Index of the first particle with a coordinate that is not finite, or -1.
     Index first_not_finite() const { return detail::first_not_finite(x, v); }

@@ -45,6 +45,7 @@ public:
     ///                   with which A was formed and s > 0 a scaling of its rows and columns
     template <class Error>
     DefinitenessProof operator()(SparseMatrix<double>&& A, Error&& max_error);
+    /// Spent by all calls.
     int factorizations() const { return factorizations_; }
 
 private:

@@ -11,6 +11,7 @@
 
 namespace taut {
 
+/// What a search for a Ritz pair may cost.
 struct LanczosOptions {
     int basis = 16;           ///< vectors kept at most: the memory is basis × N doubles
     int restarts = 8;         ///< at most; each keeps the best third of the basis

@@ -17,6 +17,7 @@ namespace taut {
 template <class Scalar>
 class MatrixPencil final : public Pencil {
 public:
+    /// Copies M, D and K.
     explicit MatrixPencil(const LinearSystem<Scalar>& system);
 
     int dim() const override { return 1; }

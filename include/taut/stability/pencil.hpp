@@ -18,7 +18,9 @@ struct Enclosed {
     double value = 0;
     double error = 0;
 
+    /// The least that the exact number can be.
     double lower() const { return value - error; }
+    /// The most that it can be.
     double upper() const { return value + error; }
 };
 
@@ -84,6 +86,7 @@ public:
     virtual bool damping_semidefinite() const = 0;
     /// Whether D = d0·M + αK⁺ exactly, so that M, D and K⁺ share their eigenvectors [T13].
     virtual bool is_rayleigh() const = 0;
+    /// The Rayleigh part of D.
     const RayleighDamping& rayleigh() const { return rayleigh_; }
 
 protected:

@@ -65,6 +65,7 @@ public:
     /// Up to so many degrees of freedom dense eigensolvers help where bounds are not enough.
     static constexpr Index dense_size = 120;
 
+    /// For matrices, where K⁺ = K.
     explicit Stability(const LinearSystem<Scalar>& system)
         : pencil_(std::make_shared<MatrixPencil<Scalar>>(system)),
           revision_(system.revision()),
@@ -112,6 +113,7 @@ public:
     /// dense_size; above, an estimate from below by the extreme Ritz values (D taken as Rayleigh,
     /// or by its quotients on those two vectors).
     double spectral_radius(Method method, double h) const;
+    /// The vibration that holds explicit steps down, as the Lanczos iteration found it.
     LimitingMode limiting_mode() const;
     /// The springs that hold most of the limiting mode's elastic energy, the first one most.
     std::vector<SpringShare> limiting_springs(Index count) const;
@@ -129,6 +131,7 @@ public:
 
     /// Free degrees of freedom.
     Index size() const { return pencil_->size(); }
+    /// What all answers are computed from.
     const Pencil& pencil() const { return *pencil_; }
 
 private:
