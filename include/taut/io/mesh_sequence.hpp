@@ -35,6 +35,7 @@ public:
         if (report) ++frames_;
         return report;
     }
+    /// Frames written so far.
     Index frames() const { return frames_; }
     /// Of a frame, written or not.
     std::string path(Index frame) const {
