@@ -87,7 +87,7 @@ void grows_in_swings() {
         const auto growth = [&](Method method) {  // in a second
             return std::pow(stability.spectral_radius(method, h), 1 / h);
         };
-        std::printf("%5.3f s: x%.2f a second by explicit, x%.2f by symplectic Euler\n", h,
+        std::printf("%.3f s: x%.2f a second by explicit, x%.2f by symplectic Euler\n", h,
                     growth(Method::explicit_euler), growth(Method::symplectic_euler));
         auto state = net.initial_state();
         state.x(2, 1) -= 0.01;
@@ -239,7 +239,7 @@ void only_in_float() {
         taut::Points<float, 3> force;
         net.force(state, force);
         const float noise = force.colwise().norm().maxCoeff() / weight;
-        std::printf("float, %4.0f m from the origin: forces of %.2g weights out of rounding\n",
+        std::printf("float, %.0f m from the origin: forces of %.2g weights out of rounding\n",
                     double(away), double(noise));
         expect((noise > 1) == (away > 0), "far from the origin rounding is a force");
     }
@@ -252,7 +252,7 @@ void sags() {
         const Net net = taut::hanging_cloth<double>(options);
         auto state = net.initial_state();
         expect(bool(taut::static_equilibrium(net, state)), "it comes to rest");
-        std::printf("%4.0f N/m: hangs with l/L up to %.2f, proved step %.2e s\n", k,
+        std::printf("%.0f N/m: hangs with l/L up to %.2f, proved step %.2e s\n", k,
                     largest_stretch(net, state), taut::any_pose_limit(net).certified);
     }
 }

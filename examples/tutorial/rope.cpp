@@ -68,6 +68,8 @@ int main() {
     std::printf("it needs alpha in (%.2e, %.2e) s\n", alpha.lower, alpha.upper);
     rope.set_rayleigh({0, 1.5 * alpha.lower});
     print("explicit Euler with alpha", loss<taut::ExplicitEuler<Rope>>(rope, state, h));
+    rope.set_rayleigh({0, 2 * alpha.upper});
+    print("explicit Euler with too much", loss<taut::ExplicitEuler<Rope>>(rope, state, h));
 
     rope.set_rayleigh({0, 0});
     print("implicit Euler at 1/60 s", loss<taut::ImplicitEuler<Rope>>(rope, state, 1.0 / 60));
