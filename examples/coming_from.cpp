@@ -100,7 +100,7 @@ void compliance() {
     std::printf("10 links of 1000 N/m, 10 g each: %.3f mm of sag\n", 1e3 * spring);
     for (const int iterations : {500, 50, 10, 1}) {
         const double ratio = sag(net, xpbd(iterations), frame) / spring;
-        std::printf("  XPBD, compliance 1e-3 m/N, %3d iterations a frame: %.2f times that\n",
+        std::printf("  XPBD, compliance 1e-3 m/N, %d iterations a frame: %.2f times that\n",
                     iterations, ratio);
         expect(iterations < 500 || std::abs(ratio - 1) < 1e-3, "converged XPBD is the spring");
     }
@@ -111,6 +111,25 @@ void compliance() {
     }
 }
 
+void same_step() {
+    Net net = chain(10, 0.01, 1000);
+    net.set_gravity({9.81, 0, 0});  // it swings
+    auto ours = net.initial_state();
+    auto theirs = ours;
+    taut::ImplicitEuler<Net>::Options options;
+    options.newton_iterations = 100;
+    options.tolerance = 1e-10;
+    taut::ImplicitEuler stepper(net, options);
+    for (int i = 0; i < 10; ++i) {
+        expect(bool(stepper.step(ours, frame)), "Newton converges");
+        PositionBased{1, true, 5000, 0}.step(net, theirs, frame);
+    }
+    const double far = (ours.x - net.initial_state().x).norm();
+    const double apart = (ours.x - theirs.x).norm();
+    std::printf("ten steps of XPBD, converged, and of implicit Euler: %.0e apart\n", apart / far);
+    expect(apart < 1e-6 * far, "converged XPBD is implicit Euler");
+}
+
 void stiffness() {
     for (const double share : {0.1, 0.5}) {
         for (const int iterations : {1, 10}) {
@@ -119,9 +138,8 @@ void stiffness() {
                 const double k = stiffness_of(share, iterations, h, 1 / 0.01);
                 net.set_stiffness(0, k);
                 const double ratio = sag(net, pbd(share, iterations), h) / sag(net);
-                std::printf(
-                    "  PBD stiffness %.1f, %2d iterations of 1/%.0f s: %8.3g N/m; sag %.4f\n",
-                    share, iterations, 1 / h, k, ratio);
+                std::printf("  PBD stiffness %.1f, %d iterations of 1/%.0f s: %.3g N/m; sag %.4f\n",
+                            share, iterations, 1 / h, k, ratio);
                 expect(std::abs(ratio - 1) < 1e-3, "one link of PBD is the spring of the formula");
             }
         }
@@ -141,13 +159,28 @@ void long_chains() {
                 const double k = stiffness_of_long(share, iterations, h, 0.01);
                 for (Index s = 0; s < net.spring_count(); ++s) net.set_stiffness(s, k);
                 const double ratio = sag(net, pbd(share, iterations), h) / sag(net);
-                std::printf(
-                    "  PBD stiffness %.1f, %2d iterations of 1/%.0f s: %8.3g N/m; sag %.2f\n",
-                    share, iterations, 1 / h, k, ratio);
+                std::printf("  PBD stiffness %.1f, %d iterations of 1/%.0f s: %.3g N/m; sag %.2f\n",
+                            share, iterations, 1 / h, k, ratio);
                 expect(std::abs(ratio - 1) < 0.1, "a long chain of PBD has its own formula");
             }
         }
     }
+}
+
+/// What MuJoCo's constraints are, with an impedance d that does not depend on the violation, N/m.
+/// @param inverse_mass  of the constraint, 1/kg: of a tendon 1/m1 + 1/m2, of a flex edge half of
+/// that
+double stiffness_of_mujoco(double timeconst, double dampratio, double d, double inverse_mass) {
+    return 1 / ((1 - d) * timeconst * timeconst * dampratio * dampratio * inverse_mass);
+}
+
+void mujoco() {
+    const double mass = taut::hanging_cloth<double>({64, 64}).mass(100);
+    const double usual = stiffness_of_mujoco(0.02, 1, 0.95, 1 / mass);
+    std::printf(
+        "MuJoCo's solref 0.02 1, impedance 0.95: %.0f N/m on 1 kg, %.2f N/m on this cloth\n",
+        stiffness_of_mujoco(0.02, 1, 0.95, 1), usual);
+    std::printf("  1000 N/m on this cloth: timeconst %.2e s\n", 0.02 * std::sqrt(usual / 1000));
 }
 
 double largest_stretch(const Net& net, const Net::State& state) {
@@ -171,7 +204,7 @@ void hanging() {
         const PositionBased solver{1, true, iterations, 20};
         for (int i = 0; i < 60 * substeps; ++i) solver.step(net, state, frame / substeps);
         const double stretch = largest_stretch(net, state);
-        std::printf("  XPBD, a second later, %2d substeps of %2d iterations: %.3f\n", substeps,
+        std::printf("  XPBD, a second later, %d substeps of %d iterations: %.3f\n", substeps,
                     iterations, stretch);
         return stretch;
     };
@@ -218,12 +251,14 @@ double sheet() {
 
 int main() {
     compliance();
+    same_step();
     std::printf("One link, 10 g; sag beside that of the spring:\n");
     stiffness();
     std::printf("A chain of 80 of them:\n");
     long_chains();
     cloth();
     hanging();
+    mujoco();
     const double ratio = sheet() / 1000;
     std::printf("Young's modulus times thickness of a sheet of k: %.2f k\n", ratio);
     expect(std::abs(ratio - 1.5) < 0.05, "1.5 k");
