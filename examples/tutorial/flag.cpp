@@ -16,15 +16,15 @@ struct Vertex {
     float position[3], velocity[3], uv[2];
 };
 
-constexpr int rows = 16, columns = 24;
+constexpr int rows = 10, columns = 15;
 
 int main() {
     // What your engine has already: vertices and triangles.
     std::vector<Vertex> vertices(rows * columns);
     std::vector<std::vector<Index>> triangles;
     for (int i = 0; i < rows * columns; ++i) {
-        vertices[i].position[0] = 0.05f * float(i % columns);
-        vertices[i].position[2] = 0.05f * float(i / columns);
+        vertices[i].position[0] = 0.08f * float(i % columns);
+        vertices[i].position[2] = 0.08f * float(i / columns);
         if (i % columns == columns - 1 || i / columns == rows - 1) continue;
         triangles.push_back({i, i + 1, i + columns});
         triangles.push_back({i + 1, i + columns + 1, i + columns});
@@ -40,7 +40,7 @@ int main() {
 
     flag.set_external_force([](const auto& state, auto& force) {
         const float gust = 8 + 4 * std::sin(3 * float(state.time));  // m/s
-        force += 3e-4f * (Eigen::Vector3f(gust, 2, 0).replicate(1, state.v.cols()) - state.v);
+        force += 8e-4f * (Eigen::Vector3f(gust, 2, 0).replicate(1, state.v.cols()) - state.v);
     });
 
     taut::Guarded<taut::SymplecticEuler<Cloth>> guard(flag);
@@ -51,9 +51,9 @@ int main() {
     };
 
     constexpr Index corner = columns - 1;
-    for (int frame = 0; frame < 180; ++frame) {
-        if (frame == 60) flag.pin(corner);  // somebody takes hold of it
-        if (frame >= 60) view.v.col(corner) = Eigen::Vector3f(0.5f, 0, 0);  // and pulls, m/s
+    for (int frame = 0; frame < 120; ++frame) {
+        if (frame == 30) flag.pin(corner);  // somebody takes hold of it
+        if (frame >= 30) view.v.col(corner) = Eigen::Vector3f(0.5f, 0, 0);  // and pulls, m/s
 
         const auto report = guard.advance(view, 1.0f / 60);
         if (!report) {
