@@ -7,11 +7,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <taut/integrator/symplectic_euler.hpp>
 #include <taut/scene/cloth.hpp>
-#include <vector>
 
-#include "plain_loop.hpp"
+#include "lean/steps.hpp"
 
 int main(int argc, char** argv) {
     if (argc != 3) return 1;
@@ -23,12 +21,12 @@ int main(int argc, char** argv) {
     constexpr double h = 1e-4;
     if (std::strcmp(argv[1], "plain") == 0) {
         bench::PlainLoop<double> plain(cloth);
-        for (int i = 0; i < steps; ++i) plain.step(h);
+        bench::plain_steps(plain, h, steps);
         return 0;
     }
     auto state = cloth.initial_state();
     taut::SymplecticEuler stepper(cloth);
-    const auto report = stepper.step(state, h, steps);
+    const auto report = bench::taut_steps(stepper, state, h, steps);
     if (!report) std::puts(describe(report.status));
     return report ? 0 : 1;
 }

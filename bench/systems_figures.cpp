@@ -15,6 +15,8 @@
 #include <taut/taut.hpp>
 #include <utility>
 
+#include "hanging_net.hpp"
+
 namespace {
 
 using taut::Index;
@@ -178,29 +180,12 @@ void swings(const std::string& folder) {
     swing<taut::Bdf2<Chain>>(table, "bdf2", chain, energy);
 }
 
-/// A net of rows × columns that hangs from its upper edge, at equilibrium. Diagonals would compress
-/// its rows.
-Cloth hanging_net(Index rows, Index columns, Cloth::State& state) {
-    taut::ClothOptions options;
-    options.rows = rows;
-    options.columns = columns;
-    options.pin_corners = false;
-    options.diagonals = false;
-    auto net = taut::hanging_cloth<double>(options);
-    for (Index c = 0; c < columns; ++c) net.pin(c);
-    state = net.initial_state();
-    state.x.row(2) = -state.x.row(1);
-    state.x.row(1).setZero();
-    if (!taut::static_equilibrium(net, state)) std::exit(1);
-    return net;
-}
-
 /// What r of all modes make of a gust on the net: the largest distance from the full linear
 /// solution in 2 s, over the largest displacement.
 void modes(const std::string& folder) {
     Table table(folder, "modal.csv", "force,r,relative_error");
     Cloth::State pose;
-    const auto net = hanging_net(12, 8, pose);
+    const auto net = bench::hanging_net(12, 8, pose);
     const auto linear = net.linearize(pose);
     taut::ModalBasis all;
     if (!taut::modal_analysis(linear, linear.size(), all)) std::exit(1);

@@ -16,6 +16,7 @@
 #include <taut/taut.hpp>
 #include <vector>
 
+#include "hanging_net.hpp"
 #include "measure.hpp"
 
 namespace {
@@ -75,23 +76,6 @@ void guards() {
     std::printf("\n");
 }
 
-/// A net of rows × columns held along its upper edge, at its equilibrium. It has no diagonals: they
-/// would compress the rows, and its flat pose would buckle.
-Cloth cantilever(Index rows, Index columns, Cloth::State& state) {
-    taut::ClothOptions options;
-    options.rows = rows;
-    options.columns = columns;
-    options.pin_corners = false;
-    options.diagonals = false;
-    auto net = taut::hanging_cloth<double>(options);
-    for (Index c = 0; c < columns; ++c) net.pin(c);
-    state = net.initial_state();
-    state.x.row(2) = -state.x.row(1);  // hanging straight down
-    state.x.row(1).setZero();
-    require(bool(taut::static_equilibrium(net, state)));
-    return net;
-}
-
 template <class Shape>
 void modal_row(const char* name, const taut::LinearSystem<double>& linear, const Cloth::State& pose,
                const taut::ModalBasis& basis) {
@@ -112,7 +96,7 @@ void modal_row(const char* name, const taut::LinearSystem<double>& linear, const
 
 void modal() {
     Cloth::State pose;
-    const auto net = cantilever(100, 50, pose);
+    const auto net = bench::hanging_net(100, 50, pose);
     const auto linear = net.linearize(pose);
     taut::ModalBasis basis;
     Stopwatch analysis;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // Simulates a cloth under gravity, by default at 95 % of the step that is proved for any pose, and
-// writes an OBJ sequence, the energy over time, and on request a point cache.
+// writes an OBJ or PLY sequence, the energy over time, and on request a point cache.
 
 #include <chrono>
 #include <cstdio>
@@ -118,12 +118,13 @@ int simulate(const Options& options) {
     }
     std::printf("%.4g s simulated in %.3g s; highest energy %.3e J above the start\n", state.time,
                 elapsed.count(), outcome.risen);
-    std::printf("%s/frame_*.obj, %s\n", options.output.c_str(), record.energy_path().c_str());
+    std::printf("%s/frame_*.%s, %s\n", options.output.c_str(), options.format.c_str(),
+                record.energy_path().c_str());
     if (!options.cache.empty()) {
         std::printf(
-            "%s: in Blender, import %s/frame_00000.obj, add the modifier Mesh Cache, format "
+            "%s: in Blender, import %s/frame_00000.%s, add the modifier Mesh Cache, format "
             "PC2\n",
-            options.cache.c_str(), options.output.c_str());
+            options.cache.c_str(), options.output.c_str(), options.format.c_str());
     }
     return 0;
 }
@@ -131,7 +132,7 @@ int simulate(const Options& options) {
 int run(int argc, char** argv) {
     Options options;
     CLI::App app{
-        "Simulates a cloth and writes an OBJ sequence, for Blender a point cache too.\n"
+        "Simulates a cloth and writes an OBJ or PLY sequence, for Blender a point cache too.\n"
         "Exit code 3: the state diverged.\n\n"
         "  drape hanging_cloth --cache cloth.pc2\n"
         "  drape hanging_cloth --free --collide sphere --law buckling --integrator implicit\n"

@@ -7,7 +7,7 @@
 
 import { spawn } from "node:child_process";
 import { resolve } from "node:path";
-import { pathToFileURL } from "node:url";
+import { fileURLToPath, pathToFileURL } from "node:url";
 
 const [site, packages, pictures] = process.argv.slice(2).map((path) => resolve(path));
 const { chromium } = await import(pathToFileURL(`${packages}/node_modules/playwright-core/index.mjs`));
@@ -36,6 +36,7 @@ async function open(width, height, options = {}) {
   page.on("pageerror", (error) => page.problems.push(error.message));
   page.on("request", (request) => new URL(request.url()).hostname !== "127.0.0.1" && !request.url().startsWith("data:") && page.problems.push(`asks for ${request.url()}`));
   await page.goto(`http://127.0.0.1:${port}/`);
+  await page.addScriptTag({ path: fileURLToPath(new URL("../examples/report/painted.js", import.meta.url)) });
   await page.waitForFunction(() => window.labState && window.labState().steps > 0);
   return page;
 }
@@ -72,27 +73,19 @@ async function watch(page, steps, seconds = 60) {
 }
 
 /// The share of the cloth's picture that is painted, and in how many colours.
-function painted(page) {
+function paintedView(page) {
   return page.evaluate(async () => {
     const source = document.getElementById("view");
     await new Promise(requestAnimationFrame);  // what WebGL drew is kept until the frame ends
     const copy = Object.assign(document.createElement("canvas"), { width: source.width, height: source.height });
     const context = copy.getContext("2d");
     context.drawImage(source, 0, 0);
-    const rgba = context.getImageData(0, 0, copy.width, copy.height).data;
-    const colours = new Set();
-    let count = 0;
-    for (let i = 0; i < rgba.length; i += 4) {
-      if (rgba[i + 3] === 0) continue;
-      ++count;
-      colours.add((rgba[i] << 16) | (rgba[i + 1] << 8) | rgba[i + 2]);
-    }
-    return { share: count / (rgba.length / 4), colours: colours.size };
+    return painted(context.getImageData(0, 0, copy.width, copy.height));
   });
 }
 
 async function checkLayout(page, name) {
-  const { share, colours } = await painted(page);
+  const { share, colours } = await paintedView(page);
   expect(share > 0.04 && colours > 16, `${name}: the cloth covers ${(100 * share).toFixed(0)} % of its picture in ${colours} colours`);
   const [wide, text] = await page.evaluate(() => [document.documentElement.scrollWidth - innerWidth, document.querySelector("main").innerText]);
   expect(wide <= 0, `${name}: the page is no wider than the window`);

@@ -12,11 +12,17 @@ libcli11-dev libtinyobjloader-dev nlohmann-json3-dev"
 
 case "${1-}" in
     '') ;;
-    --ci) packages="$packages git clang-format-14 clang-16 libclang-rt-16-dev chromium" ;;
+    --ci) packages="$packages git clang-format-14 clang-16 libclang-rt-16-dev chromium doxygen" ;;
     --bench) packages="$packages libboost-dev libbullet-dev libbenchmark-dev libsundials-dev
 python3-matplotlib valgrind" ;;
     *) echo "install-deps: unknown option '$1'; there are --ci and --bench" >&2; exit 1 ;;
 esac
+if [ "${1-}" = --ci ]; then
+    # The lab, and a reader of meshes. Node reads the system's certificates, which it only recommends.
+    packages="$packages emscripten nodejs ca-certificates python3 libassimp-dev zlib1g-dev"
+    # A nodejs from elsewhere brings npm, and Debian's will not go beside it.
+    command -v npm >/dev/null || packages="$packages npm"
+fi
 
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
     cat >&2 <<'END'

@@ -25,6 +25,7 @@ struct Options {
     std::optional<double> thickness;  // m
     double friction = 0.3;
     std::string output = "drape";
+    std::string format = "obj";
     std::string cache;  // path of a PC2 file
     bool springs = false;
     bool quiet = false;
@@ -106,8 +107,12 @@ inline void Options::add_obstacle(CLI::App& app) {
 inline void Options::add_output(CLI::App& app) {
     app.add_option("--output", output, "folder for the frames and energy.csv")
         ->capture_default_str();
+    app.add_option("--format", format,
+                   "what the frames are written as: obj, text; ply, binary, half the size")
+        ->check(CLI::IsMember({"obj", "ply"}))
+        ->capture_default_str();
     app.add_option("--cache", cache,
-                   "a PC2 point cache too: in Blender, import frame_00000.obj and give it a Mesh "
+                   "a PC2 point cache too: in Blender, import the first frame and give it a Mesh "
                    "Cache modifier with this file");
     app.add_flag("--springs", springs,
                  "frame_*.vtk too, with the tension and strain of every spring, for ParaView");

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "cloth.hpp"
@@ -15,7 +16,7 @@ namespace drape {
 /// The files of a run. Everything throws naming the option and the file.
 class Record {
 public:
-    Record(const Options& options, const Cloth& cloth, std::vector<std::vector<taut::Index>> faces);
+    Record(const Options& options, const Cloth& cloth, taut::MeshFaces faces);
 
     /// The next frame. @param kinetic, potential  J
     void add(const Cloth& cloth, const State& state, double kinetic, double potential);
@@ -28,24 +29,34 @@ private:
     static void require(const char* option, const taut::FileReport& report) {
         if (!report) throw std::runtime_error(std::string(option) + ": " + report.message());
     }
-    std::string springs_path(taut::Index frame) const;
+    using Frames = std::variant<taut::ObjSequence, taut::PlySequence>;
+
+    static Frames make_frames(const Options& options, taut::MeshFaces faces);
+    /// Of the next frame.
+    std::string path() const {
+        return std::visit([](const auto& frames) { return frames.path(frames.frames()); }, frames_);
+    }
+    std::string springs_path() const;
     /// A longer run before this one would be taken for the end of it.
     void warn_of_old_frames() const;
 
-    std::string prefix_;
     std::string energy_path_;
     bool springs_;
-    taut::ObjSequence frames_;
+    Frames frames_;
     std::optional<taut::Pc2Writer> cache_;
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> energy_{nullptr, &std::fclose};
 };
 
-inline Record::Record(const Options& options, const Cloth& cloth,
-                      std::vector<std::vector<taut::Index>> faces)
-    : prefix_(options.output + "/frame_"),
-      energy_path_(options.output + "/energy.csv"),
+inline Record::Frames Record::make_frames(const Options& options, taut::MeshFaces faces) {
+    std::string prefix = options.output + "/frame_";
+    if (options.format == "ply") return taut::PlySequence(std::move(prefix), std::move(faces));
+    return taut::ObjSequence(std::move(prefix), std::move(faces));
+}
+
+inline Record::Record(const Options& options, const Cloth& cloth, taut::MeshFaces faces)
+    : energy_path_(options.output + "/energy.csv"),
       springs_(options.springs),
-      frames_(prefix_, std::move(faces)) {
+      frames_(make_frames(options, std::move(faces))) {
     std::error_code failed;
     std::filesystem::create_directories(options.output, failed);
     if (!failed) energy_.reset(std::fopen(energy_path_.c_str(), "w"));
@@ -64,10 +75,10 @@ inline void Record::add_energy(double time, double kinetic, double potential) {
 inline void Record::add(const Cloth& cloth, const State& state, double kinetic, double potential) {
     add_energy(state.time, kinetic, potential);
     if (springs_) {
-        require("--springs", taut::write_vtk(springs_path(frames_.frames()), cloth, state));
+        require("--springs", taut::write_vtk(springs_path(), cloth, state));
     }
     if (cache_) require("--cache", cache_->write(state.x));
-    require("--output", frames_.write(state.x));
+    require("--output", std::visit([&](auto& frames) { return frames.write(state.x); }, frames_));
 }
 
 inline void Record::close() {
@@ -79,17 +90,17 @@ inline void Record::close() {
     warn_of_old_frames();
 }
 
-inline std::string Record::springs_path(taut::Index frame) const {
-    std::string path = frames_.path(frame);
-    return path.replace(path.size() - 3, 3, "vtk");
+inline std::string Record::springs_path() const {
+    std::string frame = path();
+    return frame.replace(frame.size() - 3, 3, "vtk");
 }
 
 inline void Record::warn_of_old_frames() const {
     std::error_code failed;
-    const std::string path = frames_.path(frames_.frames());
-    if (!std::filesystem::exists(path, failed)) return;
+    const std::string next = path();
+    if (!std::filesystem::exists(next, failed)) return;
     std::fprintf(stderr, "drape: --output: %s and any after it are of an earlier run\n",
-                 path.c_str());
+                 next.c_str());
 }
 
 }  // namespace drape

@@ -2,36 +2,21 @@
 // SPDX-License-Identifier: MIT
 "use strict";
 
-// Put behind the page's own script by check_page.cmake: uses the page as a reader would and writes
-// what is wrong into <html data-check>. The page's errors are collected in pageErrors.
+// Put behind the page's own script and painted.js by check_page.cmake: uses the page as a reader would
+// and writes what is wrong into <html data-check>. The page's errors are collected in pageErrors.
 
 const wrong = [];
 const expect = (holds, words) => holds || wrong.push(words);
 const visible = (element) => element.offsetParent !== null;
 
-function pixels(canvas) {
-  return canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
-}
-
-/// The share of a canvas that is painted, and in how many colours.
-function painted(canvas) {
-  const rgba = pixels(canvas);
-  const colours = new Set();
-  let count = 0;
-  for (let i = 0; i < rgba.length; i += 4) {
-    if (rgba[i + 3] === 0) continue;
-    ++count;
-    colours.add((rgba[i] << 16) | (rgba[i + 1] << 8) | rgba[i + 2]);
-  }
-  return { share: count / (rgba.length / 4), colours: colours.size };
-}
-
+const picture = (canvas) => canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+const pixels = (canvas) => picture(canvas).data;
 const same = (a, b) => a.length === b.length && a.every((v, i) => v === b[i]);
 
 function checkPictures() {
   for (const canvas of document.querySelectorAll("canvas")) {
     if (!visible(canvas)) continue;
-    const { share, colours } = painted(canvas);
+    const { share, colours } = painted(picture(canvas));
     expect(share > 0.05 && colours > 8, `canvas ${canvas.dataset.mesh}: ${share} painted, ${colours} colours`);
   }
   for (const box of document.querySelectorAll("[data-plot]")) {

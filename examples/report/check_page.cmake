@@ -25,11 +25,12 @@ function(make_page name)
     if(rest MATCHES "https?:|src=|href=|@import|url\\([^#$]")
         message(SEND_ERROR "${name}.html names something outside itself: ${CMAKE_MATCH_0}")
     endif()
+    file(READ ${CMAKE_CURRENT_LIST_DIR}/painted.js painted)
     file(READ ${CMAKE_CURRENT_LIST_DIR}/check.js check)
     string(REPLACE "<head>" "<head><script>const pageErrors = [];
         addEventListener('error', (event) => pageErrors.push(event.message));
         console.error = (...words) => pageErrors.push(words.join(' '));</script>" page "${page}")
-    string(REPLACE "</body>" "<script>${check}</script></body>" page "${page}")
+    string(REPLACE "</body>" "<script>${painted}${check}</script></body>" page "${page}")
     file(WRITE ${folder}/${name}_check.html "${page}")
 endfunction()
 

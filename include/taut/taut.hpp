@@ -17,6 +17,7 @@
 #include "integrator/velocity_verlet.hpp"
 #include "io/obj.hpp"
 #include "io/pc2.hpp"
+#include "io/ply.hpp"
 #include "io/vtk.hpp"
 #include "model/buckling.hpp"
 #include "model/energy_guarantee.hpp"

@@ -4,6 +4,7 @@
 #include <taut/stability/stability.hpp>
 
 #include "../support/catch.hpp"
+#include "../support/methods.hpp"
 #include "extreme_system.hpp"
 
 // Masses, stiffnesses and dampings further apart than any scene's: an answer may be useless, but it
@@ -15,9 +16,6 @@ using taut::Method;
 using taut::Stability;
 
 namespace {
-
-constexpr Method all_methods[] = {Method::explicit_euler, Method::symplectic_euler,
-                                  Method::velocity_verlet, Method::implicit_euler};
 
 template <class Scalar>
 void check_numbers(const taut::StepLimit<Scalar>& limit) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include <array>
 #include <fstream>
-#include <limits>
 #include <sstream>
 #include <string>
 #include <taut/io/obj.hpp>
@@ -18,15 +18,16 @@ namespace taut_test::obj_test {
 
 namespace {
 
-using Faces = std::vector<std::vector<Index>>;
+using Faces = taut::MeshFaces;
 
 struct Mesh {
     std::vector<Eigen::Vector3d> vertices;
     Faces faces;
+    taut::MeshEdges edges;
     bool understood = true;
 };
 
-/// The `v` and `f` lines of an OBJ file, corners counted from 0.
+/// The `v`, `f` and `l` lines of an OBJ file, corners counted from 0.
 Mesh read(const std::string& path) {
     Mesh mesh;
     std::ifstream file(path);
@@ -43,6 +44,11 @@ Mesh read(const std::string& path) {
             mesh.faces.emplace_back();
             for (Index corner = 0; words >> corner;) mesh.faces.back().push_back(corner - 1);
             mesh.understood = mesh.understood && words.eof();
+        } else if (kind == "l") {
+            std::array<Index, 2> ends{};
+            words >> ends[0] >> ends[1];
+            mesh.edges.push_back({ends[0] - 1, ends[1] - 1});
+            mesh.understood = mesh.understood && words && (words >> std::ws).eof();
         } else {
             mesh.understood = false;
         }
@@ -52,8 +58,8 @@ Mesh read(const std::string& path) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("obj: vertices and faces are read back as written", "[io]", (Case<float, 1>),
-                   (Case<float, 3>), (Case<double, 2>), (Case<double, 3>)) {
+TEMPLATE_TEST_CASE("obj: vertices, faces and edges are read back as written", "[io]",
+                   (Case<float, 1>), (Case<float, 3>), (Case<double, 2>), (Case<double, 3>)) {
     using Scalar = typename TestType::Scalar;
     constexpr int Dim = TestType::Dim;
     const TemporaryFile file("obj_round_trip_" + std::to_string(sizeof(Scalar)) + "_" +
@@ -61,10 +67,12 @@ TEMPLATE_TEST_CASE("obj: vertices and faces are read back as written", "[io]", (
     Random random(1);
     const auto x = random.points<Scalar, Dim>(9, -100, 100);
     const Faces faces{{0, 1, 2}, {5, 4, 3, 8}, {0, 2, 4, 6, 7}};
-    REQUIRE(taut::write_obj(file.path, x, faces));
+    const taut::MeshEdges edges{{8, 0}, {3, 4}};
+    REQUIRE(taut::write_obj(file.path, x, faces, edges));
     const auto mesh = read(file.path);
     CHECK(mesh.understood);
     CHECK(mesh.faces == faces);
+    CHECK(mesh.edges == edges);
     REQUIRE(mesh.vertices.size() == 9);
     for (Index i = 0; i < 9; ++i) {
         for (int d = 0; d < 3; ++d) {
@@ -94,27 +102,6 @@ TEST_CASE("obj: a file is replaced as a whole", "[io]") {
     CHECK(read(file.path).vertices.size() == 4);
 }
 
-TEST_CASE("obj: a sequence numbers its files, and tries a frame again after a failure", "[io]") {
-    taut::ObjSequence frames("taut_test_sequence_", {{0, 1, 2}});
-    Random random(3);
-    const auto x = random.points<float, 3>(3, -1, 1);
-    taut::Points<float, 3> broken = x;
-    broken(1, 2) = std::numeric_limits<float>::infinity();
-    const TemporaryFile first("sequence_00000.obj");
-    const TemporaryFile second("sequence_00001.obj");
-    REQUIRE(frames.write(x));
-    CHECK(frames.path(0) == first.path);
-    const auto report = frames.write(broken);
-    CHECK(report.status == taut::FileStatus::not_finite);
-    CHECK(report.where == 2);
-    CHECK(second.bytes().empty());
-    REQUIRE(frames.write(x));
-    CHECK(frames.frames() == 2);
-    CHECK(frames.path(123456) == "taut_test_sequence_123456.obj");
-    CHECK(second.bytes() == first.bytes());
-    CHECK(read(second.path).faces == Faces{{0, 1, 2}});
-}
-
 TEST_CASE("obj: bad input: a path that cannot be written is named", "[io][bad_input]") {
     const taut::Points<double, 3> x = taut::Points<double, 3>::Zero(3, 2);
     const auto report = taut::write_obj("no_such_directory/mesh.obj", x, {});
@@ -125,6 +112,10 @@ TEST_CASE("obj: bad input: a path that cannot be written is named", "[io][bad_in
                    (void)taut::write_obj("not_written.obj", x, {{0, 1, 2}});
                }),
                ContainsSubstring("face 0 has the corner 2; there are 2 positions"));
+    CHECK_THAT(message_of([&] {
+                   (void)taut::write_obj("not_written.obj", x, {}, {{0, 1}, {-1, 0}});
+               }),
+               ContainsSubstring("edge 1 has the end -1; there are 2 positions"));
     CHECK_FALSE(std::ifstream("not_written.obj"));
 }
 

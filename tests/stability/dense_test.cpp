@@ -3,6 +3,7 @@
 #include <taut/stability/dense.hpp>
 
 #include "../support/catch.hpp"
+#include "../support/methods.hpp"
 #include "../support/tolerance.hpp"
 #include "wild_system.hpp"
 
@@ -12,9 +13,6 @@ using taut::DenseAnalysis;
 using taut::Method;
 
 namespace {
-
-constexpr Method all_methods[] = {Method::explicit_euler, Method::symplectic_euler,
-                                  Method::velocity_verlet, Method::implicit_euler};
 
 /// The largest h with every multiplier inside the circle, by bisection on the radius in long
 /// double; only for scenes whose radius is below 1 for small steps.

@@ -20,7 +20,7 @@ namespace {
 constexpr double rounding = 100 * Tolerance<double>::rounding;
 
 /// M⁻¹K with the given eigenvalues, M random.
-MatrixPencil with_modes(Random& random, const Eigen::VectorXd& k) {
+MatrixPencil<double> with_modes(Random& random, const Eigen::VectorXd& k) {
     Eigen::VectorXd mass(k.size());
     for (Index i = 0; i < k.size(); ++i) mass[i] = log_uniform(random, 0.1, 10);
     const Eigen::VectorXd root = mass.cwiseSqrt();
@@ -29,7 +29,7 @@ MatrixPencil with_modes(Random& random, const Eigen::VectorXd& k) {
     return MatrixPencil(taut::LinearSystem<double>(mass, {}, sparse(symmetric)));
 }
 
-MatrixPencil diagonal(const Eigen::VectorXd& k) {
+MatrixPencil<double> diagonal(const Eigen::VectorXd& k) {
     const Eigen::MatrixXd K = k.asDiagonal();
     return MatrixPencil(taut::LinearSystem<double>(Eigen::VectorXd::Ones(k.size()), {}, sparse(K)));
 }

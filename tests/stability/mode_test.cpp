@@ -5,6 +5,7 @@
 #include <taut/stability/mode.hpp>
 
 #include "../support/catch.hpp"
+#include "../support/methods.hpp"
 #include "../support/random.hpp"
 #include "../support/tolerance.hpp"
 
@@ -18,8 +19,6 @@ namespace {
 using Real = long double;
 using Complex = std::complex<Real>;
 
-constexpr Method all_methods[] = {Method::explicit_euler, Method::symplectic_euler,
-                                  Method::velocity_verlet, Method::implicit_euler};
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The 2 × 2 matrix of one step on (x, v), from [T4]–[T6].

@@ -4,6 +4,7 @@
 
 #include "../support/catch.hpp"
 #include "../support/message.hpp"
+#include "../support/methods.hpp"
 #include "../support/random.hpp"
 #include "../support/tolerance.hpp"
 
@@ -15,9 +16,6 @@ using taut::rayleigh_design;
 using taut::rayleigh_from_ratios;
 
 namespace {
-
-constexpr Method all_methods[] = {Method::explicit_euler, Method::symplectic_euler,
-                                  Method::velocity_verlet, Method::implicit_euler};
 
 /// The largest |μ| over a spectrum, its inside looked at as well.
 double radius(Method method, double h, double d0, double alpha, double k_min, double k_max) {

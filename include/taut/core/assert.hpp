@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// An engine replaces TAUT_ASSERT, TAUT_FAIL or both: define TAUT_USER_CONFIG as the name of a
-// header that defines them, for the whole build (one definition rule), never in a single source
-// file.
+/// @file
+/// An engine replaces TAUT_ASSERT, TAUT_FAIL or both: define TAUT_USER_CONFIG as the name of a
+/// header that defines them, for the whole build (one definition rule), never in a single source
+/// file.
 #ifdef TAUT_USER_CONFIG
 #include TAUT_USER_CONFIG
 #endif

@@ -13,16 +13,20 @@ namespace taut {
 class Revision {
 public:
     Revision() = default;
+    /// Begins with the value of the other.
     Revision(const Revision&) = default;
+    /// Moves beyond both values.
     Revision& operator=(const Revision& other) {
         value_ = std::max(value_, other.value_) + 1;
         return *this;
     }
     ~Revision() = default;
+    /// To be called after every edit.
     Revision& operator++() {
         ++value_;
         return *this;
     }
+    /// 0 before the first edit.
     operator std::uint64_t() const { return value_; }
 
 private:

@@ -40,6 +40,7 @@ struct [[nodiscard]] Report {
     Index where = -1;     ///< index of the offending particle, or -1
     int solves = 0;       ///< linear solves of an integrator's last step
 
+    /// Whether status is ok.
     explicit operator bool() const { return status == Status::ok; }
 };
 

@@ -23,6 +23,7 @@ struct [[nodiscard]] AdaptiveReport {
     Index where = -1;     ///< particle of the last failure, or −1
     Index spring = -1;    ///< the one whose change of length rejected a step last, or −1
 
+    /// Whether status is ok.
     explicit operator bool() const { return status == Status::ok; }
 };
 
@@ -39,6 +40,7 @@ public:
     using Scalar = typename System::Scalar;
     using State = typename System::State;
 
+    /// When to halve the step and when to double it.
     struct Options {
         Scalar max_step = static_cast<Scalar>(1.0 / 60);  ///< s, > 0; the first one tried
         Scalar min_step = static_cast<Scalar>(1e-6);      ///< s, > 0, ≤ max_step

@@ -15,6 +15,7 @@ namespace taut {
 
 /// The second-order backward difference formula, by one linearised solve a step. With ω = h/h⁻ the
 /// ratio to the last step, c = ω²/(1 + 2ω) and τ = h(1 + ω)/(1 + 2ω) (equal steps: ⅓ and ⅔h),
+///
 ///     M (v⁺ − v − c(v − v⁻)) = τ f(x⁺, v⁺),   x⁺ = x + c(x − x⁻) + τ v⁺ [T29],
 /// f linearised about (x, v) with K⁺ for K on springs. K.-J. Choi, H.-S. Ko, "Stable but responsive
 /// cloth", SIGGRAPH 2002, at variable steps (E. Hairer, G. Wanner, "Solving ODEs II", V.5).
@@ -71,6 +72,7 @@ public:
     void configure(Change&& change) {
         change(solver_);
     }
+    /// The solver of every step, as the last one left it.
     const Solver& solver() const { return solver_; }
 
 private:
@@ -114,11 +116,9 @@ Report Bdf2<System, Solver>::advance(State& state, Scalar h) {
     equation_.load(*system_, state, tau, 1, past_.x, b_);
     equation_.add_momentum(*system_, past_.v, b_);
     dv_ = solver_.solve(b_);
-    Report report;
+    Report report{detail::solve_status(solver_, dv_, Status::solver_failed)};
     report.solves = 1;
-    if (solver_.info() != Eigen::Success || !dv_.allFinite()) {
-        report.status =
-            solver_.info() == Eigen::NoConvergence ? Status::not_converged : Status::solver_failed;
+    if (!report) {
         report.where = detail::first_not_finite(equation_, dv_);
         return report;
     }

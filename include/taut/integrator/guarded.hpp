@@ -66,6 +66,7 @@ struct [[nodiscard]] GuardedReport {
     Index particle = -1;     ///< on failure: the first one not finite, or the fastest
     Index spring = -1;       ///< on failure: the one with the most energy
 
+    /// Whether status is ok.
     explicit operator bool() const { return status == Status::ok; }
 };
 
@@ -93,6 +94,7 @@ public:
                   "taut::Guarded: explicit Euler has no limit that holds at every pose; guard "
                   "SymplecticEuler, which costs the same");
 
+    /// What a frame may cost, and what counts as a gain of energy.
     struct Options {
         Scalar safety = static_cast<Scalar>(0.95);  ///< of the any-pose limit, in (0, 1]
         Scalar max_step = std::numeric_limits<Scalar>::infinity();  ///< s, > 0
@@ -131,6 +133,7 @@ public:
         return report;
     }
 
+    /// The guarded stepper, to set its constraints or its solver.
     Stepper& stepper() { return stepper_; }
     /// The limit in force; nothing before the first frame of an explicit stepper.
     const std::optional<StepLimit<Scalar>>& limit() const { return limit_; }

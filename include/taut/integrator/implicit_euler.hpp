@@ -27,6 +27,7 @@ struct NoNewton {};
 }  // namespace detail
 
 /// Implicit Euler by one linearised solve a step [T6]:
+///
 ///     (M + hD + h²K) v⁺ = M v + h(f − Kx),  x⁺ = x + h v⁺.
 ///
 /// On a SpringSystem K⁺ stands for K, so the matrix is positive definite at every pose and every h
@@ -63,6 +64,7 @@ public:
                   "taut::ImplicitEuler: a GeneralLinearSystem needs an unsymmetric solver "
                   "(taut::Umfpack, Eigen::SparseLU); a symmetric one would read one triangle only");
 
+    /// The linearised step, or the nonlinear one.
     struct Options {
         /// Linear solves of a step at most. 1: the linearised step; more: the nonlinear one, and
         /// not_converged if they do not reach the tolerance. Without effect on matrices.
@@ -76,6 +78,7 @@ public:
 
     /// Keeps a reference: the system must outlive the stepper.
     explicit ImplicitEuler(const System& system) : ImplicitEuler(system, Options()) {}
+    /// The same with options; those out of range go to fail().
     ImplicitEuler(const System& system, const Options& options);
     explicit ImplicitEuler(const System&&) = delete;
     ImplicitEuler(const System&&, const Options&) = delete;
@@ -111,6 +114,8 @@ public:
     std::int64_t factorizations() const { return factors_.count(); }
 
 private:
+    static constexpr Status refused =
+        symmetric ? Status::not_positive_definite : Status::solver_failed;
     static constexpr bool springs = detail::is_spring_system_v<std::decay_t<System>>;
     using Vector = Eigen::Matrix<Scalar, Dim, 1>;
     using Equation = detail::StepEquation<System>;
@@ -155,7 +160,7 @@ Status ImplicitEuler<System, Solver>::factorize(Scalar h) {
     if (factors_.find(h)) return Status::ok;
     const auto& A = equation_.matrix();
     if (factors_.factorize(projected_ ? projection_.matrix(A) : A, h)) return Status::ok;
-    return symmetric ? Status::not_positive_definite : Status::solver_failed;
+    return refused;
 }
 
 /// x ← A⁻¹ b, from x as it is where the solver can make use of it.
@@ -166,11 +171,7 @@ Status ImplicitEuler<System, Solver>::solve(const VectorX<Scalar>& b, VectorX<Sc
     } else {
         x = factors_.solver().solve(b);
     }
-    switch (factors_.solver().info()) {
-        case Eigen::Success: return x.allFinite() ? Status::ok : Status::solver_failed;
-        case Eigen::NoConvergence: return Status::not_converged;
-        default: return symmetric ? Status::not_positive_definite : Status::solver_failed;
-    }
+    return detail::solve_status(factors_.solver(), x, refused);
 }
 
 /// dv_ ← Δv of the linearised step.

@@ -47,7 +47,9 @@ public:
     /// A force on every particle, Dim × n, N, from now on; what acts on pinned ones is ignored.
     void set_force(const Points<Shape, Dim>& force);
 
+    /// r, the number of modes.
     Index size() const { return q_.size(); }
+    /// s; the pose's, plus the steps since.
     double time() const { return time_; }
     const Eigen::ArrayXd& amplitudes() const { return q_; }       ///< r, m·√kg
     const Eigen::ArrayXd& amplitude_rates() const { return v_; }  ///< r, m·√kg/s
@@ -55,6 +57,7 @@ public:
     void positions(Points<Shape, Dim>& x) const { expand(q_, &pose_, x); }
     /// v ← Φq̇, m/s, Dim × n.
     void velocities(Points<Shape, Dim>& v) const { expand(v_, nullptr, v); }
+    /// positions() and velocities() of all particles, and time().
     State state() const;
 
 private:

@@ -15,6 +15,7 @@
 namespace taut {
 /// Implicit Euler with the true, nonlinear spring forces, approached by iterations that share one
 /// constant n × n matrix P = M + hL_c + h²L_k, factorised once for an h and a scene:
+///
 ///     M(v⁺ − v) = h(f(x⁺) − D(x)v⁺),  x⁺ = x + u,  u = hv⁺;   u ← u − P⁻¹∇φ(u).
 ///
 /// φ is the objective of the step (detail/step_objective.hpp). For Hooke's law an iteration is the
@@ -45,6 +46,7 @@ public:
 
     static_assert((require_solver<Solver, Scalar>(), true));
 
+    /// What a step may cost.
     struct Options {
         int iterations = 10;   ///< budget of a step, ≥ 1
         double tolerance = 0;  ///< stops the iterations when the residual is no larger; ≥ 0
@@ -53,6 +55,7 @@ public:
 
     /// Keeps a reference: the system must outlive the stepper.
     explicit ProjectiveDynamics(const System& system) : ProjectiveDynamics(system, Options()) {}
+    /// The same with options; those out of range go to fail().
     ProjectiveDynamics(const System& system, const Options& options);
     explicit ProjectiveDynamics(const System&&) = delete;
     ProjectiveDynamics(const System&&, const Options&) = delete;

@@ -34,6 +34,7 @@ struct [[nodiscard]] FileReport {
     std::string path;  ///< the file in question
     Index where = -1;  ///< the particle of not_finite, or −1
 
+    /// Whether status is ok.
     explicit operator bool() const { return status == FileStatus::ok; }
     /// "cloth.pc2: cannot be written completely"
     std::string message() const {

@@ -4,17 +4,18 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "../core/error.hpp"
+#include "detail/little_endian.hpp"
 #include "detail/output_file.hpp"
 
 namespace taut {
 
+/// The times of a point cache.
 struct Pc2Options {
     float start = 0;     ///< frame number of the first sample
     float sampling = 1;  ///< frames from one sample to the next, > 0
@@ -42,20 +43,12 @@ public:
     /// What became of the file as a whole; a destructor could not say. Frames after it are
     /// not_opened.
     FileReport close() { return file_.close(); }
+    /// Frames written so far.
     Index frames() const { return frames_; }
 
 private:
     /// The path, once all else is right: opening the file empties it.
     static std::string checked(std::string path, Index points, const Pc2Options& options);
-    static void put(std::uint32_t bits, unsigned char* bytes) {
-        for (int i = 0; i < 4; ++i) bytes[i] = static_cast<unsigned char>(bits >> (8 * i));
-    }
-    static void put(float number, unsigned char* bytes) {
-        static_assert(std::numeric_limits<float>::is_iec559, "taut::Pc2Writer: needs IEEE floats");
-        std::uint32_t bits = 0;
-        std::memcpy(&bits, &number, sizeof bits);
-        put(bits, bytes);
-    }
 
     static constexpr long count_at = 28;  // of the number of samples, bytes
 
@@ -80,11 +73,11 @@ inline Pc2Writer::Pc2Writer(std::string path, Index points, const Pc2Options& op
     : file_(checked(std::move(path), points, options)), points_(points) {
     if (!file_.is_open()) return;
     unsigned char header[32] = "POINTCACHE2";
-    put(std::uint32_t(1), header + 12);
-    put(static_cast<std::uint32_t>(points), header + 16);
-    put(options.start, header + 20);
-    put(options.sampling, header + 24);
-    put(std::uint32_t(0), header + count_at);
+    detail::put_bytes(std::uint32_t(1), header + 12);
+    detail::put_bytes(static_cast<std::uint32_t>(points), header + 16);
+    detail::put_bytes(options.start, header + 20);
+    detail::put_bytes(options.sampling, header + 24);
+    detail::put_bytes(std::uint32_t(0), header + count_at);
     std::fwrite(header, 1, sizeof header, file_.get());
     frame_.resize(12 * static_cast<std::size_t>(points));
 }
@@ -98,15 +91,10 @@ FileReport Pc2Writer::write(const Points<Scalar, Dim>& x) {
     if (const Index i = detail::first_unwritable<float>(x); i >= 0) {
         return file_.report(FileStatus::not_finite, i);
     }
-    unsigned char* bytes = frame_.data();
-    for (Index i = 0; i < points_; ++i) {
-        for (int d = 0; d < 3; ++d, bytes += 4) {
-            put(d < Dim ? static_cast<float>(x(d < Dim ? d : 0, i)) : 0.0F, bytes);
-        }
-    }
+    detail::put_bytes(x, frame_.data());
     std::FILE* file = file_.get();
     unsigned char count[4];
-    put(static_cast<std::uint32_t>(frames_ + 1), count);
+    detail::put_bytes(static_cast<std::uint32_t>(frames_ + 1), count);
     const bool written = std::fwrite(frame_.data(), 1, frame_.size(), file) == frame_.size() &&
                          std::fseek(file, count_at, SEEK_SET) == 0 &&
                          std::fwrite(count, 1, sizeof count, file) == sizeof count &&

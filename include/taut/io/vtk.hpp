@@ -41,19 +41,16 @@ void write_spring_data(std::FILE* file, const char* name, const System& system,
 }
 
 /// Three numbers a particle; missing dimensions are 0.
-template <class Points>
-void write_triples(std::FILE* file, const Points& values) {
-    for (Index i = 0; i < values.cols(); ++i) {
-        double p[3] = {0, 0, 0};
-        for (Index d = 0; d < values.rows(); ++d) p[d] = static_cast<double>(values(d, i));
-        put_numbers(file, p);
-    }
+template <class Scalar, int Dim>
+void write_triples(std::FILE* file, const Points<Scalar, Dim>& values) {
+    for (Index i = 0; i < values.cols(); ++i) put_column(file, values, i);
 }
 
 }  // namespace detail
 
 /// Writes a state as a legacy VTK file (ASCII, POLYDATA, read by ParaView): a point a particle with
 /// velocity (m/s), mass (kg) and pinned (0, 1), a line a spring with
+///
 ///     tension  T(l), N, of the spring alone: negative pushes, dampers are left out
 ///     strain   l/L − 1; 0 for a spring without rest length
 ///     law      its place among the system's laws, from 0.

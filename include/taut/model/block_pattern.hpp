@@ -39,7 +39,9 @@ public:
         remove_repeats(degree);
     }
 
+    /// n, block columns.
     Index columns() const { return static_cast<Index>(first_.size()) - 1; }
+    /// Blocks of both triangles and the diagonal.
     Index blocks() const { return static_cast<Index>(rows_.size()); }
     /// The number of blocks before column j, 0 ≤ j ≤ n.
     Index first(Index j) const { return first_[j]; }

@@ -13,6 +13,7 @@ namespace taut {
 
 /// The bending spring of Choi & Ko, "Stable but responsive cloth", SIGGRAPH 2002: pulled, it is
 /// linear; pushed, it answers as a beam that has buckled to a circular arc of its own length,
+///
 ///     T = max(c_b(l − L), k_b κ²/(cos(κL/2) − sinc(κL/2))),  κ = (2/L)·sinc⁻¹(l/L),
 /// the derivative of the arc's bending energy ½k_b κ² L [T30]. The beam alone goes from −12k_b/L²
 /// at l → L to −4π²k_b/L² at l → 0; the line closes its jump at l = L.
@@ -22,17 +23,20 @@ namespace taut {
 struct Buckling {
     static constexpr bool convex = false;
 
+    /// What one spring needs beside its rest length.
     template <class Scalar>
     struct Parameters {
         Scalar stiffness;  ///< when pulled, N/m, ≥ 0
         Scalar bending;    ///< k_b, N·m², ≥ 0
         Scalar onset;      ///< c_b, N/m, ≥ 0; Choi & Ko: of the order of the stiffness
 
+        /// Fails with a message that begins with `where` unless the parameters are in range.
         void require_valid(const char* where) const {
             require_non_negative(where, "stiffness", stiffness);
             require_non_negative(where, "bending", bending);
             require_non_negative(where, "onset", onset);
         }
+        /// The parameters in another precision.
         template <class Other>
         Parameters<Other> cast() const {
             return {static_cast<Other>(stiffness), static_cast<Other>(bending),

@@ -28,9 +28,11 @@ public:
     /// Brings the plan up to date with particles, springs and pins. @returns whether it changed
     bool update(const System& system);
 
+    /// n, the number of particles.
     Index size() const { return size_; }
     /// Scalars from one plane to the next: size() and what a whole register may touch beyond it.
     Index stride() const { return stride_; }
+    /// Blocks of particles that a sweep goes through one by one.
     int blocks() const {
         return static_cast<int>((size_ + detail::block_size - 1) / detail::block_size);
     }
@@ -40,7 +42,7 @@ public:
         return std::apply([](const auto&... plan) { return (plan.damped() || ...); }, plans_);
     }
 
-    /// Planes ← points, and back: Dim × size(), converted where they hold another number type.
+    /// Planes ← points, Dim × size(), converted where they hold another number type.
     template <class Matrix>
     void to_planes(const Matrix& points, const Planes& planes) const {
         for_each_place([&](Index i, Index place) {
@@ -48,6 +50,7 @@ public:
                 planes[d][place] = static_cast<Scalar>(points(d, i));
         });
     }
+    /// Points ← planes.
     template <class Matrix>
     void from_planes(const Planes& planes, Matrix& points) const {
         for_each_place([&](Index i, Index place) {

@@ -16,6 +16,7 @@ struct Hookean {
     /// Whether the functions are plain arithmetic, so that Scalar may be a register of numbers.
     static constexpr bool vectorizable = true;
 
+    /// What one spring needs beside its rest length.
     template <class Scalar>
     struct Parameters {
         Scalar stiffness;  ///< k, N/m, ≥ 0
@@ -24,6 +25,7 @@ struct Hookean {
         void require_valid(const char* where) const {
             require_non_negative(where, "stiffness", stiffness);
         }
+        /// The parameters in another precision.
         template <class Other>
         Parameters<Other> cast() const {
             return {static_cast<Other>(stiffness)};

@@ -41,16 +41,24 @@ public:
     /// @param load       N, N; of size 0 means none
     GeneralLinearSystem(Vector mass, Matrix damping, Matrix stiffness, Vector load = {});
 
+    /// N, degrees of freedom.
     Index size() const { return mass_.size(); }
+    /// N, kg: the diagonal of M.
     const Vector& mass() const { return mass_; }
+    /// N, 1/kg.
     const Vector& inverse_mass() const { return inverse_mass_; }
+    /// D, N × N, N·s/m; without nonzeros if none was given.
     const Matrix& damping() const { return damping_; }
+    /// K, N × N, N/m.
     const Matrix& stiffness() const { return stiffness_; }
+    /// f, N, N; zeros if none was given.
     const Vector& load() const { return load_; }
     /// Changes when another system is assigned to this one; nothing else changes the matrices.
     std::uint64_t revision() const { return revision_; }
+    /// The same: the matrices are all that the force depends on.
     std::uint64_t force_revision() const { return revision_; }
 
+    /// u = 0 and u̇ = 0 at time 0: the pose of linearisation, at rest.
     State initial_state() const { return {State::zero(size()), State::zero(size()), Scalar(0)}; }
 
     /// f ← load − K u − D u̇, N; f is resized to 1 × N.
@@ -64,7 +72,9 @@ public:
     /// Writes them back; pinned particles keep what `state` has.
     template <int SpringDim>
     void from_free(const State& u, taut::State<Scalar, SpringDim>& state) const;
+    /// What to_free() and from_free() go by; SpringSystem::linearize sets it.
     void set_free_map(FreeMap<Scalar> map) { map_ = std::move(map); }
+    /// Empty for matrices of the user's own.
     const FreeMap<Scalar>& free_map() const { return map_; }
 
 private:
@@ -91,6 +101,7 @@ public:
     using typename GeneralLinearSystem<Scalar>::Matrix;
     using typename GeneralLinearSystem<Scalar>::Vector;
 
+    /// Arguments as for GeneralLinearSystem; an unsymmetric D or K goes to fail().
     LinearSystem(Vector mass, Matrix damping, Matrix stiffness, Vector load = {})
         : GeneralLinearSystem<Scalar>(std::move(mass), symmetric("damping", std::move(damping)),
                                       symmetric("stiffness", std::move(stiffness)),

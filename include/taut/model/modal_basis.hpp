@@ -7,6 +7,7 @@
 namespace taut {
 
 /// A linear system M ü + D u̇ + K u = f in r of its modes, u ≈ Φq, one scalar equation each:
+///
 ///     q̈ + d q̇ + k q = p,   ΦᵀMΦ = I,  k = diag ΦᵀKΦ,  d = diag ΦᵀDΦ,  p = Φᵀf.
 /// What ΦᵀDΦ has off its diagonal is dropped; for Rayleigh damping on K that is nothing.
 struct ModalBasis {
@@ -15,6 +16,7 @@ struct ModalBasis {
     Eigen::VectorXd p;       ///< r, of the constant load, m·√kg/s²
     Eigen::MatrixXd shapes;  ///< Φ, N × r, 1/√kg
 
+    /// r, the number of modes.
     Index size() const { return k.size(); }
     /// Modes without stiffness; they come first, after those of a buckled pose (k < 0).
     Index rigid() const { return (k.array() == 0).count(); }

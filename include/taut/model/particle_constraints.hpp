@@ -55,10 +55,14 @@ public:
         for (int d = 0; d < Dim; ++d) add(at, particle, Vector::Unit(d), velocity[d]);
         held_[particle] = at;
     }
+    /// At rest, in all directions.
     void fix(Index particle) { prescribe(particle, Vector::Zero()); }
+    /// Drops all constraints of a particle; one that has none is no error.
     void release(Index particle) { held_.erase(particle); }
+    /// Drops all constraints.
     void clear() { held_.clear(); }
 
+    /// The constrained particles by index.
     const std::map<Index, Held>& held() const { return held_; }
 
     /// Takes the constrained part out of a vector for each particle, Dim × n: the filter of their

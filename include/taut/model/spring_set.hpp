@@ -62,9 +62,12 @@ struct SpringSet {
     std::vector<Parameters> parameters;
     std::vector<Scalar> damping;  ///< empty until a damped spring is added
 
+    /// The number of springs.
     Index size() const { return static_cast<Index>(a.size()); }
+    /// N·s/m.
     Scalar damping_of(std::size_t s) const { return damping.empty() ? Scalar(0) : damping[s]; }
 
+    /// Appends a spring whose values SpringSystem has checked.
     void add(const Spring<Scalar, Law>& spring) {
         if (spring.damping > 0 && damping.empty()) damping.assign(a.size(), Scalar(0));
         a.push_back(static_cast<int>(spring.a));

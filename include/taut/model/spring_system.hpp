@@ -88,8 +88,11 @@ public:
     /// Of a Hookean spring. @param stiffness N/m
     void set_stiffness(Index s, Scalar stiffness) { set_parameters<Hookean>(s, {stiffness}); }
 
+    /// From now on forces do not move particle i. Never lowers a limit.
     void pin(Index i) { set_pinned(i, true); }
+    /// Frees particle i, with the mass that it had.
     void unpin(Index i) { set_pinned(i, false); }
+    /// @param mass  kg, finite and > 0; a pinned particle has it once it is free
     void set_mass(Index i, Scalar mass);
     /// @param gravity  acceleration, m/s²
     void set_gravity(const Vector& gravity);
@@ -103,17 +106,25 @@ public:
 
     // ---- queries ----
 
+    /// n, the number of particles, pinned ones included.
     Index size() const { return static_cast<Index>(mass_.size()); }
+    /// Springs of all laws.
     Index spring_count() const;
+    /// Particles that are pinned.
     Index pinned_count() const;
+    /// Unchecked: 0 ≤ i < size().
     bool is_pinned(Index i) const { return inverse_mass_[i] == Scalar(0); }
+    /// kg, of pinned particles too. Unchecked: 0 ≤ i < size().
     Scalar mass(Index i) const { return mass_[i]; }
     /// 1/kg for each particle, 0 for a pinned one.
     Eigen::Map<const VectorX<Scalar>> inverse_mass() const {
         return {inverse_mass_.data(), size()};
     }
+    /// Both factors 0 unless set.
     const RayleighDamping& rayleigh() const { return rayleigh_; }
+    /// m/s², 0 unless set.
     const Vector& gravity() const { return gravity_; }
+    /// The springs of one law.
     template <class Law = FirstLaw>
     const SpringSet<Scalar, Law>& springs() const {
         return std::get<SpringSet<Scalar, Law>>(sets_);
@@ -132,6 +143,7 @@ public:
     State initial_state() const;
     /// f ← total force on every particle, N, Dim × n; on a pinned one, what its pin has to bear.
     void force(const State& state, Force& f) const;
+    /// Whether one was set that is not empty.
     bool has_external_force() const { return static_cast<bool>(external_force_); }
     /// f ← the external force alone, N, Dim × n.
     void external_force(const State& state, Force& f) const {
@@ -142,6 +154,7 @@ public:
     Scalar kinetic_energy(const State& state) const;
     /// Energy of springs and gravity, J; external forces have none.
     Scalar potential_energy(const State& state) const;
+    /// Kinetic and potential energy, J.
     Scalar energy(const State& state) const {
         return kinetic_energy(state) + potential_energy(state);
     }

@@ -5,6 +5,18 @@
 #include "../core/types.hpp"
 
 namespace taut {
+namespace detail {
+
+/// Index of the first particle with a coordinate that is not finite, or -1.
+template <class Array>
+Index first_not_finite(const Array& x, const Array& v) {
+    for (Index i = 0; i < x.cols(); ++i) {
+        if (!x.col(i).allFinite() || !v.col(i).allFinite()) return i;
+    }
+    return -1;
+}
+
+}  // namespace detail
 
 /// Positions and velocities at one time; w = (x, v) of theory [T1].
 template <class Scalar_, int Dim_>
@@ -18,14 +30,10 @@ struct State {
 
     /// Dim × n zeros.
     static Points<Scalar, Dim> zero(Index n) { return Points<Scalar, Dim>::Zero(Dim, n); }
+    /// Whether every coordinate is, of x and v.
     bool finite() const { return x.allFinite() && v.allFinite(); }
     /// Index of the first particle with a coordinate that is not finite, or -1.
-    Index first_not_finite() const {
-        for (Index i = 0; i < x.cols(); ++i) {
-            if (!x.col(i).allFinite() || !v.col(i).allFinite()) return i;
-        }
-        return -1;
-    }
+    Index first_not_finite() const { return detail::first_not_finite(x, v); }
 };
 
 }  // namespace taut

@@ -42,15 +42,18 @@ struct StateView {
     /// @param stride  numbers from one particle to the next, ≥ Dim: 4 for a padded float4
     StateView(Stored* positions, Stored* velocities, Index particles, Index stride = Dim)
         : StateView(positions, stride, velocities, stride, particles) {}
+    /// The same with a stride for each array.
     StateView(Stored* positions, Index position_stride, Stored* velocities, Index velocity_stride,
               Index particles)
         : x(map("positions", positions, position_stride, particles)),
           v(map("velocities", velocities, velocity_stride, particles)) {}
 
+    /// Another view of the same arrays.
     StateView(const StateView&) = default;
     /// Whether to copy numbers or pointers, nobody could tell.
     StateView& operator=(const StateView&) = delete;
 
+    /// Whether every coordinate is, of x and v.
     bool finite() const {
         // a − a is 0, or NaN where a is not finite; and so is the sum.
         Eigen::Array<Stored, Dim, 1> sum = Eigen::Array<Stored, Dim, 1>::Zero();
@@ -60,12 +63,7 @@ struct StateView {
         return (sum == Stored(0)).all();
     }
     /// Index of the first particle with a coordinate that is not finite, or -1.
-    Index first_not_finite() const {
-        for (Index i = 0; i < x.cols(); ++i) {
-            if (!x.col(i).allFinite() || !v.col(i).allFinite()) return i;
-        }
-        return -1;
-    }
+    Index first_not_finite() const { return detail::first_not_finite(x, v); }
     /// What is not a step (Stability, an energy) takes a State.
     template <class Scalar>
     void copy_to(State<Scalar, Dim>& state) const {

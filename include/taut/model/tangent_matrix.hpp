@@ -31,11 +31,13 @@ public:
     using Matrix = SparseMatrix<Scalar>;
     using Block = Eigen::Matrix<Scalar, Dim, Dim>;
 
+    /// @param system  a SpringSystem; none of it is kept
     template <class System>
     explicit TangentMatrix(const System& system);
 
     /// The free particles, ascending: block j of the matrix belongs to particle free()[j].
     const std::vector<Index>& free() const { return free_; }
+    /// N, the free degrees of freedom.
     Index size() const { return Dim * static_cast<Index>(free_.size()); }
 
     /// An N × N matrix of zeros with this pattern.

@@ -11,6 +11,7 @@ namespace taut {
 /// How the ends of a chain are held. A fixed end is a spring to a pinned particle.
 enum class ChainEnds { fixed_fixed, fixed_free, free_free, ring };
 
+/// What chain() builds.
 struct ChainOptions {
     Index masses = 8;  ///< free particles, ≥ 1 (≥ 2 in free_free, ≥ 3 in a ring)
     ChainEnds ends = ChainEnds::fixed_fixed;

@@ -8,6 +8,7 @@
 
 namespace taut {
 
+/// How resolve_contacts answers a contact.
 struct ContactOptions {
     double friction = 0;   ///< Coulomb's μ, ≥ 0
     double thickness = 0;  ///< kept between particles and the surface, m, ≥ 0
@@ -27,6 +28,7 @@ struct ContactReport {
 /// Puts the free particles of a state out of an obstacle at rest, after each step: a particle below
 /// the surface goes to it along the normal n, loses its velocity into the obstacle, v_n = n·v < 0,
 /// and of its tangential velocity v_t what Coulomb allows:
+///
 ///     v⁺ = v_t·max(0, 1 − μ|v_n|/|v_t|).
 ///
 /// No particle gains speed. One that starts inside is moved out at once, and without a velocity

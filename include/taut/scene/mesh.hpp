@@ -12,6 +12,7 @@
 
 namespace taut {
 
+/// What springs_from_mesh makes of a mesh.
 struct MeshOptions {
     double stretch = 1000;  ///< along edges and quad diagonals, N/m
     double bend = 100;      ///< across the edge of two triangles, N/m; 0: none

@@ -35,6 +35,7 @@ public:
             fail("HalfSpace: normal must be finite and not zero");
         }
     }
+    /// @param x  m
     Surface<Scalar, Dim> surface(const Vector& x) const {
         return {normal_.dot(x - point_), normal_};
     }
@@ -56,6 +57,7 @@ public:
         if (!centre.allFinite()) fail("Sphere: centre is not finite");
         require_positive("Sphere", "radius", radius);
     }
+    /// Above the last axis at the centre, where no way out is the shortest. @param x  m
     Surface<Scalar, Dim> surface(const Vector& x) const {
         const Vector out = x - centre_;
         const Scalar length = out.stableNorm();

@@ -25,10 +25,12 @@ public:
 
     /// @param A  compressed, with both triangles
     void analyzePattern(const SparseMatrix<Scalar>& A);
+    /// @param A  of the pattern analysed; indefinite: info() is not Eigen::Success
     void factorize(const SparseMatrix<Scalar>& A) {
         // Where the analysis ran out of memory, info() says so already.
         if (this->m_cholmodFactor) Base::factorize(A);
     }
+    /// analyzePattern() and factorize().
     Cholmod& compute(const SparseMatrix<Scalar>& A) {
         analyzePattern(A);
         factorize(A);

@@ -29,6 +29,7 @@ public:
         }
         tolerance_ = tolerance;
     }
+    /// 1e-3 unless set.
     Scalar tolerance() const { return tolerance_; }
     /// @param iterations  cap of one solve, ≥ 1; by default twice the number of unknowns
     void setMaxIterations(Index iterations) {
@@ -42,6 +43,7 @@ public:
     Index iterations() const { return iterations_; }
     /// ‖b − A x‖/‖b‖ after the last solve, as its recurrence has it.
     Scalar error() const { return error_; }
+    /// Of the last factorize() or solve().
     Eigen::ComputationInfo info() const { return info_; }
 
     /// Fails unless the pattern has full Dim × Dim blocks, diagonal ones included.
@@ -56,6 +58,7 @@ public:
         factorized_ = preconditioner_.factorize(A_);
         info_ = factorized_ ? Eigen::Success : Eigen::NumericalIssue;
     }
+    /// The solution of A x = b, started from 0; kept until the next solve.
     const Vector& solve(const Vector& b) const {
         x_.setZero();
         return iterate(b);

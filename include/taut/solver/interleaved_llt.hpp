@@ -28,6 +28,7 @@ public:
 
     using Base::analyzePattern;
     using Base::info;
+    /// @param A  of the pattern analysed; indefinite: info() is not Eigen::Success
     void factorize(const SparseMatrix<Scalar>& A);
 
     /// The solution X of A X = B, for 1 to 4 columns. Kept until the next call.

@@ -21,6 +21,7 @@
 
 namespace taut {
 
+/// When modal_analysis stops.
 struct ModalOptions {
     double tolerance = 1e-10;  ///< of the eigenvalues, relative, > 0
     int max_iterations = 1000;

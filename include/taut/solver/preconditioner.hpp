@@ -17,6 +17,7 @@ class BlockJacobi {
 public:
     using Matrix = detail::BlockMatrix<Scalar, Dim>;
 
+    /// Makes room for matrices of this size.
     void analyze(const Matrix& A) { inverse_.resize(static_cast<std::size_t>(A.rows())); }
     /// @returns whether every diagonal block is positive definite
     bool factorize(const Matrix& A) {
@@ -49,6 +50,7 @@ public:
     using Matrix = detail::BlockMatrix<Scalar, Dim>;
     using Block = typename Matrix::Block;
 
+    /// Makes room for matrices of this size.
     void analyze(const Matrix& A) {
         inverse_.resize(static_cast<std::size_t>(A.rows()));
         y_.resize(Dim * A.rows());

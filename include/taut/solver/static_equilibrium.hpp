@@ -12,6 +12,7 @@
 
 namespace taut {
 
+/// When static_equilibrium stops.
 struct EquilibriumOptions {
     int max_iterations = 500;
     /// On the norm of the free forces, relative to the first ones or the weight.

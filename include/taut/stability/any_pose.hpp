@@ -9,25 +9,16 @@
 
 namespace taut {
 
-/// The step that holds while the scene moves: 4M − 2hL_c − h²L_k ≻ 0 on the graph Laplacians proves
-/// that symplectic Euler (and velocity Verlet) has no multiplier μ ≤ −1 at any pose [T23].
-///
-/// `certified` is proved; `refuted` is where the condition itself fails: no larger step can be
-/// certified for every pose in this way, though a given pose may allow one. Void when stiffness or
-/// damping is added, mass removed or a particle unpinned (see StepLimit::step_for).
-/// @param tightness  0: by the splitting bound alone [T26]; above 0: narrowed by factorisations of
-/// n × n
-///                   matrices until refuted/certified ≤ 1 + tightness [T22]
-template <class Cholesky = EigenCholesky, class Scalar, int Dim, class... Laws>
-StepLimit<Scalar> any_pose_limit(const SpringSystem<Scalar, Dim, Laws...>& system,
-                                 double tightness = 0) {
-    require_non_negative("any_pose_limit", "tightness", tightness);
+namespace detail {
+
+template <class Effort, class Scalar, int Dim, class... Laws>
+StepLimit<Scalar> any_pose_bracket(const SpringSystem<Scalar, Dim, Laws...>& system,
+                                   Effort effort) {
     const auto laplacian = SpringPencil<1>::any_pose(system);
     StepLimit<Scalar> limit;
     limit.revision = system.revision();
-    detail::Bracket bracket;
-    bracket.certified =
-        laplacian.size() == 0 ? detail::infinity : detail::certified_symplectic(laplacian);
+    Bracket bracket;
+    bracket.certified = laplacian.size() == 0 ? infinity : certified_symplectic(laplacian);
     if (!std::isfinite(bracket.certified)) {
         limit.certified = limit.refuted = std::numeric_limits<Scalar>::infinity();
         limit.cause = Cause::nothing_to_limit;
@@ -39,16 +30,37 @@ StepLimit<Scalar> any_pose_limit(const SpringSystem<Scalar, Dim, Laws...>& syste
         return limit;
     }
     const double h = bracket.certified;
-    bracket.vector = detail::leading_pair(laplacian, {0, h * h, 2 * h}).vector;
-    bracket.refuted = detail::refuted_symplectic(laplacian, bracket.vector);
-    if (tightness > 0 && !bracket.within(tightness)) {
-        Prover<Cholesky> prover;
-        detail::narrow_symplectic(laplacian, prover, tightness, bracket);
-    }
-    limit.certified = detail::round_down<Scalar>(bracket.certified);
-    limit.refuted = detail::round_up<Scalar>(bracket.refuted);
-    limit.cause = detail::symplectic_cause(laplacian, bracket.certified, bracket.vector);
+    bracket.vector = leading_pair(laplacian, {0, h * h, 2 * h}).vector;
+    bracket.refuted = refuted_symplectic(laplacian, bracket.vector);
+    if constexpr (Effort::factorises) narrow_symplectic(laplacian, effort, bracket);
+    limit.certified = round_down<Scalar>(bracket.certified);
+    limit.refuted = round_up<Scalar>(bracket.refuted);
+    limit.cause = symplectic_cause(laplacian, bracket.certified, bracket.vector);
     return limit;
+}
+
+}  // namespace detail
+
+/// The step that holds while the scene moves: 4M − 2hL_c − h²L_k ≻ 0 on the graph Laplacians proves
+/// that symplectic Euler (and velocity Verlet) has no multiplier μ ≤ −1 at any pose [T23]. By the
+/// splitting bound alone [T26].
+///
+/// `certified` is proved; `refuted` is where the condition itself fails: no larger step can be
+/// certified for every pose in this way, though a given pose may allow one. Void when stiffness or
+/// damping is added, mass removed or a particle unpinned (see StepLimit::step_for).
+template <class Scalar, int Dim, class... Laws>
+StepLimit<Scalar> any_pose_limit(const SpringSystem<Scalar, Dim, Laws...>& system) {
+    return detail::any_pose_bracket(system, detail::Bounds{});
+}
+
+/// The same, narrowed by factorisations of n × n matrices until refuted/certified ≤ 1 + tightness
+/// [T22]. @param tightness  0: as above
+template <class Cholesky = EigenCholesky, class Scalar, int Dim, class... Laws>
+StepLimit<Scalar> any_pose_limit(const SpringSystem<Scalar, Dim, Laws...>& system,
+                                 double tightness) {
+    require_non_negative("any_pose_limit", "tightness", tightness);
+    if (tightness == 0) return any_pose_limit(system);
+    return detail::any_pose_bracket(system, detail::Factorisations<Cholesky>{tightness, {}});
 }
 
 }  // namespace taut

@@ -45,6 +45,7 @@ public:
     ///                   with which A was formed and s > 0 a scaling of its rows and columns
     template <class Error>
     DefinitenessProof operator()(SparseMatrix<double>&& A, Error&& max_error);
+    /// Spent by all calls.
     int factorizations() const { return factorizations_; }
 
 private:
@@ -89,8 +90,9 @@ DefinitenessProof Prover<Cholesky>::operator()(SparseMatrix<double>&& A, Error&&
 }
 
 /// Proves a matrix that is given exactly, as its stored numbers stand.
-inline DefinitenessProof proves_positive_definite(const SparseMatrix<double>& A) {
-    return Prover<>{}(SparseMatrix<double>(A), [](const Eigen::VectorXd&) { return 0.0; });
+template <class Cholesky = EigenCholesky>
+DefinitenessProof proves_positive_definite(const SparseMatrix<double>& A) {
+    return Prover<Cholesky>{}(SparseMatrix<double>(A), [](const Eigen::VectorXd&) { return 0.0; });
 }
 
 /// Proves the combination S of a pencil, the rounding of its assembly counted.
@@ -98,6 +100,20 @@ template <class Cholesky>
 DefinitenessProof prove(Prover<Cholesky>& prover, const Pencil& pencil, const Combination& c) {
     return prover(pencil.assemble(c),
                   [&](const Eigen::VectorXd& scale) { return pencil.assembly_error(c, scale); });
+}
+
+/// An ε ≥ 0, 1/s², with S ⪰ −εM proved by factorisation of S + εM: the smallest that rounding
+/// allows, within a factor of 16; infinity when none up to `most` is.
+template <class Cholesky>
+double proved_deficit(Prover<Cholesky>& prover, const Pencil& pencil, const Combination& c,
+                      double most) {
+    if (!(most > 0) || !std::isfinite(most)) return std::numeric_limits<double>::infinity();
+    for (double epsilon = 1e-14 * most; epsilon <= most; epsilon *= 16) {
+        Combination shifted = c;
+        shifted.mass += epsilon;
+        if (prove(prover, pencil, shifted).proved) return epsilon;
+    }
+    return std::numeric_limits<double>::infinity();
 }
 
 }  // namespace taut

@@ -31,6 +31,7 @@ public:
     Vector mode(Index j) const { return modes_.eigenvectors().col(j).cwiseQuotient(root_); }
     /// Eigenvalues with |k| ≤ this are zero modes.
     Real zero_tolerance() const { return zero_; }
+    /// How many these are.
     Index zero_modes() const { return (modes_.eigenvalues().array().abs() <= zero_).count(); }
 
     /// min over λ(C) of −2 Re λ/|λ|², the exact limit of explicit Euler for any D [T18]; 0 when an

@@ -54,7 +54,7 @@ Real explicit_estimate(const Pencil& pencil, Real k_max) {
         return solution;
     };
     double h = std::numeric_limits<double>::infinity();
-    const auto lower = [&](const detail::ComplexRitzPairs& pairs, auto&& eigenvalue) {
+    const auto lower = [&](const detail::ComplexRitzPairs<double>& pairs, auto&& eigenvalue) {
         for (Index j = 0; j < pairs.value.size(); ++j) {
             const std::complex<double> lambda = eigenvalue(pairs.value[j]);
             if (!(std::abs(lambda) > zero * omega)) continue;

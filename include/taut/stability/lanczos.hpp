@@ -11,6 +11,7 @@
 
 namespace taut {
 
+/// What a search for a Ritz pair may cost.
 struct LanczosOptions {
     int basis = 16;           ///< vectors kept at most: the memory is basis × N doubles
     int restarts = 8;         ///< at most; each keeps the best third of the basis
@@ -41,22 +42,62 @@ inline Eigen::VectorXd scattered_vector(Index N, Index seed = 0) {
     return q;
 }
 
+/// Eigenvalues, ascending, and eigenvectors of a small symmetric matrix.
+struct SmallSpectrum {
+    Eigen::VectorXd values;
+    Eigen::MatrixXd vectors;
+};
+
+/// Householder's reduction, column by column, and Eigen's QR iteration: Eigen's own reduction is
+/// blocked, and compiling that takes longer than everything else that max_step needs.
+template <class Real = double>  // a template: only its callers compile the eigensolver
+SmallSpectrum small_spectrum(Eigen::MatrixXd A) {
+    const Index m = A.rows();
+    double scale = A.cwiseAbs().maxCoeff();
+    if (!(scale > 0)) scale = 1;
+    A /= scale;
+    Eigen::MatrixXd V = Eigen::MatrixXd::Identity(m, m);
+    Eigen::VectorXd v(m);
+    Eigen::VectorXd w(m);
+    for (Index k = 0; k + 2 < m; ++k) {
+        v = A.col(k);
+        v.head(k + 1).setZero();
+        const double norm = v.norm();
+        if (!(norm > 0)) continue;
+        v[k + 1] += v[k + 1] < 0 ? -norm : norm;
+        v.normalize();
+        // (I − 2vvᵀ)A(I − 2vvᵀ) = A − vwᵀ − wvᵀ.
+        w.noalias() = A * v;
+        w = 2 * (w - v.dot(w) * v);
+        for (Index j = 0; j < m; ++j) A.col(j) -= w[j] * v + v[j] * w;
+        w.noalias() = V * v;
+        for (Index j = 0; j < m; ++j) V.col(j) -= 2 * v[j] * w;
+    }
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> tridiagonal;
+    const Eigen::VectorXd beside = A.diagonal<-1>();
+    tridiagonal.computeFromTridiagonal(A.diagonal(), beside);
+    SmallSpectrum spectrum{scale * tridiagonal.eigenvalues(), std::move(A)};
+    for (Index j = 0; j < m; ++j) {
+        spectrum.vectors.col(j).noalias() = V * tridiagonal.eigenvectors().col(j);
+    }
+    return spectrum;
+}
+
 }  // namespace detail
 
 /// The largest eigenvalue of M⁻¹S from below: Lanczos with full reorthogonalisation and thick
 /// restart (K. Wu and H. Simon, Thick-restart Lanczos method for large symmetric eigenvalue
 /// problems, 2000). Negate the factors of `c` for the smallest one.
-/// @tparam Operator  Pencil, or anything with its size(), mass() and multiply()
 /// @param start  an approximate eigenvector to begin with, N; empty: a fixed scattered vector
-template <class Operator>
-RitzPair largest_ritz_pair(const Operator& pencil, const Combination& c,
+template <class Real = double>  // a template: only its callers compile the eigensolver
+RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
                            const LanczosOptions& options = {}, const Eigen::VectorXd& start = {}) {
     const Index N = pencil.size();
     const Index m = std::min<Index>(options.basis, N);
     const Eigen::VectorXd root = pencil.mass().cwiseSqrt();
     Eigen::MatrixXd Q(N, m);                          // orthonormal basis
     Eigen::MatrixXd H = Eigen::MatrixXd::Zero(m, m);  // QᵀAQ with A = M⁻½SM⁻½
-    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> projected;
+    Eigen::MatrixXd best;                             // what a restart keeps
     Eigen::VectorXd w(N);
     Eigen::VectorXd h(m);
     Eigen::VectorXd q =
@@ -92,18 +133,23 @@ RitzPair largest_ritz_pair(const Operator& pencil, const Combination& c,
             }
             q = w.normalized();
         }
-        projected.compute(H.topLeftCorner(used, used));
+        const auto projected = detail::small_spectrum(H.topLeftCorner(used, used));
         const double earlier = pair.value;
-        pair.value = projected.eigenvalues()[used - 1];
-        pair.residual = beta * std::abs(projected.eigenvectors()(used - 1, used - 1));
+        pair.value = projected.values[used - 1];
+        pair.residual = beta * std::abs(projected.vectors(used - 1, used - 1));
         const bool settled =
             run > 0 && pair.value - earlier <= options.settled * std::abs(pair.value);
         const bool last = run == options.restarts || m == N || settled ||
                           pair.residual <= options.tolerance * std::abs(pair.value);
         kept = last ? 1 : std::max<Index>(1, used / 3);
-        Q.leftCols(kept) = Q.leftCols(used) * projected.eigenvectors().rightCols(kept);
+        best.resize(N, kept);
+        for (Index j = 0; j < kept; ++j) {
+            best.col(j).noalias() = Q.leftCols(used) * projected.vectors.col(used - kept + j);
+        }
+        Q.leftCols(kept) = best;
         if (last) break;
-        H.topLeftCorner(kept, kept) = projected.eigenvalues().tail(kept).asDiagonal();
+        H.topLeftCorner(kept, kept).setZero();
+        H.diagonal().head(kept) = projected.values.tail(kept);
     }
     pair.vector = Q.col(kept - 1).normalized().cwiseQuotient(root);
     return pair;

@@ -13,9 +13,11 @@
 namespace taut {
 
 /// The pencil of a LinearSystem: bare matrices, without springs behind them.
+/// @tparam Scalar  the system's; all is taken in double
+template <class Scalar>
 class MatrixPencil final : public Pencil {
 public:
-    template <class Scalar>
+    /// Copies M, D and K.
     explicit MatrixPencil(const LinearSystem<Scalar>& system);
 
     int dim() const override { return 1; }
@@ -27,6 +29,11 @@ public:
     }
     Enclosed quadratic(const Combination& c, const Eigen::VectorXd& u) const override;
     double upper_bound(const Combination& c, double enough = 0) const override;
+    double deficit(const Combination& c) const override {
+        const double bound = Pencil::deficit(c);
+        Prover<> prover;
+        return std::min(bound, proved_deficit(prover, *this, c, bound));
+    }
     SparseMatrix<double> assemble(const Combination& c) const override;
     double assembly_error(const Combination& c, const Eigen::VectorXd& s) const override;
     std::vector<SpringShare> spring_shares(const Eigen::VectorXd&) const override { return {}; }
@@ -57,7 +64,7 @@ private:
 };
 
 template <class Scalar>
-MatrixPencil::MatrixPencil(const LinearSystem<Scalar>& system)
+MatrixPencil<Scalar>::MatrixPencil(const LinearSystem<Scalar>& system)
     : K_(system.stiffness().template cast<double>()), D_(system.damping().template cast<double>()) {
     mass_ = system.mass().template cast<double>();
     detect_rayleigh();
@@ -67,7 +74,8 @@ MatrixPencil::MatrixPencil(const LinearSystem<Scalar>& system)
 
 /// D = d0·M is the one Rayleigh form that bare matrices show exactly; α·K is not looked for, since
 /// rounding would hide it.
-inline void MatrixPencil::detect_rayleigh() {
+template <class Scalar>
+void MatrixPencil<Scalar>::detect_rayleigh() {
     const double d0 = D_.coeff(0, 0) / mass_[0];
     Matrix mass(size(), size());
     mass.setIdentity();
@@ -87,7 +95,8 @@ inline void MatrixPencil::detect_rayleigh() {
 }
 
 /// a_ii ≥ Σ|a_ij| in every row; where the sum rounds, with room for it.
-inline bool MatrixPencil::diagonally_dominant(const Matrix& A) {
+template <class Scalar>
+bool MatrixPencil<Scalar>::diagonally_dominant(const Matrix& A) {
     for (Index j = 0; j < A.outerSize(); ++j) {
         double diagonal = 0;
         double others = 0;
@@ -111,12 +120,14 @@ inline bool MatrixPencil::diagonally_dominant(const Matrix& A) {
     return true;
 }
 
-inline bool MatrixPencil::proves_semidefinite(const Matrix& A) {
+template <class Scalar>
+bool MatrixPencil<Scalar>::proves_semidefinite(const Matrix& A) {
     if (A.nonZeros() == 0 || diagonally_dominant(A)) return true;
     return proves_positive_definite(A).proved;
 }
 
-inline Enclosed MatrixPencil::quadratic(const Combination& c, const Eigen::VectorXd& u) const {
+template <class Scalar>
+Enclosed MatrixPencil<Scalar>::quadratic(const Combination& c, const Eigen::VectorXd& u) const {
     Enclosed sum;
     for (Index i = 0; i < size(); ++i) {
         const double term = c.mass * mass_[i] * u[i] * u[i];
@@ -142,7 +153,8 @@ inline Enclosed MatrixPencil::quadratic(const Combination& c, const Eigen::Vecto
 
 /// Collatz–Wielandt: λ_max(A) ≤ max_i (a_ii + Σ_{j≠i} |a_ij| p_j/p_i) for every p > 0; the power
 /// iteration on |A| improves p.
-inline double MatrixPencil::upper_bound(const Combination& c, double enough) const {
+template <class Scalar>
+double MatrixPencil<Scalar>::upper_bound(const Combination& c, double enough) const {
     constexpr int most_repeats = 60;
     const Matrix S = assemble(c);
     const Matrix sizes = magnitudes(c);
@@ -180,7 +192,8 @@ inline double MatrixPencil::upper_bound(const Combination& c, double enough) con
     return best + 8 * std::numeric_limits<double>::epsilon() * std::abs(best);
 }
 
-inline SparseMatrix<double> MatrixPencil::assemble(const Combination& c) const {
+template <class Scalar>
+SparseMatrix<double> MatrixPencil<Scalar>::assemble(const Combination& c) const {
     Matrix S = c.stiffness * K_ + c.damping * D_;
     Matrix mass(size(), size());
     mass.setIdentity();
@@ -191,12 +204,14 @@ inline SparseMatrix<double> MatrixPencil::assemble(const Combination& c) const {
 }
 
 /// Two products and two sums an entry.
-inline double MatrixPencil::assembly_error(const Combination& c, const Eigen::VectorXd& s) const {
+template <class Scalar>
+double MatrixPencil<Scalar>::assembly_error(const Combination& c, const Eigen::VectorXd& s) const {
     const Eigen::VectorXd row = magnitudes(c) * s + std::abs(c.mass) * mass_.cwiseProduct(s);
     return 4 * std::numeric_limits<double>::epsilon() * s.cwiseProduct(row).maxCoeff();
 }
 
-inline std::vector<ParticleShare> MatrixPencil::particle_shares(const Eigen::VectorXd& u) const {
+template <class Scalar>
+std::vector<ParticleShare> MatrixPencil<Scalar>::particle_shares(const Eigen::VectorXd& u) const {
     std::vector<ParticleShare> shares;
     const double total = mass_.dot(u.cwiseAbs2());
     for (Index i = 0; i < size(); ++i) {
@@ -206,7 +221,8 @@ inline std::vector<ParticleShare> MatrixPencil::particle_shares(const Eigen::Vec
 }
 
 /// D has no known part that follows K; its part d0·M follows M where it was recognised.
-inline std::shared_ptr<const Pencil> MatrixPencil::scaled(double stiffness, double mass) const {
+template <class Scalar>
+std::shared_ptr<const Pencil> MatrixPencil<Scalar>::scaled(double stiffness, double mass) const {
     auto pencil = std::make_shared<MatrixPencil>(*this);
     pencil->mass_ *= mass;
     pencil->K_ *= stiffness;

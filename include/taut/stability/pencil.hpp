@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -17,7 +18,9 @@ struct Enclosed {
     double value = 0;
     double error = 0;
 
+    /// The least that the exact number can be.
     double lower() const { return value - error; }
+    /// The most that it can be.
     double upper() const { return value + error; }
 };
 
@@ -58,6 +61,10 @@ public:
     /// it is never below c.mass + c.damping·d0.
     /// @param enough  stop improving the bound once it is at most this
     virtual double upper_bound(const Combination& c, double enough = 0) const = 0;
+    /// An ε ≥ 0, 1/s², with S ⪰ −εM proved: by the bound, for bare matrices also by factorisation.
+    virtual double deficit(const Combination& c) const {
+        return std::max(0.0, upper_bound({-c.mass, -c.stiffness, -c.damping, c.project}));
+    }
     /// S as a sparse matrix, both triangles.
     virtual SparseMatrix<double> assemble(const Combination& c) const = 0;
     /// A bound on max_i Σ_j s_i |E_ij| s_j, E the rounding errors of assemble(c) and of
@@ -79,6 +86,7 @@ public:
     virtual bool damping_semidefinite() const = 0;
     /// Whether D = d0·M + αK⁺ exactly, so that M, D and K⁺ share their eigenvectors [T13].
     virtual bool is_rayleigh() const = 0;
+    /// The Rayleigh part of D.
     const RayleighDamping& rayleigh() const { return rayleigh_; }
 
 protected:

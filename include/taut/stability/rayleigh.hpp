@@ -35,6 +35,7 @@ struct AlphaWindow {
     EmptyWindow empty = EmptyWindow::none;
     bool includes_zero = false;
 
+    /// Whether `alpha`, s, makes the step stable.
     bool contains(double alpha) const {
         if (empty != EmptyWindow::none) return false;
         return (alpha > lower && alpha < upper) || (alpha == 0 && includes_zero);

@@ -48,6 +48,7 @@ public:
             visit(link.a, link.b, link.d, axial, transverse);
         }
     }
+    /// Springs with a free end.
     Index link_count() const { return static_cast<Index>(links_.size()); }
     std::vector<SpringShare> spring_shares(const Eigen::VectorXd& u) const override;
     std::vector<ParticleShare> particle_shares(const Eigen::VectorXd& u) const override;

@@ -62,11 +62,12 @@ struct LimitingMode {
 template <class Scalar, class Cholesky = EigenCholesky>
 class Stability {
 public:
-    /// Systems of at most this many degrees of freedom are also analysed by dense eigensolvers.
+    /// Up to so many degrees of freedom dense eigensolvers help where bounds are not enough.
     static constexpr Index dense_size = 120;
 
+    /// For matrices, where K⁺ = K.
     explicit Stability(const LinearSystem<Scalar>& system)
-        : pencil_(std::make_shared<MatrixPencil>(system)),
+        : pencil_(std::make_shared<MatrixPencil<Scalar>>(system)),
           revision_(system.revision()),
           stiffest_(largest_ritz_pair(*pencil_, {0, 1, 0})) {}
 
@@ -81,12 +82,18 @@ public:
     template <int Dim, class... Laws>
     void update(const SpringSystem<Scalar, Dim, Laws...>& system, const State<Scalar, Dim>& state);
 
-    /// The bracket of the largest stable step, s.
-    /// @param tightness  0: by bounds alone, O(springs) for each of a few passes [T26], and a
-    ///                   Ritz vector. Above 0: narrowed by sparse factorisations until
-    ///                   refuted/certified ≤ 1 + tightness where the method's conditions allow it
-    ///                   (1e-6 is reachable; a factorisation or two) [T22].
-    StepLimit<Scalar> max_step(Method method, double tightness = 0) const;
+    /// The bracket of the largest stable step, s: by bounds alone, O(springs) for each of a few
+    /// passes [T26], and a Ritz vector.
+    StepLimit<Scalar> max_step(Method method) const { return bracket(method, detail::Bounds{}); }
+    /// The same, narrowed by sparse factorisations until refuted/certified ≤ 1 + tightness where
+    /// the method's conditions allow it (1e-6 is reachable; a factorisation or two) [T22], up to
+    /// dense_size also by dense eigensolvers. An overload, since only its callers compile these.
+    /// @param tightness  0: as above
+    StepLimit<Scalar> max_step(Method method, double tightness) const {
+        require_non_negative("Stability::max_step", "tightness", tightness);
+        if (tightness == 0) return max_step(method);
+        return bracket(method, detail::Factorisations<Cholesky>{tightness, {}});
+    }
     /// Whether step h, s, is proved stable: by the bound, or else by factorisation.
     Certificate certify(Method method, double h) const;
     /// The α, s, that make step h stable with D = d0·M + αK⁺ in place of the system's own damping:
@@ -106,6 +113,7 @@ public:
     /// dense_size; above, an estimate from below by the extreme Ritz values (D taken as Rayleigh,
     /// or by its quotients on those two vectors).
     double spectral_radius(Method method, double h) const;
+    /// The vibration that holds explicit steps down, as the Lanczos iteration found it.
     LimitingMode limiting_mode() const;
     /// The springs that hold most of the limiting mode's elastic energy, the first one most.
     std::vector<SpringShare> limiting_springs(Index count) const;
@@ -123,14 +131,21 @@ public:
 
     /// Free degrees of freedom.
     Index size() const { return pencil_->size(); }
+    /// What all answers are computed from.
     const Pencil& pencil() const { return *pencil_; }
 
 private:
+    // Effort: detail::Bounds or detail::Factorisations.
+    template <class Effort>
+    StepLimit<Scalar> bracket(Method method, Effort effort) const;
+    template <class Effort>
+    StepLimit<Scalar> explicit_limit(Effort& effort) const;
+    template <class Effort>
+    StepLimit<Scalar> symplectic_limit(Effort& effort) const;
+    template <class Effort>
+    void add_growth(StepLimit<Scalar>& limit, Effort& effort) const;
     void admit_negative_damping(StepLimit<Scalar>& limit) const;
     double certified_when_scaled(Method method, double stiffness, double mass) const;
-    void add_growth(StepLimit<Scalar>& limit, double tightness) const;
-    StepLimit<Scalar> explicit_limit(double tightness) const;
-    StepLimit<Scalar> symplectic_limit(double tightness) const;
     StepLimit<Scalar> implicit_limit() const;
     StepLimit<Scalar> limit(double certified, double refuted, Cause cause) const {
         StepLimit<Scalar> answer;
@@ -165,23 +180,6 @@ void Stability<Scalar, Cholesky>::update(const SpringSystem<Scalar, Dim, Laws...
     }
     pencil_ = std::move(pencil);
     revision_ = system.revision();
-}
-
-template <class Scalar, class Cholesky>
-StepLimit<Scalar> Stability<Scalar, Cholesky>::max_step(Method method, double tightness) const {
-    require_non_negative("Stability::max_step", "tightness", tightness);
-    if (size() == 0) return limit(detail::infinity, detail::infinity, Cause::nothing_to_limit);
-    StepLimit<Scalar> answer;
-    switch (method) {
-        case Method::explicit_euler: answer = explicit_limit(tightness); break;
-        case Method::symplectic_euler:
-        case Method::velocity_verlet: answer = symplectic_limit(tightness); break;
-        case Method::implicit_euler: answer = implicit_limit(); break;
-    }
-    // An explicit step that is certified is so by D − hK ≻ 0, which needs no D ⪰ 0 beside it.
-    if (method != Method::explicit_euler || !(answer.certified > 0)) admit_negative_damping(answer);
-    add_growth(answer, tightness);
-    return answer;
 }
 
 template <class Scalar, class Cholesky>

@@ -91,6 +91,7 @@ struct StepLimit {
     double admitted_growth = 0;  ///< 1/s
     std::uint64_t revision = 0;  ///< of the system that was analysed
 
+    /// Whether every step is certified.
     bool unbounded() const { return std::isinf(certified); }
 
     /// safety·certified, or nothing when the system has changed since the analysis, when no step is

@@ -71,9 +71,11 @@ inline ModeError mode_error(Scheme scheme, double z, double zeta = 0) {
             std::sqrt((1 - zeta) * (1 + zeta)) * z / phase - 1};
 }
 
+/// The first of mode_error's two errors.
 inline double artificial_damping(Scheme scheme, double z, double zeta = 0) {
     return mode_error(scheme, z, zeta).artificial_damping;
 }
+/// The second.
 inline double period_error(Scheme scheme, double z, double zeta = 0) {
     return mode_error(scheme, z, zeta).period_error;
 }
@@ -83,6 +85,7 @@ struct ModeTolerance {
     double damping_ratio = 0.05;  ///< on |artificial damping ratio|
     double period = 0.05;         ///< on |period error|
 
+    /// Whether both errors are within it.
     bool admits(const ModeError& error) const {
         return std::abs(error.artificial_damping) <= damping_ratio &&
                std::abs(error.period_error) <= period;

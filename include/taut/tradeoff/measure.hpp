@@ -19,6 +19,7 @@
 
 namespace taut {
 
+/// How closely runs are compared.
 struct TradeoffOptions {
     Index samples = 60;   ///< of the duration, at which runs are compared
     double gain = 10;     ///< by which the reference must be better than the best run
@@ -27,6 +28,7 @@ struct TradeoffOptions {
     double (*clock)() = &cpu_seconds;  ///< s
 };
 
+/// Every run with its cost and error, and how far the reference can be trusted.
 struct Tradeoff {
     std::vector<TradeoffPoint> points;
     double reference_error = 0;      ///< position error of the last refinement but one
@@ -59,6 +61,7 @@ public:
     }
     TradeoffMeter(const System&&, const State&, double, const TradeoffOptions& = {}) = delete;
 
+    /// Runs one of Taut's own steppers; candidate.h is the step to take at most, s.
     void add(const Candidate& candidate) {
         require_positive("measure_tradeoff", "Candidate::h", candidate.h);
         with_stepper(system_, candidate, [&](auto& stepper) {

@@ -34,18 +34,18 @@ inline std::optional<std::complex<double>> fitted_multiplier(const Eigen::Vector
     const Index rows = samples.size() - 2;
     if (rows < 2 || !samples.allFinite()) return std::nullopt;
     // In ε = μ − 1, from second and first differences, so that slow swings lose no digits.
-    Eigen::MatrixXd A(rows, 2);
-    A.col(0) = samples.segment(1, rows) - samples.head(rows);
-    A.col(1) = samples.segment(1, rows);
-    const Eigen::VectorXd second =
-        samples.tail(rows) - 2 * samples.segment(1, rows) + samples.head(rows);
-    // a_{j+1} − 2a_j + a_{j−1} = −r(a_j − a_{j−1}) − s·a_j with q = 1 − r, t = 2 − r − s.
-    const Eigen::VectorXd fit = A.colPivHouseholderQr().solve(second);
-    const double q = 1 + fit[0];
-    const double half = (2 + fit[0] + fit[1]) / 2;
+    const Eigen::VectorXd value = samples.segment(1, rows);
+    const Eigen::VectorXd first = value - samples.head(rows);
+    const Eigen::VectorXd second = samples.tail(rows) - value - first;
+    // a_{j+1} − 2a_j + a_{j−1} = a(a_j − a_{j−1}) + b·a_j with q = 1 + a, t = 2 + a + b, by Gram
+    // and Schmidt.
+    const double share = value.dot(first) / value.squaredNorm();
+    const Eigen::VectorXd rest = first - share * value;
+    const double a = rest.dot(second) / rest.squaredNorm();
+    const double b = value.dot(second - a * first) / value.squaredNorm();
+    const double q = 1 + a;
+    const double half = (2 + a + b) / 2;
     // q − half² without cancellation for slow swings.
-    const double a = fit[0];
-    const double b = fit[1];
     const double under = -b - (a + b) * (a + b) / 4;
     if (!(under > 0) || !std::isfinite(q)) return std::nullopt;
     return std::complex<double>(half, std::sqrt(under));

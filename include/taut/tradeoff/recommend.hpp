@@ -88,6 +88,7 @@ Recommendation recommend(const SpringSystem<Scalar, Dim, Laws...>& system,
     return choose(std::move(plans), goal);
 }
 
+/// The same among recommended_candidates(goal).
 template <class Scalar, int Dim, class... Laws>
 Recommendation recommend(const SpringSystem<Scalar, Dim, Laws...>& system,
                          const State<Scalar, Dim>& state, const Goal& goal,

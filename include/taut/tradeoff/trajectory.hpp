@@ -20,6 +20,7 @@ struct Trajectory {
     std::vector<double> energy;          ///< J
     std::vector<double> kinetic;         ///< J
 
+    /// Appends the state and its energies.
     template <class System>
     void see(const System& system, const State<Scalar, Dim>& state) {
         x.push_back(state.x);

@@ -55,13 +55,14 @@ EnergyBooks energy_books(const System& system, const State& state, Force& f) {
             const Scalar l = dx.norm();
             const auto& p = set.parameters[s];
             const Scalar L = set.rest_length[s];
+            const Scalar T = Law::tension(p, L, l);
             const double grain =
                 unit * (static_cast<double>(state.x.col(set.a[s]).norm()) + static_cast<double>(l));
-            books.rounding += static_cast<double>(std::abs(Law::tension(p, L, l))) * grain +
+            books.rounding += static_cast<double>(std::abs(T)) * grain +
                               static_cast<double>(Law::stiffness_bound(p, L)) * grain * grain / 64;
             books.elastic += static_cast<double>(Law::energy(p, L, l));
             if (!(l > 0)) continue;
-            const Vector pull = (Law::tension(p, L, l) / l) * dx;
+            const Vector pull = (T / l) * dx;
             f.col(set.a[s]) += pull;
             f.col(set.b[s]) -= pull;
         }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "../../core/status.hpp"
 #include "../../model/spring_system.hpp"
 
 namespace taut::detail {
@@ -159,6 +160,16 @@ Index first_not_finite(const StepEquation<System>& equation, const VectorX<Scala
         if (!std::isfinite(b[i])) return equation.particle(i);
     }
     return -1;
+}
+
+/// What became of x ← A⁻¹ b by a solver. @param refused  what it is when the solver gave A up
+template <class Solver, class Scalar>
+Status solve_status(const Solver& solver, const VectorX<Scalar>& x, Status refused) {
+    switch (solver.info()) {
+        case Eigen::Success: return x.allFinite() ? Status::ok : Status::solver_failed;
+        case Eigen::NoConvergence: return Status::not_converged;
+        default: return refused;
+    }
 }
 
 }  // namespace taut::detail

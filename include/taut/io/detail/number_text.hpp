@@ -4,6 +4,8 @@
 
 #include <cstdio>
 
+#include "../../core/types.hpp"
+
 namespace taut::detail {
 
 /// Nine digits, with a point whatever the program's locale is, and `end`.
@@ -18,11 +20,13 @@ inline void put_number(std::FILE* file, double number, char end) {
     std::fputc(end, file);
 }
 
-/// A line of three.
-inline void put_numbers(std::FILE* file, const double (&p)[3]) {
-    put_number(file, p[0], ' ');
-    put_number(file, p[1], ' ');
-    put_number(file, p[2], '\n');
+/// A line of three: column i, and zeros for missing dimensions.
+template <class Scalar, int Dim>
+void put_column(std::FILE* file, const Points<Scalar, Dim>& values, Index i) {
+    for (int d = 0; d < 3; ++d) {
+        const double number = d < Dim ? static_cast<double>(values(d < Dim ? d : 0, i)) : 0.0;
+        put_number(file, number, d < 2 ? ' ' : '\n');
+    }
 }
 
 }  // namespace taut::detail

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <utility>
 
 #include "../lanczos.hpp"
@@ -12,18 +13,21 @@
 namespace taut::detail {
 
 /// Approximate eigenpairs of a real n × n matrix A.
+template <class Real>
 struct ComplexRitzPairs {
-    Eigen::VectorXcd value;
-    Eigen::VectorXd residual;  ///< the norm of Az − value·z for each vector z of unit length
-    Eigen::MatrixXd basis;     ///< n × m, orthonormal
-    Eigen::MatrixXcd inner;    ///< m × m: the vectors in the basis
+    using Complex = std::complex<Real>;
+    VectorX<Complex> value;
+    VectorX<Real> residual;  ///< the norm of Az − value·z for each vector z of unit length
+    Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic> basis;  ///< n × m, orthonormal
+    Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic>
+        inner;  ///< m × m: the vectors in the basis
 
-    Eigen::VectorXcd vector(Index j) const { return basis * inner.col(j); }
+    VectorX<Complex> vector(Index j) const { return basis * inner.col(j); }
 };
 
 /// Arnoldi's process without restart (W. E. Arnoldi 1951). @param apply  y = apply(q), both n
 template <class Apply>
-ComplexRitzPairs arnoldi(Apply&& apply, Index n, Index steps) {
+ComplexRitzPairs<double> arnoldi(Apply&& apply, Index n, Index steps) {
     Index m = std::min(steps, n);
     Eigen::MatrixXd Q(n, m);
     Eigen::MatrixXd H = Eigen::MatrixXd::Zero(m, m);  // QᵀAQ
@@ -49,7 +53,7 @@ ComplexRitzPairs arnoldi(Apply&& apply, Index n, Index steps) {
     }
     H.conservativeResize(m, m);  // a block would have the eigensolver compiled a second time
     const Eigen::EigenSolver<Eigen::MatrixXd> projected(H);
-    ComplexRitzPairs pairs;
+    ComplexRitzPairs<double> pairs;
     pairs.value = projected.eigenvalues();
     pairs.inner = projected.eigenvectors();
     pairs.residual = next * pairs.inner.row(m - 1).cwiseAbs();

@@ -11,7 +11,8 @@
 #include "../mode.hpp"
 #include "../step_limit.hpp"
 
-// One function a method: the bracket of its largest stable step, for any pencil, in double.
+// One function a method: the bracket of its largest stable step, for any pencil, in double. Those
+// that search for vectors are templates, so that only their callers compile the eigensolver.
 
 namespace taut::detail {
 
@@ -35,8 +36,8 @@ inline Quotients quotients(const Pencil& pencil, const Eigen::VectorXd& u, bool 
 
 /// The smallest eigenvalue of K'⁺ from above. The softest modes are smooth, so the search begins
 /// with the translation along an axis that costs least (none at all on a mechanism).
-template <class Operator>
-RitzPair softest(const Operator& pencil) {
+template <class Real = double>
+RitzPair softest(const Pencil& pencil) {
     LanczosOptions options;
     options.basis = 48;
     Eigen::VectorXd start;
@@ -80,16 +81,15 @@ inline double certified_symplectic(const Pencil& pencil, double enough = 0) {
 
 /// The step that u refutes for symplectic Euler: the root of uᵀ(4M − 2hD − h²K)u. For an indefinite
 /// K too: a real multiplier ≤ −1 follows from the vector alone.
-template <class Operator>
-double refuted_by(const Operator& pencil, const Eigen::VectorXd& u) {
+inline double refuted_by(const Pencil& pencil, const Eigen::VectorXd& u) {
     const auto [k, d] = quotients(pencil, u, false);
     return critical_step(Method::symplectic_euler, k.lower(), std::max(0.0, d.lower()));
 }
 
 /// [T19]'s iteration: the leading vector of 2hD + h²K refutes a smaller step than h, and so on
 /// until a repeat gains less than `settled` of it.
-template <class Operator>
-void sharpen_symplectic(const Operator& pencil, const LanczosOptions& options, double settled,
+template <class Real = double>
+void sharpen_symplectic(const Pencil& pencil, const LanczosOptions& options, double settled,
                         double& h, Eigen::VectorXd& vector) {
     constexpr int most_repeats = 8;
     // Without dampers the vector does not depend on h.
@@ -106,8 +106,8 @@ void sharpen_symplectic(const Operator& pencil, const LanczosOptions& options, d
 }
 
 /// A step that a vector refutes, from the stiffest vector of K⁺, which the refuting one replaces.
-template <class Operator>
-double refuted_symplectic(const Operator& pencil, Eigen::VectorXd& vector) {
+template <class Real = double>
+double refuted_symplectic(const Pencil& pencil, Eigen::VectorXd& vector) {
     double h = refuted_by(pencil, vector);
     if (pencil.is_rayleigh() && pencil.stiffness_semidefinite()) return h;
     // The stiffest vector of K⁺ may lie where the true K is buckled: begin elsewhere.
@@ -169,8 +169,8 @@ inline double refuted_by_damping(const Pencil& pencil, const Eigen::VectorXd& u)
 }
 
 /// @param commutes  whether M, D and the stepper's K share their eigenvectors
-template <class Operator>
-double refuted_explicit(const Operator& pencil, const RitzPair& stiffest, bool commutes) {
+template <class Real = double>
+double refuted_explicit(const Pencil& pencil, const RitzPair& stiffest, bool commutes) {
     const RitzPair most_damped = largest_ritz_pair(pencil, {0, 0, 1});
     double h = std::min(refuted_by_damping(pencil, stiffest.vector),
                         refuted_by_damping(pencil, most_damped.vector));

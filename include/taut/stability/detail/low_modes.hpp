@@ -53,7 +53,7 @@ Eigen::MatrixXd low_modes(const Pencil& pencil) {
         pencil.multiply({0, 1, 0}, x, y);
         return Eigen::VectorXd(y.cwiseQuotient(root));
     };
-    const ComplexRitzPairs pairs = arnoldi(B, N, steps);
+    const auto pairs = arnoldi(B, N, steps);
     std::vector<std::pair<double, Index>> soft;
     for (Index j = 0; j < pairs.value.size(); ++j) {
         const double value = pairs.value[j].real();

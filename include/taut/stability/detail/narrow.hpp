@@ -12,6 +12,19 @@
 
 namespace taut::detail {
 
+/// How much Stability::max_step may spend: bounds alone …
+struct Bounds {
+    static constexpr bool factorises = false;
+};
+
+/// … or factorisations as well.
+template <class Cholesky>
+struct Factorisations {
+    static constexpr bool factorises = true;
+    double tightness = 0;
+    Prover<Cholesky> prover;
+};
+
 /// [certified, refuted), s, and the vector that refutes.
 struct Bracket {
     double certified = 0;
@@ -47,12 +60,12 @@ void narrow(Bracket& bracket, double tightness, Sharpen&& sharpen, Proves&& prov
 
 /// Symplectic Euler: 4M − 2hD − h²K ≻ 0 with the true K [T19]. Needs D ⪰ 0.
 template <class Cholesky>
-void narrow_symplectic(const Pencil& pencil, Prover<Cholesky>& prover, double tightness,
-                       Bracket& bracket) {
+void narrow_symplectic(const Pencil& pencil, Factorisations<Cholesky>& effort, Bracket& bracket) {
+    Prover<Cholesky>& prover = effort.prover;
     const auto sharpen = [&](Bracket& b, double share) {
         sharpen_symplectic(pencil, sharp(share), 0.1 * share, b.refuted, b.vector);
     };
-    narrow(bracket, tightness, sharpen, [&](double h) {
+    narrow(bracket, effort.tightness, sharpen, [&](double h) {
         // With an indefinite K the condition at h says nothing of smaller steps; hD ≺ 4M does.
         return prove(prover, pencil, {4, -h * h, -2 * h, false}).proved &&
                (pencil.stiffness_semidefinite() || prove(prover, pencil, {4, 0, -h}).proved);
@@ -87,19 +100,22 @@ ProvedMaximum narrow_maximum(const Pencil& pencil, Prover<Cholesky>& prover, dou
     return k;
 }
 
-/// An ε ≥ 0, 1/s², with K ⪰ −εM proved by factorisation of K + εM: the smallest that rounding
-/// allows, within a factor of 16; infinity when none up to k_max is. For K with factor `stiffness`
-/// or D.
+/// Explicit Euler where M, D and K commute [T9]: near critical damping the step moves faster than
+/// k_max does, so k_max is narrowed until the step's bracket fits.
+/// @param d     a bound on the largest eigenvalue of D', 1/s
+/// @param mode  the stiffest one known
 template <class Cholesky>
-double semidefinite_deficit(const Pencil& pencil, Prover<Cholesky>& prover, const Combination& c,
-                            double norm) {
-    if (!(norm > 0) || !std::isfinite(norm)) return infinity;
-    for (double epsilon = 1e-14 * norm; epsilon <= norm; epsilon *= 16) {
-        Combination shifted = c;
-        shifted.mass += epsilon;
-        if (prove(prover, pencil, shifted).proved) return epsilon;
+void narrow_commuting(const Pencil& pencil, Factorisations<Cholesky>& effort, double d,
+                      RitzPair mode, Bracket& bracket) {
+    for (double share = effort.tightness; share > 1e-14 && !bracket.within(effort.tightness);
+         share /= 16) {
+        auto proved = narrow_maximum(pencil, effort.prover, share);
+        bracket.certified =
+            std::max(bracket.certified, certified_explicit(pencil, proved.upper, d));
+        if (proved.vector.size() > 0) mode.vector = std::move(proved.vector);
+        bracket.refuted = refuted_explicit(pencil, mode, true);
+        if (proved.upper > proved.lower * (1 + share)) break;
     }
-    return infinity;
 }
 
 /// Explicit Euler with a D that does not commute: [T17] by two factorisations, as far as D − hK⁺ is
@@ -107,8 +123,9 @@ double semidefinite_deficit(const Pencil& pencil, Prover<Cholesky>& prover, cons
 /// @param k     a bound on k_max, 1/s²
 /// @param high  no limit is above this step, s
 template <class Cholesky>
-void narrow_explicit(const Pencil& pencil, Prover<Cholesky>& prover, double tightness, double k,
-                     double high, Bracket& bracket, double& up_to, double& delta) {
+void narrow_explicit(const Pencil& pencil, Factorisations<Cholesky>& effort, double k, double high,
+                     Bracket& bracket, double& up_to, double& delta) {
+    Prover<Cholesky>& prover = effort.prover;
     const auto second = [&](double h) {
         return prove(prover, pencil, {4, h * h, -2 * h, false}).proved;
     };
@@ -116,8 +133,8 @@ void narrow_explicit(const Pencil& pencil, Prover<Cholesky>& prover, double tigh
     double low = bracket.certified;
     double top = std::min(high, bracket.refuted);
     double shown = 0;
-    for (int repeat = 0; repeat < 60 && top > (low > 0 ? low : top * 1e-12) * (1 + tightness);
-         ++repeat) {
+    for (int repeat = 0;
+         repeat < 60 && top > (low > 0 ? low : top * 1e-12) * (1 + effort.tightness); ++repeat) {
         const double h = low > 0 ? std::sqrt(low * top) : top / 16;
         const double tiny = 1e-9 * h * k;
         const bool strict = prove(prover, pencil, {0, -h, 1}).proved;

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "../lanczos.hpp"
@@ -113,42 +114,55 @@ Eigen::VectorXd SinglePrecisionSprings<Dim>::shape(const Eigen::VectorXf& q) con
 /// The plain Lanczos process [B. N. Parlett, The symmetric eigenvalue problem, ch. 13] until the
 /// largest Ritz value's residual is `tolerance` of it; at so rough a tolerance the basis needs no
 /// reorthogonalisation.
+/// @param multiply  y ← A q
+/// @param q  where to begin, of unit length
+/// @returns the vector, or an empty one when the steps were not enough
+template <class Real = double>  // a template: only its callers compile the eigensolver
+Eigen::VectorXf quick_vector(
+    const std::function<void(const Eigen::VectorXf& q, Eigen::VectorXf& y)>& multiply,
+    Eigen::VectorXf q) {
+    constexpr int most = 24;
+    constexpr int least = 8;  // steps before the first look
+    constexpr double tolerance = 2e-2;
+    Eigen::MatrixXf Q(q.size(), most);
+    Eigen::VectorXd alpha(most);  // diagonal of the tridiagonal QᵀAQ
+    Eigen::VectorXd beta(most);   // beside it
+    Eigen::VectorXf w;
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> projected;
+    for (int j = 0; j < most; ++j) {
+        Q.col(j) = q;
+        multiply(q, w);
+        const float along = q.dot(w);
+        w -= along * q;
+        if (j > 0) w -= static_cast<float>(beta[j - 1]) * Q.col(j - 1);
+        const float beside = w.norm();
+        if (!(beside > 0) || !std::isfinite(beside)) return {};
+        q = w / beside;
+        alpha[j] = along;
+        beta[j] = beside;
+        if (j % 2 == 0 || j + 1 < least) continue;
+        projected.computeFromTridiagonal(alpha.head(j + 1), beta.head(j));
+        const Eigen::VectorXd leading = projected.eigenvectors().col(j);
+        if (beta[j] * std::abs(leading[j]) <= tolerance * projected.eigenvalues()[j]) {
+            const Eigen::VectorXf shares = leading.cast<float>();
+            return Q.leftCols(j + 1) * shares;
+        }
+    }
+    return {};
+}
+
 /// @param start  N, an approximate mode to begin with, or empty; a scattered vector is mixed in, or
 ///               an eigenvector that no longer leads would be found again and nothing else
 /// @returns u, N, of any length; empty when the steps were not enough
 template <int Dim>
 Eigen::VectorXd quick_mode(const SpringPencil<Dim>& pencil, const Combination& c,
                            const Eigen::VectorXd& start = {}) {
-    constexpr int most = 24;
-    constexpr int least = 8;  // steps before the first look
-    constexpr float tolerance = 2e-2F;
     SinglePrecisionSprings<Dim> A(pencil, c);
-    Eigen::MatrixXf Q(A.size(), most);
-    Eigen::VectorXf alpha(most);  // diagonal of the tridiagonal QᵀAQ
-    Eigen::VectorXf beta(most);   // beside it
-    const Eigen::VectorXd scattered = scattered_vector(pencil.size());
-    Eigen::VectorXf q = scattered.cast<float>().normalized();
+    Eigen::VectorXf q = scattered_vector(pencil.size()).template cast<float>().normalized();
     if (start.size() == A.size()) q += 4.F * A.coordinates(start).normalized();
     q.normalize();
-    Eigen::VectorXf w;
-    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> projected;
-    for (int j = 0; j < most; ++j) {
-        Q.col(j) = q;
-        A.multiply(q, w);
-        alpha[j] = q.dot(w);
-        w -= alpha[j] * q;
-        if (j > 0) w -= beta[j - 1] * Q.col(j - 1);
-        beta[j] = w.norm();
-        if (!(beta[j] > 0) || !std::isfinite(beta[j])) return {};
-        q = w / beta[j];
-        if (j % 2 == 0 || j + 1 < least) continue;
-        projected.computeFromTridiagonal(alpha.head(j + 1), beta.head(j));
-        const float residual = beta[j] * std::abs(projected.eigenvectors()(j, j));
-        if (residual <= tolerance * projected.eigenvalues()[j]) {
-            return A.shape(Q.leftCols(j + 1) * projected.eigenvectors().col(j));
-        }
-    }
-    return {};
+    q = quick_vector([&](const Eigen::VectorXf& u, Eigen::VectorXf& y) { A.multiply(u, y); }, q);
+    return q.size() > 0 ? A.shape(q) : Eigen::VectorXd();
 }
 
 /// An approximate pair of the largest eigenvalue, as largest_ritz_pair gives it: for many springs

@@ -10,7 +10,25 @@
 namespace taut {
 
 template <class Scalar, class Cholesky>
-StepLimit<Scalar> Stability<Scalar, Cholesky>::explicit_limit(double tightness) const {
+template <class Effort>
+StepLimit<Scalar> Stability<Scalar, Cholesky>::bracket(Method method, Effort effort) const {
+    if (size() == 0) return limit(detail::infinity, detail::infinity, Cause::nothing_to_limit);
+    StepLimit<Scalar> answer;
+    switch (method) {
+        case Method::explicit_euler: answer = explicit_limit(effort); break;
+        case Method::symplectic_euler:
+        case Method::velocity_verlet: answer = symplectic_limit(effort); break;
+        case Method::implicit_euler: answer = implicit_limit(); break;
+    }
+    // An explicit step that is certified is so by D − hK ≻ 0, which needs no D ⪰ 0 beside it.
+    if (method != Method::explicit_euler || !(answer.certified > 0)) admit_negative_damping(answer);
+    add_growth(answer, effort);
+    return answer;
+}
+
+template <class Scalar, class Cholesky>
+template <class Effort>
+StepLimit<Scalar> Stability<Scalar, Cholesky>::explicit_limit(Effort& effort) const {
     const Pencil& pencil = *pencil_;
     const double k = pencil.upper_bound({0, 1, 0});
     const double d = pencil.upper_bound({0, 0, 1});
@@ -29,35 +47,26 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::explicit_limit(double tightness) 
     const bool commutes = pencil.is_rayleigh() && (pencil.stiffness_semidefinite() ||
                                                    pencil.rayleigh().stiffness_proportional == 0);
     detail::Bracket bracket{detail::certified_explicit(pencil, k, d), detail::infinity, {}};
-    RitzPair mode = stiffest_;
-    Prover<Cholesky> prover;
-    if (tightness > 0 && pencil.is_rayleigh() && pencil.stiffness_semidefinite()) {
-        // Near critical damping the step moves faster than k_max does [T9]: narrow until it fits.
-        for (double share = tightness; share > 1e-14; share /= 16) {
-            auto proved = detail::narrow_maximum(pencil, prover, share);
-            bracket.certified =
-                std::max(bracket.certified, detail::certified_explicit(pencil, proved.upper, d));
-            if (proved.vector.size() > 0) mode.vector = std::move(proved.vector);
-            bracket.refuted = detail::refuted_explicit(pencil, mode, commutes);
-            if (bracket.within(tightness) || proved.upper > proved.lower * (1 + share)) break;
-        }
-    } else {
-        bracket.refuted = detail::refuted_explicit(pencil, mode, commutes);
-    }
+    bracket.refuted = detail::refuted_explicit(pencil, stiffest_, commutes);
     double estimate = 0;
-    if (!commutes && size() <= dense_size) {
-        const DenseAnalysis<> dense(pencil, false);
-        bracket.refuted = std::min(bracket.refuted, dense.explicit_limit_above());
-        estimate = dense.explicit_limit();
-    } else if (!commutes && tightness > 0 && k > 0) {
-        estimate = explicit_estimate(pencil, k);
-    }
     double up_to = 0;
     double delta = 0;
-    if (tightness > 0 && !bracket.within(tightness) && !pencil.is_rayleigh()) {
-        // No limit is above that of the best commuting damping by much [T12].
-        const double high = k > 0 ? 4 / std::sqrt(k) : 4 / d;
-        detail::narrow_explicit(pencil, prover, tightness, k, high, bracket, up_to, delta);
+    if constexpr (Effort::factorises) {
+        if (pencil.is_rayleigh() && pencil.stiffness_semidefinite()) {
+            detail::narrow_commuting(pencil, effort, d, stiffest_, bracket);
+        }
+        if (!commutes && size() <= dense_size) {
+            const DenseAnalysis<> dense(pencil, false);
+            bracket.refuted = std::min(bracket.refuted, dense.explicit_limit_above());
+            estimate = dense.explicit_limit();
+        } else if (!commutes && k > 0) {
+            estimate = explicit_estimate(pencil, k);
+        }
+        if (!bracket.within(effort.tightness) && !pencil.is_rayleigh()) {
+            // No limit is above that of the best commuting damping by much [T12].
+            const double high = k > 0 ? 4 / std::sqrt(k) : 4 / d;
+            detail::narrow_explicit(pencil, effort, k, high, bracket, up_to, delta);
+        }
     }
     const double certified = bracket.certified;
     const bool by_damping = k <= 0 || certified * certified * k < 4 * (1 - 1e-3);
@@ -78,7 +87,8 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::explicit_limit(double tightness) 
 }
 
 template <class Scalar, class Cholesky>
-StepLimit<Scalar> Stability<Scalar, Cholesky>::symplectic_limit(double tightness) const {
+template <class Effort>
+StepLimit<Scalar> Stability<Scalar, Cholesky>::symplectic_limit(Effort& effort) const {
     const Pencil& pencil = *pencil_;
     // A bound within 3 % of the Ritz value's step needs no improvement.
     detail::Bracket bracket;
@@ -89,10 +99,7 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::symplectic_limit(double tightness
     if (!(bracket.certified > 0)) return limit(0, detail::infinity, Cause::overflow);
     bracket.vector = stiffest_.vector;
     bracket.refuted = detail::refuted_symplectic(pencil, bracket.vector);
-    if (tightness > 0 && !bracket.within(tightness)) {
-        Prover<Cholesky> prover;
-        detail::narrow_symplectic(pencil, prover, tightness, bracket);
-    }
+    if constexpr (Effort::factorises) detail::narrow_symplectic(pencil, effort, bracket);
     return limit(bracket.certified, bracket.refuted,
                  detail::symplectic_cause(pencil, bracket.certified, bracket.vector));
 }
@@ -115,9 +122,7 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::implicit_limit() const {
                      critical_step(Method::implicit_euler, k.upper(), std::max(0.0, d.upper())),
                      Cause::stiffness);
     }
-    Prover<Cholesky> prover;
-    const double epsilon = detail::semidefinite_deficit(pencil, prover, {0, 1, 0}, kappa);
-    return limit(1 / std::sqrt(std::min(epsilon, kappa)), detail::infinity, Cause::stiffness);
+    return limit(1 / std::sqrt(pencil.deficit({0, 1, 0})), detail::infinity, Cause::stiffness);
 }
 
 /// D ⪰ −δM is enough for a limit whose multipliers stay below 1 + hδ [T17]: an answer of
@@ -126,9 +131,8 @@ template <class Scalar, class Cholesky>
 void Stability<Scalar, Cholesky>::admit_negative_damping(StepLimit<Scalar>& limit) const {
     const Pencil& pencil = *pencil_;
     if (pencil.damping_semidefinite()) return;
-    const double negative = std::max(0.0, pencil.upper_bound({0, 0, -1}));
-    Prover<Cholesky> prover;
-    const double delta = detail::semidefinite_deficit(pencil, prover, {0, 0, 1}, negative);
+    const double delta = pencil.deficit({0, 0, 1});
+    if (delta == 0) return;
     // A δ that is no rounding is negative damping, which feeds energy in at every step.
     const bool rounding = delta <= 1e-6 * std::max(0.0, pencil.upper_bound({0, 0, 1}));
     if (rounding && !(limit.certified > 0)) return;
@@ -147,7 +151,9 @@ void Stability<Scalar, Cholesky>::admit_negative_damping(StepLimit<Scalar>& limi
 /// undamped motion (damping slows the growth but does not remove it), or what could not be
 /// excluded.
 template <class Scalar, class Cholesky>
-void Stability<Scalar, Cholesky>::add_growth(StepLimit<Scalar>& limit, double tightness) const {
+template <class Effort>
+void Stability<Scalar, Cholesky>::add_growth(StepLimit<Scalar>& limit,
+                                             [[maybe_unused]] Effort& effort) const {
     const Pencil& pencil = *pencil_;
     if (pencil.stiffness_semidefinite()) return;
     LanczosOptions options;
@@ -168,11 +174,12 @@ void Stability<Scalar, Cholesky>::add_growth(StepLimit<Scalar>& limit, double ti
     }
     if (limit.cause == Cause::undamped) return;
     // Not refuted, not proved: K ⪰ −εM is what can be said.
-    double epsilon = std::max(0.0, pencil.upper_bound({0, -1, 0, false}));
-    if (epsilon > 0 && (tightness > 0 || !pencil.projects())) {
-        Prover<Cholesky> prover;
-        epsilon = std::min(epsilon,
-                           detail::semidefinite_deficit(pencil, prover, {0, 1, 0, false}, epsilon));
+    const Combination stiffness{0, 1, 0, false};
+    double epsilon = pencil.deficit(stiffness);
+    if constexpr (Effort::factorises) {
+        if (pencil.projects()) {
+            epsilon = std::min(epsilon, proved_deficit(effort.prover, pencil, stiffness, epsilon));
+        }
     }
     limit.admitted_growth = std::max(limit.admitted_growth, std::sqrt(epsilon));
     if (pencil.projects()) return;

@@ -10,7 +10,8 @@ namespace taut::detail {
 
 /// Number of eigenvalues of M⁻¹K⁺ below 1e-10·k_max: the negative pivots of K⁺ − εM, by Sylvester's
 /// law of inertia. Numerical: the factorisation of an indefinite matrix has no error bound.
-inline Index count_zero_modes(const Pencil& pencil, double k_max) {
+template <class Real = double>  // a template: only its callers compile the factorisation
+Index count_zero_modes(const Pencil& pencil, double k_max) {
     if (!(k_max > 0)) return pencil.size();
     const double epsilon = 1e-10 * k_max;
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt(pencil.assemble({-epsilon, 1, 0}));

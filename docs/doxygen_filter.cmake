@@ -1,0 +1,118 @@
+# SPDX-FileCopyrightText: 2026 Taut contributors
+# SPDX-License-Identifier: MIT
+
+# cmake -P doxygen_filter.cmake FILE: prints a header or a page as Doxygen 1.9.4 has to read it. No
+# line moves, so that its warnings name the right one.
+
+cmake_minimum_required(VERSION 3.21)
+
+# Doxygen takes an initial's dot for the end of the first sentence, and finds the declaration of a
+# member template by the words of its return type.
+function(filter_header text)
+    string(REGEX REPLACE "([ (-][A-Z])\\. " "\\1.&nbsp;" text "${text}")
+    string(REGEX REPLACE "\nauto ([^;{}]+)\n    -> ([^;{}]+) {" "\n\\2 \\1\n{" text "${text}")
+    string(REGEX REPLACE "\nauto ([^;{}]+) -> ([^;{}]+) {" "\n\\2 \\1 {" text "${text}")
+    string(REGEX MATCHALL "\n[A-Za-z]+<[A-Za-z]+> [A-Za-z]+<[A-Za-z]+>::" starts "${text}")
+    foreach(start IN LISTS starts)
+        if(start MATCHES "^\n([A-Za-z]+)<[A-Za-z]+> ([A-Za-z]+)(<.+)$" AND
+                CMAKE_MATCH_1 STREQUAL CMAKE_MATCH_2)
+            string(REPLACE "${start}" "\n${CMAKE_MATCH_1} ${CMAKE_MATCH_1}${CMAKE_MATCH_3}" text
+                "${text}")
+        endif()
+    endforeach()
+    set(text "${text}" PARENT_SCOPE)
+endfunction()
+
+# The identifier of a heading of a page. Doxygen has one set of them for all pages.
+function(identifier result page slug)
+    cmake_path(NORMAL_PATH page)
+    cmake_path(GET page STEM stem)
+    cmake_path(GET page PARENT_PATH folder)
+    cmake_path(GET folder FILENAME folder)
+    set(${result} "${folder}-${stem}-${slug}" PARENT_SCOPE)
+endfunction()
+
+# Pages are written for their place in the repository, where links to headings, programs and folders
+# work. On the site a heading is called by its words, a program has its page among the examples, and
+# other files and folders have none; what does not exist becomes a reference that Doxygen refuses.
+function(filter_page text)
+    # CMake's lists would split at these.
+    string(REPLACE ";" "<semicolon>" text "${text}")
+    string(REPLACE "[" "<open>" text "${text}")
+    string(REPLACE "]" "<close>" text "${text}")
+
+    set(known "")
+    string(REGEX MATCHALL "\n##+ [^\n]+" headings "${text}")
+    foreach(heading IN LISTS headings)
+        string(REGEX REPLACE "^\n#+ " "" slug "${heading}")
+        string(TOLOWER "${slug}" slug)
+        string(REGEX REPLACE "[^a-z0-9 _-]" "" slug "${slug}")
+        string(REPLACE " " "-" slug "${slug}")
+        if(NOT slug IN_LIST known)
+            list(APPEND known "${slug}")
+            identifier(id "${file}" "${slug}")
+            string(REPLACE "${heading}\n" "${heading} {#${id}}\n" text "${text}")
+        endif()
+    endforeach()
+
+    # To Doxygen an apostrophe ends a code span of single backticks.
+    string(REGEX MATCHALL "```[^`]*```|`[^`]+`" spans "${text}")
+    list(FILTER spans INCLUDE REGEX "^`[^`]+'")
+    foreach(span IN LISTS spans)
+        string(REPLACE "${span}" "`${span}`" text "${text}")
+    endforeach()
+
+    # The README of a folder of docs/ stands above the other pages there.
+    set(contents "")
+    if(file MATCHES "docs/([a-z_]+)/README\\.md$")
+        set(contents "${CMAKE_MATCH_1}")
+    endif()
+    # Without a space: "](auto& x)" is C++.
+    string(REGEX MATCHALL "<close>\\([^) \n]+\\)" links "${text}")
+    list(REMOVE_DUPLICATES links)
+    foreach(link IN LISTS links)
+        string(REGEX REPLACE "^<close>\\(|\\)$" "" target "${link}")
+        if(target MATCHES "^([^:#]*)#(.+)$")
+            set(page "${file}")
+            if(CMAKE_MATCH_1)
+                set(page "${folder}/${CMAKE_MATCH_1}")
+            endif()
+            identifier(id "${page}" "${CMAKE_MATCH_2}")
+            string(REPLACE "${link}" "<close>(@ref ${id})" text "${text}")
+        elseif(contents AND target MATCHES "^([a-z_]+)\\.md$")
+            string(REGEX REPLACE "<open>([^<\n]+)<close>\\(${target}\\)"
+                "@subpage md_docs_${contents}_${CMAKE_MATCH_1} \"\\1\"" text "${text}")
+        elseif(target MATCHES "([^/:]+\\.cpp)$")
+            string(REPLACE "${link}" "<close>(@ref ${CMAKE_MATCH_1})" text "${text}")
+        elseif(target MATCHES ":" OR
+                (target MATCHES "\\.(md|png|svg)$" AND EXISTS "${folder}/${target}"))
+            continue()
+        elseif(EXISTS "${folder}/${target}")
+            string(REPLACE "<close>(${target})" "<nowhere>" text "${text}")
+            string(REGEX REPLACE "<open>([^<\n]+)<nowhere>" "\\1" text "${text}")
+        else()
+            string(REPLACE "${link}" "<close>(@ref ${target})" text "${text}")
+        endif()
+    endforeach()
+
+    string(REPLACE "<open>" "[" text "${text}")
+    string(REPLACE "<close>" "]" text "${text}")
+    string(REPLACE "<semicolon>" ";" text "${text}")
+    set(text "${text}" PARENT_SCOPE)
+endfunction()
+
+set(file "${CMAKE_ARGV3}")
+cmake_path(GET file PARENT_PATH folder)
+file(READ "${file}" text)
+if(file MATCHES "\\.md$")
+    filter_page("${text}")
+else()
+    filter_header("${text}")
+endif()
+
+# CMake itself cannot write to standard output without a decoration.
+string(RANDOM name)
+set(filtered "${CMAKE_CURRENT_BINARY_DIR}/filtered_${name}")
+file(WRITE "${filtered}" "${text}")
+execute_process(COMMAND ${CMAKE_COMMAND} -E cat "${filtered}")
+file(REMOVE "${filtered}")
