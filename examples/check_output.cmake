@@ -1,12 +1,17 @@
 # SPDX-FileCopyrightText: 2026 Taut contributors
 # SPDX-License-Identifier: MIT
 
-# The program succeeds, and prints every line that the page quotes ("    > …"), its numbers apart:
-# these depend on the compiler's rounding.
-execute_process(COMMAND ${program} OUTPUT_VARIABLE output RESULT_VARIABLE result)
-if(NOT result EQUAL 0)
-    message(FATAL_ERROR "${program} exits with ${result}:\n${output}")
-endif()
+# The program (or several, with commas between) succeeds, and prints every line that the page quotes
+# ("    > …"), its numbers apart: these depend on the compiler's rounding.
+string(REPLACE "," ";" programs "${program}")
+set(output "")
+foreach(program IN LISTS programs)
+    execute_process(COMMAND ${program} OUTPUT_VARIABLE printed RESULT_VARIABLE result)
+    if(NOT result EQUAL 0)
+        message(FATAL_ERROR "${program} exits with ${result}:\n${printed}")
+    endif()
+    string(APPEND output "${printed}")
+endforeach()
 
 function(without_numbers text result)
     string(REGEX REPLACE "[-+]?[0-9][0-9.]*(e[-+]?[0-9]+)?" "#" text "${text}")
@@ -23,6 +28,6 @@ foreach(line IN LISTS quoted)
     without_numbers("${line}" wanted)
     string(FIND "${printed}" "${wanted}\n" found)
     if(found EQUAL -1)
-        message(SEND_ERROR "${page} quotes \"${line}\"; the program prints\n${output}")
+        message(SEND_ERROR "${page} quotes \"${line}\"; ${programs} print\n${output}")
     endif()
 endforeach()
