@@ -6,7 +6,9 @@
 #define TINYOBJLOADER_USE_DOUBLE
 #include <tiny_obj_loader.h>
 
+#include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <taut/core/types.hpp>
@@ -21,33 +23,45 @@ struct MeshFile {
     std::vector<std::vector<taut::Index>> faces;  // corners, 0-based
 };
 
-/// tinyobj reads what is no number as 0 and a nan as it is. Throws naming file and line.
-inline void check_vertices(const std::string& path) {
-    std::ifstream file(path);
+/// The lines of an OBJ file that make its mesh, the others blank: tinyobj casts what it finds in
+/// lines of bones and the like without a look, and reads what is no number as 0 and a nan as it is.
+/// Throws naming file and line where a vertex is not three finite numbers.
+inline std::string mesh_lines(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
     if (!file) throw std::runtime_error(path + ": cannot be opened");
-    std::string line;
-    for (long long number = 1; std::getline(file, line); ++number) {
-        const auto first = line.find_first_not_of(" \t");
-        if (first == std::string::npos || line[first] != 'v') continue;
-        const char* text = line.c_str() + first + 1;
-        if (*text != ' ' && *text != '\t') continue;
-        double coordinate = 0;
-        for (int d = 0; d < 3; ++d) {
-            if (read_number(text, coordinate)) continue;
-            throw std::runtime_error(path + ":" + std::to_string(number) +
-                                     ": a vertex needs three finite numbers");
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    std::string kept;
+    long long number = 1;
+    for (std::size_t begin = 0; begin < text.size(); ++number) {
+        const std::size_t end = std::min(text.find_first_of("\r\n", begin), text.size());
+        const std::string line = text.substr(begin, end - begin);
+        begin = end + (text.compare(end, 2, "\r\n") == 0 ? 2 : 1);
+        const auto first = std::min(line.find_first_not_of(" \t"), line.size());
+        const auto last = std::min(line.find_first_of(" \t", first), line.size());
+        const std::string word = line.substr(first, last - first);
+        if (word == "v") {
+            const char* rest = line.c_str() + last;
+            double coordinate = 0;
+            for (int d = 0; d < 3; ++d) {
+                if (read_number(rest, coordinate)) continue;
+                throw std::runtime_error(path + ":" + std::to_string(number) +
+                                         ": a vertex needs three finite numbers");
+            }
         }
+        if (word == "v" || word == "vt" || word == "vn" || word == "f") kept += line;
+        kept += '\n';
     }
+    return kept;
 }
 
 /// Reads an OBJ file; polygons stay whole. Throws std::runtime_error naming the file.
 inline MeshFile read_obj(const std::string& path) {
-    check_vertices(path);
+    const std::string lines = mesh_lines(path);
     tinyobj::ObjReaderConfig config;
     config.triangulate = false;
     config.vertex_color = false;
     tinyobj::ObjReader reader;
-    if (!reader.ParseFromFile(path, config)) {
+    if (!reader.ParseFromString(lines, "", config)) {
         std::string why = reader.Error();
         while (!why.empty() && (why.back() == '\n' || why.back() == '\r')) why.pop_back();
         throw std::runtime_error(path + ": " + (why.empty() ? "not readable as OBJ" : why));
