@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <taut/solver/modal_analysis.hpp>
 
 #include "soup.hpp"
 
@@ -135,6 +136,28 @@ void require_wrappers(Bytes& bytes, const System& system, const typename System:
     if (adapted) require(moved.finite(), "after an adaptive step the state is finite");
 }
 
+/// Modes that were found can be stepped: finite amplitudes, or a Report and the amplitudes as they
+/// were.
+template <class Linear, class System>
+void require_modes(const Linear& linear, const System& system, const typename System::State& state,
+                   double h) {
+    using Scalar = typename System::Scalar;
+    taut::ModalBasis basis;
+    if (linear.size() == 0 ||
+        !taut::modal_analysis(linear, std::min<Index>(4, linear.size()), basis))
+        return;
+    require(basis.k.allFinite() && basis.shapes.allFinite(), "modes are finite");
+    taut::ModalDynamics<Scalar, System::Dim> modal(linear, state, basis);
+    for (int i = 0; i < 5; ++i) {
+        const Eigen::ArrayXd q = modal.amplitudes();
+        const taut::Report report = modal.step(h, 1 + i);
+        require(
+            report ? modal.amplitudes().allFinite() : (modal.amplitudes() == q || q.isNaN()).all(),
+            "a modal step is finite, or changes nothing");
+    }
+    require(modal.state().x.cols() == system.size(), "modes have the scene's particles");
+}
+
 template <class System>
 void run(Bytes bytes) {
     using Scalar = typename System::Scalar;
@@ -167,6 +190,7 @@ void run(Bytes bytes) {
         require_sound(taut::Stability<Scalar>(linear));
         taut::State<Scalar, 1> u = linear.to_free(state);
         require_all_steppers(linear, u, h);
+        require_modes(linear, system, state, static_cast<double>(h));
     });
 }
 

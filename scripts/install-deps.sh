@@ -12,7 +12,7 @@ libcli11-dev libtinyobjloader-dev nlohmann-json3-dev"
 
 case "${1-}" in
     '') ;;
-    --ci) packages="$packages git clang-format-14 clang-16 libclang-rt-16-dev chromium doxygen" ;;
+    --ci) packages="$packages git clang-format-14 clang-16 libclang-rt-16-dev chromium pkgconf doxygen" ;;
     --bench) packages="$packages libboost-dev libbullet-dev libbenchmark-dev libsundials-dev
 python3-matplotlib valgrind" ;;
     *) echo "install-deps: unknown option '$1'; there are --ci and --bench" >&2; exit 1 ;;

@@ -7,8 +7,10 @@
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
+#include <climits>
+#include <cstdlib>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <taut/core/types.hpp>
@@ -25,14 +27,19 @@ struct MeshFile {
 
 /// The lines of an OBJ file that make its mesh, the others blank: tinyobj casts what it finds in
 /// lines of bones and the like without a look, and reads what is no number as 0 and a nan as it is.
-/// Throws naming file and line where a vertex is not three finite numbers.
+/// Throws naming file and line where a vertex is not three finite numbers or a corner is no int.
 inline std::string mesh_lines(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file) throw std::runtime_error(path + ": cannot be opened");
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    std::ostringstream content;
+    content << file.rdbuf();
+    if (content.bad()) throw std::runtime_error(path + ": cannot be read");
+    const std::string text = content.str();
+    const std::string byte_order_mark = "\xEF\xBB\xBF";
     std::string kept;
     long long number = 1;
-    for (std::size_t begin = 0; begin < text.size(); ++number) {
+    for (std::size_t begin = text.compare(0, 3, byte_order_mark) == 0 ? 3 : 0; begin < text.size();
+         ++number) {
         const std::size_t end = std::min(text.find_first_of("\r\n", begin), text.size());
         const std::string line = text.substr(begin, end - begin);
         begin = end + (text.compare(end, 2, "\r\n") == 0 ? 2 : 1);
@@ -46,6 +53,15 @@ inline std::string mesh_lines(const std::string& path) {
                 if (read_number(rest, coordinate)) continue;
                 throw std::runtime_error(path + ":" + std::to_string(number) +
                                          ": a vertex needs three finite numbers");
+            }
+        }
+        if (word == "f") {
+            std::istringstream corners(line.substr(last));
+            for (std::string corner; corners >> corner;) {
+                // tinyobj's int would wrap; a name that is no number it refuses itself.
+                if (std::abs(std::strtoll(corner.c_str(), nullptr, 10)) <= INT_MAX) continue;
+                throw std::runtime_error(path + ":" + std::to_string(number) +
+                                         ": a face has the corner " + corner);
             }
         }
         if (word == "v" || word == "vt" || word == "vn" || word == "f") kept += line;

@@ -52,6 +52,31 @@ void check_consistent(const taut::Pencil& pencil, const Combination& c,
 
 }  // namespace
 
+TEST_CASE("lanczos: the small eigensolver's vectors are orthonormal and diagonalise, at any scale",
+          "[stability]") {
+    Random random(806);
+    for (int repeat = 0; repeat < 300; ++repeat) {
+        const Index m = 1 + random.below(40);
+        const double scale = log_uniform(random, 1e-250, 1e250);
+        Eigen::MatrixXd A(m, m);
+        // Entries of every size, so that columns end in what is nothing beside their heads.
+        for (Index j = 0; j < m; ++j) {
+            for (Index i = j; i < m; ++i) {
+                const double size = repeat % 2 == 0 ? 1 : log_uniform(random, 1e-200, 1);
+                A(i, j) = A(j, i) = scale * (size * random.uniform(-1, 1));
+            }
+        }
+        const auto [values, vectors] = taut::detail::small_spectrum(A);
+        const double room = rounding * static_cast<double>(m);
+        const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(m, m);
+        CHECK((vectors.transpose() * vectors - I).cwiseAbs().maxCoeff() < room);
+        const Eigen::MatrixXd left = A / scale * vectors - vectors * (values / scale).asDiagonal();
+        CHECK(left.cwiseAbs().maxCoeff() < room);
+        for (Index i = 1; i < m; ++i) CHECK(values[i] >= values[i - 1]);
+    }
+    CHECK(taut::detail::small_spectrum(Eigen::MatrixXd::Zero(3, 3)).values.isZero(0));
+}
+
 TEST_CASE("lanczos: never above the largest eigenvalue, and there when the basis is whole",
           "[stability]") {
     Random random(800);

@@ -59,6 +59,34 @@ TEMPLATE_TEST_CASE("matrix_pencil: upper_bound is never below the largest eigenv
     }
 }
 
+TEST_CASE("matrix_pencil: masses at both ends of the range leave no bound too low", "[stability]") {
+    // Weights of the bound vanish there; K_ii/m_i is below the largest eigenvalue whatever they
+    // are.
+    Random random(905);
+    int bounded = 0;
+    for (int repeat = 0; repeat < 400; ++repeat) {
+        const Index n = 2 + random.below(8);
+        Eigen::VectorXd mass(n);
+        for (Index i = 0; i < n; ++i) mass[i] = log_uniform(random, 1e-280, 1e60);
+        Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n);
+        for (Index spring = 0; spring < 2 * n; ++spring) {
+            const Index a = random.below(n);
+            const Index b = random.below(n);
+            const double k = log_uniform(random, 1e-6, 1e9);
+            K(a, a) += k;
+            if (a == b) continue;
+            K(b, b) += k;
+            K(a, b) -= k;
+            K(b, a) -= k;
+        }
+        const MatrixPencil pencil(LinearSystem<double>(mass, {}, sparse(K)));
+        const double bound = pencil.upper_bound({0, 1, 0});
+        CHECK(bound >= K.diagonal().cwiseQuotient(mass).maxCoeff());
+        bounded += std::isfinite(bound);
+    }
+    CHECK(bounded > 100);
+}
+
 TEST_CASE("matrix_pencil: the bound is sharp where no sign cancels", "[stability]") {
     // Collatz and Wielandt: for entries ≥ 0, and for a row of springs, it converges to the truth.
     Random random(901);

@@ -102,8 +102,8 @@ DefinitenessProof prove(Prover<Cholesky>& prover, const Pencil& pencil, const Co
                   [&](const Eigen::VectorXd& scale) { return pencil.assembly_error(c, scale); });
 }
 
-/// An ε ≥ 0, 1/s², with S ⪰ −εM proved by factorisation of S + εM: the smallest that rounding
-/// allows, within a factor of 16; infinity when none up to `most` is.
+/// An ε ≥ 0, in the units of M⁻¹S, with S ⪰ −εM proved by factorisation of S + εM: the smallest
+/// that rounding allows, within a factor of 16; infinity when none up to `most` is.
 template <class Cholesky>
 double proved_deficit(Prover<Cholesky>& prover, const Pencil& pencil, const Combination& c,
                       double most) {

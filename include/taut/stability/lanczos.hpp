@@ -63,7 +63,7 @@ SmallSpectrum small_spectrum(Eigen::MatrixXd A) {
         v = A.col(k);
         v.head(k + 1).setZero();
         const double norm = v.norm();
-        if (!(norm > 0)) continue;
+        if (!(norm > 1e-150)) continue;  // its squares would lose digits, and it changes nothing
         v[k + 1] += v[k + 1] < 0 ? -norm : norm;
         v.normalize();
         // (I − 2vvᵀ)A(I − 2vvᵀ) = A − vwᵀ − wvᵀ.

@@ -164,6 +164,13 @@ double MatrixPencil<Scalar>::upper_bound(const Combination& c, double enough) co
     }
     const double rounding =
         static_cast<double>(widest + 8) * std::numeric_limits<double>::epsilon();
+    // Products that underflow lose less than this in a row; rows without entries lose nothing.
+    const Eigen::VectorXd entries =
+        sizes * Eigen::VectorXd::Ones(size()) + std::abs(c.mass) * mass_;
+    const Eigen::VectorXd underflow =
+        (entries.array() > 0)
+            .select(static_cast<double>(widest + 8) * std::numeric_limits<double>::min(),
+                    Eigen::VectorXd::Zero(size()));
     Eigen::VectorXd p = mass_.cwiseSqrt().cwiseInverse();
     Eigen::VectorXd others(size());
     double best = std::numeric_limits<double>::infinity();
@@ -176,9 +183,12 @@ double MatrixPencil<Scalar>::upper_bound(const Combination& c, double enough) co
         }
         const Eigen::VectorXd diagonal = S.diagonal().cwiseProduct(p);
         const Eigen::VectorXd error =
-            rounding * (sizes * p + std::abs(c.mass) * mass_.cwiseProduct(p));
+            rounding * (sizes * p + std::abs(c.mass) * mass_.cwiseProduct(p)) + underflow;
         const Eigen::VectorXd weight = mass_.cwiseProduct(p);
-        best = std::min(best, (others + diagonal + error).cwiseQuotient(weight).maxCoeff());
+        const Eigen::VectorXd quotient = (others + diagonal + error).cwiseQuotient(weight);
+        // maxCoeff may pass over what is not a number: a weight that vanished, or overflow.
+        if (!(weight.minCoeff() > 0) || quotient.hasNaN()) break;
+        best = std::min(best, quotient.maxCoeff());
         const Eigen::VectorXd powered = (others + diagonal.cwiseAbs()).cwiseQuotient(mass_);
         const double growth = powered.cwiseQuotient(p).maxCoeff();
         if (!(growth > 0)) break;

@@ -61,7 +61,8 @@ public:
     /// it is never below c.mass + c.damping·d0.
     /// @param enough  stop improving the bound once it is at most this
     virtual double upper_bound(const Combination& c, double enough = 0) const = 0;
-    /// An ε ≥ 0, 1/s², with S ⪰ −εM proved: by the bound, for bare matrices also by factorisation.
+    /// An ε ≥ 0, in the units of M⁻¹S, with S ⪰ −εM proved: by the bound, for bare matrices also by
+    /// factorisation.
     virtual double deficit(const Combination& c) const {
         return std::max(0.0, upper_bound({-c.mass, -c.stiffness, -c.damping, c.project}));
     }

@@ -83,7 +83,8 @@ public:
     void update(const SpringSystem<Scalar, Dim, Laws...>& system, const State<Scalar, Dim>& state);
 
     /// The bracket of the largest stable step, s: by bounds alone, O(springs) for each of a few
-    /// passes [T26], and a Ritz vector.
+    /// passes [T26], and a Ritz vector. Bare matrices that are not diagonally dominant take some
+    /// factorisations by Eigen, too.
     StepLimit<Scalar> max_step(Method method) const { return bracket(method, detail::Bounds{}); }
     /// The same, narrowed by sparse factorisations until refuted/certified ≤ 1 + tightness where
     /// the method's conditions allow it (1e-6 is reachable; a factorisation or two) [T22], up to

@@ -58,8 +58,8 @@ constexpr const char* describe(Cause cause) {
             return "nothing limits the step: no particle is free, or none is pulled or damped";
         case Cause::buckling:
             return "compressed springs make the physics itself unstable: the limit is the step's "
-                   "own, "
-                   "and growth_rate is what no step size removes; relax the compression, or pin";
+                   "own, and growth_rate is what no step size removes; relax the compression, or "
+                   "pin";
         case Cause::damping_unproved:
             return "the damping matrix could not be shown to be positive semi-definite: no step is "
                    "certified; check its sign, or give dampers as springs";
@@ -68,10 +68,9 @@ constexpr const char* describe(Cause cause) {
                    "units of its stiffness, masses and damping";
         case Cause::rounding:
             return "a matrix could be shown to be positive semi-definite only up to rounding, so "
-                   "slow "
-                   "growth is not excluded: certified_up_to is safe but for admitted_growth; give "
-                   "the "
-                   "scene as springs to have it exact";
+                   "slow growth is not excluded: certified_up_to is safe but for admitted_growth; "
+                   "give "
+                   "the scene as springs to have it exact";
     }
     return "unknown cause";
 }
@@ -83,8 +82,9 @@ struct StepLimit {
                            ///< infinity: every step is)
     Scalar refuted = 0;    ///< s; a vector proves that this step fails (infinity: none is known to)
     Cause cause = Cause::stiffness;
-    Scalar estimate = 0;     ///< s; explicit Euler under dampers: a numerical guess at the limit
-                             ///< where the bracket is wide; safe for nothing (0: none)
+    Scalar estimate = 0;  ///< s; explicit Euler under dampers, where a tightness was asked for: a
+                          ///< numerical guess at the limit
+                          ///< where the bracket is wide; safe for nothing (0: none)
     double growth_rate = 0;  ///< 1/s; √κ of the physics when K has the eigenvalue −κ, else 0
     Scalar certified_up_to = 0;  ///< s; where semi-definiteness could be shown only up to rounding:
                                  ///< up to this step nothing grows faster than admitted_growth
