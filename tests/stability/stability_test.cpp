@@ -145,6 +145,25 @@ TEST_CASE("stability: spectral_radius is that of the transition matrix", "[stabi
     }
 }
 
+TEST_CASE("stability: a spectrum that overflows is an open bracket and no NaN", "[stability]") {
+    Random random(744);
+    for (int repeat = 0; repeat < 200; ++repeat) {
+        const Index n = 2 + random.below(6);
+        Eigen::VectorXd mass(n);
+        for (Index i = 0; i < n; ++i) mass[i] = log_uniform(random, 1e-3, 1e8);
+        Eigen::MatrixXd K(n, n);
+        for (Index j = 0; j < n; ++j) {
+            for (Index i = j; i < n; ++i) {
+                K(i, j) = K(j, i) = random.uniform(-1, 1) * log_uniform(random, 1e280, 1e307);
+            }
+        }
+        const taut::Stability<double> stability(taut::LinearSystem<double>(mass, {}, sparse(K)));
+        const auto spectrum = stability.stiffness_spectrum();
+        CHECK(spectrum.k_min.lower <= spectrum.k_min.upper);
+        CHECK(spectrum.k_max.lower <= spectrum.k_max.upper);
+    }
+}
+
 TEST_CASE("stability: causes", "[stability]") {
     std::set<Cause> reached;
     const auto expect = [&](const auto& limit, Cause cause) {

@@ -223,6 +223,7 @@ StiffnessSpectrum Stability<Scalar, Cholesky>::stiffness_spectrum(bool count_zer
         std::max(0.0, detail::quotients(pencil, stiffest_.vector, true).k.lower());
     const RitzPair softest = detail::softest(pencil);
     spectrum.k_min.upper = detail::quotients(pencil, softest.vector, true).k.upper();
+    if (std::isnan(spectrum.k_min.upper)) spectrum.k_min.upper = detail::infinity;  // overflow
     // Springs: K⁺ ⪰ 0 by construction. Bare matrices: proved so, or bounded.
     spectrum.k_min.lower = -std::max(0.0, pencil.upper_bound({0, -1, 0}));
     if (pencil.projects() || pencil.stiffness_semidefinite()) spectrum.k_min.lower = 0;
