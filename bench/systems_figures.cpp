@@ -257,7 +257,7 @@ void energies(const std::string& folder) {
 template <class Advance>
 void hooked(Table& table, const char* name, Advance&& advance) {
     static constexpr Index particle = 77;
-    static constexpr double stiffness = 4e4;  // N/m
+    static constexpr double stiffness = 4e5;  // N/m
     auto cloth = taut::hanging_cloth<double>({12, 12});
     const Eigen::Vector3d hook = cloth.initial_state().x.col(particle);
     cloth.set_external_force([hook](const Cloth::State& state, Cloth::Force& f) {

@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
-// The systems that the paper measures itself against, and the guard round a stepper: what each
-// costs beside a plain step in the same run, and what it keeps. Prints Markdown; times are the
-// minimum and the median of several runs, in ms.
+// The systems that the paper measures itself against: what each costs beside a plain step in the
+// same run, and what it keeps. Prints Markdown; times are the minimum and the median of several
+// runs, in ms.
 
 #include <cmath>
 #include <cstdio>
 #include <taut/integrator/bdf2.hpp>
-#include <taut/integrator/guarded.hpp>
 #include <taut/integrator/modal_dynamics.hpp>
 #include <taut/model/buckling.hpp>
 #include <taut/model/tension_only.hpp>
@@ -30,50 +29,6 @@ constexpr double frame = 1.0 / 60;  // s
 
 void require(bool ok) {
     if (!ok) std::printf("A STEP FAILED\n");
-}
-
-Cloth hanging(Index n) {
-    taut::ClothOptions options;
-    options.rows = options.columns = n;
-    return taut::hanging_cloth<double>(options);
-}
-
-/// Frames by the bare stepper and by the guard, in turns, from the same state.
-template <class Stepper>
-void guard_row(const char* name, const Cloth& cloth, Index n, int runs) {
-    taut::Guarded<Stepper> guard(cloth);
-    Stepper bare(cloth);
-    auto by_guard = cloth.initial_state();
-    const auto first = guard.advance(by_guard, frame);
-    require(bool(first));
-    auto by_bare = by_guard;
-    Stopwatch guarded, plain;
-    for (int run = 0; run < runs; ++run) {
-        guarded.run([&] { require(bool(guard.advance(by_guard, frame))); });
-        plain.run([&] { require(bool(bare.step(by_bare, first.h, first.substeps))); });
-    }
-    const Times a = plain.times();
-    const Times b = guarded.times();
-    std::printf("| %s | %ld×%ld | %ld | %.3f / %.3f | %.3f / %.3f | %+.1f %% / %+.1f %% |\n", name,
-                static_cast<long>(n), static_cast<long>(n), static_cast<long>(first.substeps),
-                a.least, a.median, b.least, b.median, 100 * (b.least / a.least - 1),
-                100 * (b.median / a.median - 1));
-}
-
-void guards() {
-    std::printf(
-        "## Guarded: a frame of 1/60 s of the hanging cloth\n\n"
-        "| stepper | cloth | substeps | bare, ms | guarded, ms | cost: least, median |\n"
-        "|---|---|---|---|---|---|\n");
-    for (const Index n : {16, 32, 64}) {
-        const Cloth cloth = hanging(n);
-        const int runs = static_cast<int>(12800 / n);
-        guard_row<taut::SymplecticEuler<Cloth>>("symplectic", cloth, n, runs);
-        guard_row<taut::VelocityVerlet<Cloth>>("Verlet", cloth, n, runs);
-    }
-    const Cloth cloth = hanging(32);
-    guard_row<taut::ImplicitEuler<Cloth>>("implicit", cloth, 32, 40);
-    std::printf("\n");
 }
 
 template <class Shape>
@@ -193,7 +148,6 @@ void laws() {
 }  // namespace
 
 int main() {
-    guards();
     modal();
     swings();
     laws();

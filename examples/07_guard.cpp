@@ -10,7 +10,7 @@ int main() {
     auto cloth = taut::hanging_cloth<double>({12, 12});
     const Eigen::Vector3d hook = cloth.initial_state().x.col(77);
     cloth.set_external_force([hook](const auto& state, auto& f) {
-        f.col(77) += 4e4 * (hook - state.x.col(77));  // stiff, and unseen by the analysis
+        f.col(77) += 4e5 * (hook - state.x.col(77));  // stiff, and unseen by the analysis
     });
     auto state = cloth.initial_state();
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
-// Simulates a cloth under gravity, by default at 95 % of the step that is proved for any pose, and
-// writes an OBJ or PLY sequence, the energy over time, and on request a point cache.
+// Simulates a cloth under gravity, by default by Taut's recipe of step and damping, and writes an
+// OBJ or PLY sequence, the energy over time, and on request a point cache.
 
 #include <chrono>
 #include <cstdio>
@@ -25,7 +25,8 @@ constexpr int diverged = 3;  // exit code
 /// What became of a run.
 struct Outcome {
     std::string trouble;
-    double risen = 0;  // highest energy above that at the start, J
+    double risen = 0;    // highest energy above that at the start, J
+    double kinetic = 0;  // the largest, J
 };
 
 /// A rise of the energy that no fall of the cloth by a hundred times its own size can explain, J.
@@ -35,27 +36,16 @@ double energy_allowance(const Cloth& cloth, const State& state) {
     return 100 * mass * cloth.gravity().norm() * drape::extent(state);
 }
 
-/// Empty, or what went wrong.
-std::string advance_frame(const Cloth& cloth, const Plan& plan, const drape::Advance& advance,
-                          const drape::Obstacle& obstacle, State& state) {
-    for (taut::Index span = 0; span < plan.spans; ++span) {
-        std::string trouble = advance(state, plan.span());
-        if (!trouble.empty()) return trouble;
-        obstacle.resolve(cloth, state);
-    }
-    return {};
-}
-
 /// Frames until the end or the first that went wrong.
 Outcome run_frames(const Options& options, const Cloth& cloth, const Plan& plan,
                    const drape::Obstacle& obstacle, drape::Record& record, State& state) {
-    const auto advance = make_motion(options, cloth, plan);
+    const auto advance = make_motion(options, {cloth, obstacle, plan});
     const double start_energy = cloth.energy(state);
     const double allowance = energy_allowance(cloth, state);
     Outcome outcome;
     for (int frame = 0; frame <= plan.frames; ++frame) {
         if (frame > 0) {
-            outcome.trouble = advance_frame(cloth, plan, advance, obstacle, state);
+            outcome.trouble = advance(state);
             if (!outcome.trouble.empty()) break;
         }
         const double kinetic = cloth.kinetic_energy(state);
@@ -70,6 +60,7 @@ Outcome run_frames(const Options& options, const Cloth& cloth, const Plan& plan,
             break;
         }
         outcome.risen = std::max(outcome.risen, risen);
+        outcome.kinetic = std::max(outcome.kinetic, kinetic);
         record.add(cloth, state, kinetic, potential);
         if (!options.quiet && frame % std::max(1, plan.frames / 10) == 0) {
             std::fprintf(stderr, "%7.3f of %.3f s, energy %.4g J\n", state.time, options.duration,
@@ -85,8 +76,10 @@ void print_start(const Options& options, const example::Scene& scene, const Plan
     if (obstacle) std::printf("%s\n", obstacle.description().c_str());
     std::printf("%s%s steps of %s%.4e s, %lld for each of %d frames of %.4g s\n",
                 options.integrator.c_str(), options.guard ? ", guarded" : "",
-                options.guard ? "at most " : "", plan.h,
-                static_cast<long long>(plan.spans * plan.steps), plan.frames, plan.frame);
+                options.guard ? "at most " : "", plan.h, static_cast<long long>(plan.steps),
+                plan.frames, plan.frame);
+    const auto own = options.own_damping();
+    if (own) std::printf("the steps' own damping: alpha = %.4g h\n", own.projected);
 }
 
 /// The end of a sentence that says which step is too large.
@@ -102,7 +95,7 @@ int simulate(const Options& options) {
     State state = cloth.initial_state();
     const Plan plan = make_plan(options, cloth);
     const drape::Obstacle obstacle(options, cloth, state);
-    drape::Record record(options, cloth, scene.faces);
+    drape::Record record(options, cloth, scene.faces, plan.frames);
     print_start(options, scene, plan, obstacle);
 
     const auto start = std::chrono::steady_clock::now();
@@ -116,8 +109,10 @@ int simulate(const Options& options) {
                      state.time, outcome.trouble.c_str(), plan.h, cure(options));
         return diverged;
     }
-    std::printf("%.4g s simulated in %.3g s; highest energy %.3e J above the start\n", state.time,
-                elapsed.count(), outcome.risen);
+    std::printf(
+        "%.4g s simulated in %.3g s; highest energy %.3e J above the start, largest kinetic energy "
+        "%.3e J\n",
+        state.time, elapsed.count(), outcome.risen, outcome.kinetic);
     std::printf("%s/frame_*.%s, %s\n", options.output.c_str(), options.format.c_str(),
                 record.energy_path().c_str());
     if (!options.cache.empty()) {

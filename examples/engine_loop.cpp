@@ -100,7 +100,7 @@ int main() {
                 static_cast<double>(substeps) / ticks, retries);
     std::printf("%d springs torn in %d ticks, longest of the others %.2f of its rest length\n",
                 static_cast<int>(torn), cuts, static_cast<double>(longest));
-    std::printf("proved step %.3e s before, %.3e s after\n", static_cast<double>(first_limit),
+    std::printf("any-pose limit %.3e s before, %.3e s after\n", static_cast<double>(first_limit),
                 static_cast<double>(guard.limit()->certified));
     std::printf("hand within %.0e m of where it should be, highest %.2f m, lowest %.2f m\n",
                 static_cast<double>(off), static_cast<double>(view.x.row(2).maxCoeff()),

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
-// The largest safe time step of each integrator, and the feasible damping window, of a mesh, of a
-// built-in scene, or of your own matrices.
+// The largest time step of each integrator that is proved, at this pose, at any, or for the energy,
+// and the feasible damping window, of a mesh, of a built-in scene, or of your own matrices.
 
 #include <chrono>
 #include <cmath>
@@ -91,8 +91,9 @@ Findings report_on_scene(const Options& options) {
     const auto analysis = std::chrono::steady_clock::now();
     const taut::Stability<double> stability(scene.system, state);
     analyse(stability, options, found);
-    found.any_pose =
-        taut::any_pose_limit(scene.system, options.proof || options.any_pose ? proof_tightness : 0);
+    const double tightness = options.proof || options.any_pose ? proof_tightness : 0;
+    found.any_pose = taut::any_pose_limit(scene.system, tightness);
+    found.energy = example::prove_energy(scene.system, tightness);
     if (found.remedies) {
         found.remedies->added_mass = taut::added_mass(scene.system, state, options.want_step);
     }
@@ -106,19 +107,23 @@ Findings report_on_scene(const Options& options) {
     return found;
 }
 
-/// One matrix is added after the other, so that a complaint is about the file that is named.
+/// One matrix is added after the other, so that a complaint is about the file that is named. The
+/// masses come first: they say how large the others are.
 taut::LinearSystem<double> read_system(const Options& options) {
     using Matrix = taut::SparseMatrix<double>;
     using System = taut::LinearSystem<double>;
-    const auto stiffness = example::read_matrix_market(options.stiffness_matrix);
-    const auto M = example::read_matrix_market(options.mass_matrix);
+    const auto M = example::read_matrix_market(options.mass_matrix).mass_matrix();
+    const auto matrix = [&M](const std::string& path) {
+        return example::read_matrix_market(path).matrix(M.rows());
+    };
     const auto massive = naming(options.mass_matrix, [&] {
         return System(taut::diagonal_mass(M), {}, Matrix(M.rows(), M.cols()));
     });
+    const auto stiffness = matrix(options.stiffness_matrix);
     const auto undamped =
         naming(options.stiffness_matrix, [&] { return System(massive.mass(), {}, stiffness); });
     if (options.damping_matrix.empty()) return undamped;
-    const auto damping = example::read_matrix_market(options.damping_matrix);
+    const auto damping = matrix(options.damping_matrix);
     return naming(options.damping_matrix,
                   [&] { return System(massive.mass(), damping, undamped.stiffness()); });
 }
@@ -144,27 +149,36 @@ Findings report_on_matrices(const Options& options) {
 int run(int argc, char** argv) {
     Options options;
     CLI::App app{
-        "Largest safe time step of each integrator, with proof, and the feasible damping."};
+        "Largest time step of each integrator that is proved at this pose, at any pose, or for "
+        "the\n"
+        "energy, and the feasible damping."};
     options.scene.add_to(app);
     auto* K = app.add_option("--stiffness-matrix", options.stiffness_matrix,
-                             "K in Matrix Market form, N/m, instead of a scene");
-    auto* M = app.add_option("--mass-matrix", options.mass_matrix, "M, diagonal, kg");
-    app.add_option("--damping-matrix", options.damping_matrix, "D, N s/m")->needs(K);
+                             "K in Matrix Market form, N/m, instead of a scene")
+                  ->check(example::not_empty());
+    auto* M = app.add_option("--mass-matrix", options.mass_matrix, "M, diagonal, kg")
+                  ->check(example::not_empty());
+    app.add_option("--damping-matrix", options.damping_matrix, "D, N s/m")
+        ->check(example::not_empty())
+        ->needs(K);
     K->needs(M);
     M->needs(K);
     app.add_option("--step", options.step, "h of the damping window, s (default: half the limit)")
         ->check(example::positive());
     app.add_flag("--zero-modes", options.zero_modes, "count rigid motions and mechanisms");
     app.add_flag("--proof", options.proof, "narrow the limits to 1e-6 by proved factorisations");
-    app.add_flag("--any-pose", options.any_pose, "narrow the limit of the moving scene likewise");
+    app.add_flag("--any-pose", options.any_pose,
+                 "narrow the limits at any pose and of the energy likewise");
     app.add_option("--blame", options.blame, "name the N springs and particles that limit the step")
         ->check(CLI::Range(0, 1'000'000));
     app.add_option("--want-step", options.want_step, "say what would make step H, s, safe")
         ->check(example::positive());
     app.add_option("--json", options.json,
-                   "write the findings as JSON (- is stdout, without table)");
+                   "write the findings as JSON (- is stdout, without table)")
+        ->check(example::not_empty());
     app.add_option("--html", options.html,
-                   "write the findings as one page to look at (- is stdout, without table)");
+                   "write the findings as one page to look at (- is stdout, without table)")
+        ->check(example::not_empty());
     for (const char* other : {"MESH", "--scene", "--size", "--d0", "--alpha", "--pin", "--stretch",
                               "--bend", "--mass", "--any-pose"}) {
         K->excludes(app.get_option(other));
@@ -173,7 +187,7 @@ int run(int argc, char** argv) {
         "Questions it answers\n"
         "  How large may my step be?          stability_report cloth.obj --pin 0,10\n"
         "  To the last digit, proved?         stability_report cloth.obj --proof\n"
-        "  While the cloth moves?             stability_report cloth.obj --any-pose\n"
+        "  At any pose? For its energy?       stability_report cloth.obj --any-pose\n"
         "  Which springs limit the step?      stability_report cloth.obj --blame 5\n"
         "  What makes 1/240 s safe?           stability_report cloth.obj --want-step 0.004167\n"
         "  Which damping suits my step?       stability_report cloth.obj --step 1e-4 --d0 0.5\n"
@@ -186,6 +200,12 @@ int run(int argc, char** argv) {
     if (!options.scene.given() && options.stiffness_matrix.empty()) {
         throw std::runtime_error("name a mesh, --scene or --stiffness-matrix (see --help)");
     }
+    example::require_different({{"MESH", options.scene.mesh, false},
+                                {"--stiffness-matrix", options.stiffness_matrix, false},
+                                {"--mass-matrix", options.mass_matrix, false},
+                                {"--damping-matrix", options.damping_matrix, false},
+                                {"--json", options.json, true},
+                                {"--html", options.html, true}});
     const Findings found =
         options.stiffness_matrix.empty() ? report_on_scene(options) : report_on_matrices(options);
     if (options.json != "-" && options.html != "-") example::print_table(found, options.scene.d0);

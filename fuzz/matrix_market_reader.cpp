@@ -8,13 +8,13 @@
 
 #include "temporary_file.hpp"
 
-/// A matrix is read or refused, and so is the system that it is the stiffness of.
+/// A matrix is read or refused, and so is the system that it is the masses and the stiffness of.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const auto path = taut_fuzz::temporary_file(data, size);
     try {
-        const auto K = example::read_matrix_market(path);
-        const taut::SparseMatrix<double> D(K.rows(), K.cols());
-        (void)taut::LinearSystem<double>(Eigen::VectorXd::Ones(K.rows()), D, K);
+        const auto K = example::read_matrix_market(path).mass_matrix();
+        (void)taut::LinearSystem<double>(Eigen::VectorXd::Ones(K.rows()), {}, K);
+        (void)taut::LinearSystem<double>(taut::diagonal_mass(K), {}, K);
     } catch (const std::runtime_error&) {     // the reader's
     } catch (const std::invalid_argument&) {  // the library's
     }

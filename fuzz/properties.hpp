@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <taut/solver/modal_analysis.hpp>
 
@@ -12,13 +10,6 @@
 // What must hold for every scene: build, analyse, step.
 
 namespace taut_fuzz {
-
-/// libFuzzer reports an abort and keeps the input.
-inline void require(bool holds, const char* property) {
-    if (holds) return;
-    std::fprintf(stderr, "does not hold: %s\n", property);
-    std::abort();
-}
 
 template <class Scalar>
 void require_numbers(const taut::StepLimit<Scalar>& limit) {
@@ -54,17 +45,6 @@ void require_sound(const Stability& stability) {
     accepted([&] { (void)stability.rayleigh_window(Method::explicit_euler, 0.01); });
     (void)stability.limiting_springs(3);
     (void)stability.limiting_particles(3);
-}
-
-template <class State>
-bool same(const State& a, const State& b) {
-    const auto equal = [](const auto& p, const auto& q) {
-        return p.cols() == q.cols() &&
-               (p.size() == 0 || std::memcmp(p.data(), q.data(),
-                                             sizeof(typename std::decay_t<decltype(p)>::Scalar) *
-                                                 static_cast<std::size_t>(p.size())) == 0);
-    };
-    return equal(a.x, b.x) && equal(a.v, b.v);
 }
 
 /// Five steps: each leaves a finite state, or a Report and the state as it was.

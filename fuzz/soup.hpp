@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
@@ -16,6 +18,24 @@
 namespace taut_fuzz {
 
 using taut::Index;
+
+/// libFuzzer reports an abort and keeps the input.
+inline void require(bool holds, const char* property) {
+    if (holds) return;
+    std::fprintf(stderr, "does not hold: %s\n", property);
+    std::abort();
+}
+
+template <class State>
+bool same(const State& a, const State& b) {
+    const auto equal = [](const auto& p, const auto& q) {
+        return p.cols() == q.cols() &&
+               (p.size() == 0 || std::memcmp(p.data(), q.data(),
+                                             sizeof(typename std::decay_t<decltype(p)>::Scalar) *
+                                                 static_cast<std::size_t>(p.size())) == 0);
+    };
+    return equal(a.x, b.x) && equal(a.v, b.v);
+}
 
 /// Bytes, taken from the front; zeros when there are none left.
 class Bytes {

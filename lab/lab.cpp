@@ -72,7 +72,7 @@ taut::Report step(double h, taut::Index count) {
                       *lab.stepper);
 }
 
-/// The limit that holds at every pose; explicit Euler has none, implicit Euler no need of one.
+/// The limit at any pose, linearised; explicit Euler has none, implicit Euler no need of one.
 double any_pose(Method method) {
     switch (method) {
         case Method::explicit_euler: return 0;

@@ -16,7 +16,7 @@ extern "C" {
 
 /// What lab_analyse() finds; all of it double, so that a page reads it as one array.
 struct LabLimits {
-    double any_pose;     ///< s; certified while the cloth moves (0: not, infinity: every step)
+    double any_pose;     ///< s; certified at any pose, linearised (0: not, infinity: every step)
     double certified;    ///< s; at the pose in which the cloth starts
     double refuted;      ///< s; at that pose; infinity: none is
     double alpha_lower;  ///< s; the stiffness-proportional damping that makes step h stable …

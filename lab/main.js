@@ -62,15 +62,15 @@ function sentence() {
     const { alphaLower, alphaUpper } = limits;
     if (settings.alpha === 0 && settings.drag === 0) return `Explicit Euler: ${limits.cause}.`;
     if (!(alphaUpper > 0)) return `At this step no damping α makes explicit Euler stable: take a smaller step, or symplectic or implicit Euler.`;
-    return `Explicit Euler needs damping: at this step, α between ${seconds(Math.max(0, alphaLower), 3)} and ${seconds(alphaUpper, 3)} is proved stable; it is ${settings.alpha > 0 ? seconds(settings.alpha, 3) : "none"}.`;
+    return `Explicit Euler needs damping: at this step, α between ${seconds(Math.max(0, alphaLower), 3)} and ${seconds(alphaUpper, 3)} is proved at the starting pose; it is ${settings.alpha > 0 ? seconds(settings.alpha, 3) : "none"}.`;
   }
-  if (method === IMPLICIT) return `Implicit Euler’s linearised step is certified at every h; what a large step costs is motion, which it damps. A frame in one step is 16.7\u00a0ms.`;
-  if (where === "certified") return `Proved stable for every pose that the cloth takes, rounding included. A frame of 1/60\u00a0s is ${whole(Math.ceil(FRAME / h))} such steps.`;
-  if (where === "posed") return method === EXPLICIT ? "Proved stable at the pose in which the cloth starts. Explicit Euler has no limit that holds at every pose." : `Proved stable at the pose in which the cloth starts, up to ${seconds(limits.certified, 3)}; not proved for all poses to come.`;
+  if (method === IMPLICIT) return `Implicit Euler’s linearised step is certified at every h, at any pose; what a large step costs is motion, which it damps. A frame in one step is 16.7\u00a0ms.`;
+  if (where === "certified") return `Proved at any pose, linearised: about no pose that the cloth takes does a small vibration grow. Its energy may rise all the same; Taut’s recipe, a share of this limit with damping, keeps it down: measured, not proved. A frame of 1/60\u00a0s is ${whole(Math.ceil(FRAME / h))} such steps.`;
+  if (where === "posed") return method === EXPLICIT ? "Proved at the pose in which the cloth starts, for small motions. Explicit Euler has no limit that holds at every pose." : `Proved at the pose in which the cloth starts, for small motions, up to ${seconds(limits.certified, 3)}; not proved for all poses to come.`;
   if (where === "open") return `Between what is proved, up to ${seconds(limits.certified, 3)}, and what is refuted, from ${seconds(limits.refuted, 3)} on.`;
   return `${significant(h / limits.refuted, 3)} times the refuted step: the limiting vibration grows ${significant(grows, 4)}-fold with every step.`;
 }
-const STANDING = { certified: "certified", posed: "certified at the starting pose", open: "not decided", refuted: "refuted" };
+const STANDING = { certified: "certified at any pose", posed: "certified at the starting pose", open: "not decided", refuted: "refuted" };
 
 function writeStep() {
   const where = standing(settings.h, limits);
@@ -100,7 +100,7 @@ function recommend() {
   advice = best;
   const steps = (plan) => (plan.substeps === 1 ? "one step a frame" : `${whole(plan.substeps)} steps a frame`);
   byId("pick").textContent = `${NAMES[best.method]}, ${steps(best)}`;
-  byId("why").textContent = (best.method === IMPLICIT ? "Every step is stable, so it takes the whole frame at once" : "Its largest proved step is large enough") +
+  byId("why").textContent = (best.method === IMPLICIT ? "Every step is stable, so it takes the whole frame at once" : "Its step by the recipe is large enough") +
     `, and that is the cheapest: ${NAMES[second.method] === NAMES[best.method] ? planName(second) : NAMES[second.method]} would cost ${significant(second.cost / best.cost, 2)} times as much. Measured in this browser.`;
   byId("bars").replaceChildren(...plans.flatMap((plan) => {
     const row = document.createElement("div");
@@ -156,8 +156,8 @@ function blowUp() {
   const ratio = limits.refuted < Infinity && limits.refuted > 0 ? `, ${significant(h / limits.refuted, 3)} times the refuted step` : "";
   const ringing = samples.length ? samples[samples.length - 1].ringing : Infinity;
   const swing = ringing < 1 ? metres(ringing, 2) : "metres";
-  const cure = limits.anyPose > 0 ? `at every pose, up to ${seconds(limits.anyPose, 3)}` : limits.certified > 0 ? `at the starting pose, up to ${seconds(limits.certified, 3)}` : "no step, with this damping";
-  byId("reason").textContent = `${NAMES[method]} at h = ${seconds(h, 3)}${ratio}: after ${whole(steps - changedAt)} steps particles swing by ${swing} from one step to the next. Certified: ${cure}; with implicit Euler, every step.`;
+  const cure = limits.anyPose > 0 ? `at any pose, linearised, up to ${seconds(limits.anyPose, 3)}` : limits.certified > 0 ? `at the starting pose, up to ${seconds(limits.certified, 3)}` : "no step, with this damping";
+  byId("reason").textContent = `${NAMES[method]} at h = ${seconds(h, 3)}${ratio}: after ${whole(steps - changedAt)} steps particles swing by ${swing} from one step to the next. Certified: ${cure}; with implicit Euler, linearised, every step.`;
   byId("verdict").hidden = false;
 }
 

@@ -8,12 +8,13 @@ set -eu
 
 # libopenblas-dev comes with SuiteSparse: on the reference BLAS, CHOLMOD is slower than Eigen.
 packages="cmake ninja-build g++ libeigen3-dev libsuitesparse-dev libopenblas-dev libspectra-dev catch2
-libcli11-dev libtinyobjloader-dev nlohmann-json3-dev"
+libcli11-dev nlohmann-json3-dev"
 
 case "${1-}" in
     '') ;;
-    --ci) packages="$packages git clang-format-14 clang-16 libclang-rt-16-dev chromium pkgconf doxygen" ;;
-    --bench) packages="$packages libboost-dev libbullet-dev libbenchmark-dev libsundials-dev
+    --ci) packages="$packages git clang-format-14 clang-16 libclang-rt-16-dev chromium pkgconf doxygen
+libboost-dev libmpfr-dev" ;;
+    --bench) packages="$packages libboost-dev libmpfr-dev libbullet-dev libbenchmark-dev libsundials-dev
 python3-matplotlib valgrind" ;;
     *) echo "install-deps: unknown option '$1'; there are --ci and --bench" >&2; exit 1 ;;
 esac
@@ -27,8 +28,8 @@ fi
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
     cat >&2 <<'END'
 install-deps: there is no apt-get here. Install these yourself, then run the cmake command:
-  brew install cmake ninja eigen suite-sparse openblas spectra catch2 cli11 tinyobjloader nlohmann-json
-  vcpkg install eigen3 suitesparse openblas spectra catch2 cli11 tinyobjloader nlohmann-json
+  brew install cmake ninja eigen suite-sparse openblas spectra catch2 cli11 nlohmann-json
+  vcpkg install eigen3 suitesparse openblas spectra catch2 cli11 nlohmann-json
 END
     exit 1
 fi

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <taut/core/types.hpp>
 #include <vector>
 
@@ -48,9 +48,9 @@ struct MatrixMarketHeader {
 
 inline MatrixMarketHeader read_header(MatrixMarketLines& lines) {
     if (!lines.next()) lines.fail("the file is empty");
+    std::string_view words = lines.line;
     std::string banner, object, format, field, symmetry;
-    std::istringstream words(lines.line);
-    words >> banner >> object >> format >> field >> symmetry;
+    for (auto* word : {&banner, &object, &format, &field, &symmetry}) *word = next_word(words);
     for (auto* word : {&object, &format, &field, &symmetry}) {
         std::transform(word->begin(), word->end(), word->begin(),
                        [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -61,35 +61,68 @@ inline MatrixMarketHeader read_header(MatrixMarketLines& lines) {
     MatrixMarketHeader header;
     header.coordinate = format == "coordinate";
     if (!header.coordinate && format != "array")
-        lines.fail("format \"" + format + "\"; coordinate or array");
+        lines.fail("format " + in_quotes(format) + "; coordinate or array");
     if (field != "real" && field != "integer")
-        lines.fail("field \"" + field + "\"; real or integer");
+        lines.fail("field " + in_quotes(field) + "; real or integer");
     header.symmetric = symmetry == "symmetric";
     if (!header.symmetric && symmetry != "general")
-        lines.fail("\"" + symmetry + "\"; general or symmetric");
+        lines.fail(in_quotes(symmetry) + "; general or symmetric");
 
     if (!lines.next()) lines.fail("the size line is missing");
-    const char* text = lines.line.c_str();
-    const bool complete = read_number(text, header.rows) && read_number(text, header.columns) &&
-                          (!header.coordinate || read_number(text, header.entries));
-    if (!complete || !at_end(text) || header.rows <= 0 || header.columns <= 0 ||
+    words = lines.line;
+    const bool complete = read_number(next_word(words), header.rows) &&
+                          read_number(next_word(words), header.columns) &&
+                          (!header.coordinate || read_number(next_word(words), header.entries));
+    if (!complete || !next_word(words).empty() || header.rows <= 0 || header.columns <= 0 ||
         header.entries < 0 || header.rows > 100'000'000 || header.columns > 100'000'000) {
-        lines.fail("\"" + lines.line + "\" is no valid size line");
+        lines.fail(in_quotes(lines.line) + " is no valid size line");
     }
     if (header.symmetric && header.rows != header.columns)
         lines.fail("a symmetric matrix must be square");
     return header;
 }
 
+/// What a Matrix Market file holds. It takes the memory of its entries, whatever size it announces.
+struct MatrixMarketFile {
+    std::string path;
+    long long rows = 0;
+    long long columns = 0;
+    std::vector<Eigen::Triplet<double>> entries;
+
+    /// The matrix. A size that the file announces is believed once as many masses were read.
+    /// @throws std::runtime_error naming the file unless it is `size` by `size`
+    taut::SparseMatrix<double> matrix(long long size) const {
+        if (rows != size || columns != size) {
+            throw std::runtime_error(path + ": is " + std::to_string(rows) + " by " +
+                                     std::to_string(columns) + "; there are " +
+                                     std::to_string(size) + " masses");
+        }
+        taut::SparseMatrix<double> result(rows, columns);
+        result.setFromTriplets(entries.begin(), entries.end());
+        return result;
+    }
+    /// The same of a mass matrix, every row of which has an entry.
+    taut::SparseMatrix<double> mass_matrix() const {
+        const auto count = static_cast<long long>(entries.size());
+        if (count < rows) {
+            throw std::runtime_error(path + ": has " + std::to_string(count) + " entries for " +
+                                     std::to_string(rows) + " masses");
+        }
+        return matrix(rows);
+    }
+};
+
 /// Reads a real or integer matrix in Matrix Market coordinate or array form, general or symmetric
 /// (both triangles are returned). Throws std::runtime_error naming file, line and reason.
-inline taut::SparseMatrix<double> read_matrix_market(const std::string& path) {
+inline MatrixMarketFile read_matrix_market(const std::string& path) {
     MatrixMarketLines lines(path);
     const auto [coordinate, symmetric, rows, columns, entries] = read_header(lines);
-    std::vector<Eigen::Triplet<double>> triplets;
-    const auto add = [&triplets, both = symmetric](long long i, long long j, double value) {
-        triplets.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
-        if (both && i != j) triplets.emplace_back(static_cast<int>(j), static_cast<int>(i), value);
+    MatrixMarketFile file{path, rows, columns, {}};
+    const auto add = [&file, both = symmetric](long long i, long long j, double value) {
+        const auto row = static_cast<int>(i);
+        const auto column = static_cast<int>(j);
+        file.entries.emplace_back(row, column, value);
+        if (both && i != j) file.entries.emplace_back(column, row, value);
     };
     double value = 0;
     for (long long e = 0; coordinate && e < entries; ++e) {
@@ -97,12 +130,13 @@ inline taut::SparseMatrix<double> read_matrix_market(const std::string& path) {
             lines.fail("ends after " + std::to_string(e) + " of " + std::to_string(entries) +
                        " entries");
         }
-        const char* text = lines.line.c_str();
+        std::string_view words = lines.line;
         long long i = 0, j = 0;
-        if (!read_number(text, i) || !read_number(text, j) || !read_number(text, value) ||
-            !at_end(text) || i < 1 || j < 1 || i > rows || j > columns) {
-            lines.fail("\"" + lines.line + "\" is no entry of a " + std::to_string(rows) + " by " +
-                       std::to_string(columns) + " matrix of finite numbers");
+        if (!read_number(next_word(words), i) || !read_number(next_word(words), j) ||
+            !read_number(next_word(words), value) || !next_word(words).empty() || i < 1 || j < 1 ||
+            i > rows || j > columns) {
+            lines.fail(in_quotes(lines.line) + " is no entry of a " + std::to_string(rows) +
+                       " by " + std::to_string(columns) + " matrix of finite numbers");
         }
         if (symmetric && i < j) lines.fail("a symmetric matrix is given by its lower triangle");
         add(i - 1, j - 1, value);
@@ -110,16 +144,14 @@ inline taut::SparseMatrix<double> read_matrix_market(const std::string& path) {
     for (long long j = 0; !coordinate && j < columns; ++j) {
         for (long long i = symmetric ? j : 0; i < rows; ++i) {
             if (!lines.next()) lines.fail("ends before the matrix is complete");
-            const char* text = lines.line.c_str();
-            if (!read_number(text, value) || !at_end(text))
-                lines.fail("\"" + lines.line + "\" is not one finite number");
+            std::string_view words = lines.line;
+            if (!read_number(next_word(words), value) || !next_word(words).empty())
+                lines.fail(in_quotes(lines.line) + " is not one finite number");
             add(i, j, value);
         }
     }
     if (lines.next()) lines.fail("more entries than announced");
-    taut::SparseMatrix<double> matrix(rows, columns);
-    matrix.setFromTriplets(triplets.begin(), triplets.end());
-    return matrix;
+    return file;
 }
 
 }  // namespace example

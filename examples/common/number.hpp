@@ -2,36 +2,54 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+// The words and numbers of text files. What is no number as a whole is none: a reader that takes
+// the start of a word for its meaning reads another file than the one that was written.
 
 namespace example {
 
-/// Reads a finite number and moves `text` behind it. False if there is none, or anything but space
-/// follows it.
-inline bool read_number(const char*& text, double& value) {
-    char* end = nullptr;
-    value = std::strtod(text, &end);
-    if (end == text || !std::isfinite(value)) return false;
-    if (*end != '\0' && std::isspace(static_cast<unsigned char>(*end)) == 0) return false;
-    text = end;
-    return true;
+/// Takes the next word off the front of `line`: what stands between spaces, tabs and carriage
+/// returns. Empty at the end.
+inline std::string_view next_word(std::string_view& line) {
+    constexpr std::string_view blank = " \t\r";
+    line.remove_prefix(std::min(line.find_first_not_of(blank), line.size()));
+    const std::string_view word = line.substr(0, line.find_first_of(blank));
+    line.remove_prefix(word.size());
+    return word;
 }
 
-inline bool read_number(const char*& text, long long& value) {
+/// Reads a word that is a finite decimal number. False for 0x10, inf, nan and 1x.
+inline bool read_number(std::string_view word, double& value) {
+    if (word.empty() || word.find_first_not_of("0123456789+-.eE") != word.npos) return false;
+    const std::string text(word);
     char* end = nullptr;
-    value = std::strtoll(text, &end, 10);  // too large a number becomes the largest
-    if (end == text) return false;
-    if (*end != '\0' && std::isspace(static_cast<unsigned char>(*end)) == 0) return false;
-    text = end;
-    return true;
+    value = std::strtod(text.c_str(), &end);
+    return end == text.c_str() + text.size() && std::isfinite(value);
 }
 
-/// Whether nothing but space is left.
-inline bool at_end(const char* text) {
-    while (std::isspace(static_cast<unsigned char>(*text)) != 0) ++text;
-    return *text == '\0';
+/// Reads a word that is a whole number. False where it is too large for one.
+inline bool read_number(std::string_view word, long long& value) {
+    if (word.substr(0, 1) == "+" && word.substr(1, 1) != "-") word.remove_prefix(1);
+    const char* end = word.data() + word.size();
+    const auto read = std::from_chars(word.data(), end, value);
+    return read.ec == std::errc() && read.ptr == end;
+}
+
+/// A piece of a file for a message: its start, without bytes that a terminal would obey.
+inline std::string in_quotes(std::string_view text) {
+    constexpr std::size_t most = 60;
+    std::string shown(text.substr(0, most));
+    std::replace_if(
+        shown.begin(), shown.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
+    return '"' + shown + (text.size() > most ? "...\"" : "\"");
 }
 
 }  // namespace example

@@ -113,7 +113,8 @@ inline Json page_data(const taut::Stability<double>& stability, const Findings& 
     return json;
 }
 
-/// Triangles, and the springs that hold at least a thousandth of what the foremost one holds.
+/// Triangles, a line as one without area, and the springs that hold at least a thousandth of what
+/// the foremost one holds.
 inline void add_mesh(Json& page, const Scene& scene, const taut::Stability<double>& stability,
                      const taut::LimitingMode& mode) {
     constexpr std::size_t most_springs = 20'000;
@@ -129,8 +130,9 @@ inline void add_mesh(Json& page, const Scene& scene, const taut::Stability<doubl
         if (scene.system.is_pinned(i)) append(pinned, std::uint64_t(i), width);
     }
     for (const auto& face : scene.faces) {
-        for (std::size_t i = 2; i < face.size(); ++i) {
-            for (const auto corner : {face[0], face[i - 1], face[i]})
+        const std::size_t last = face.size() - 1;
+        for (std::size_t i = 1; i < std::max<std::size_t>(2, last); ++i) {
+            for (const auto corner : {face[0], face[i], face[std::min(i + 1, last)]})
                 append(triangles, std::uint64_t(corner), width);
         }
     }

@@ -27,6 +27,41 @@ struct Remedies {
     std::optional<taut::AddedMass> added_mass;
 };
 
+/// The step up to which no step raises the energy, and what this asks for and costs [T34].
+struct EnergyProof {
+    taut::EnergyLimit<double> limit;
+    taut::GraphDampingRange alpha;  ///< s, at the certified step; empty where there is no such step
+    double rotation = 0;  ///< 1/s²; times α the rate at which it slows rotation, over all axes
+};
+
+template <class System>
+EnergyProof prove_energy(const System& system, double tightness) {
+    EnergyProof proof;
+    proof.limit = taut::energy_limit(system, tightness);
+    const double h = proof.limit.certified;
+    if (!(h > 0) || !std::isfinite(h)) return proof;
+    proof.alpha = proof.limit.alpha(h);
+    // Σ k l² over the moment of inertia about the centre of mass.
+    const auto x = system.initial_state().x;
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    double mass = 0, inertia = 0, pull = 0;
+    for (taut::Index i = 0; i < system.size(); ++i) {
+        centre += system.mass(i) * x.col(i);
+        mass += system.mass(i);
+    }
+    centre /= mass;
+    for (taut::Index i = 0; i < system.size(); ++i)
+        inertia += system.mass(i) * (x.col(i) - centre).squaredNorm();
+    const auto& springs = system.springs();
+    for (taut::Index s = 0; s < springs.size(); ++s) {
+        const auto at = static_cast<std::size_t>(s);
+        const double l = (x.col(springs.b[at]) - x.col(springs.a[at])).norm();
+        pull += springs.parameters[at].stiffness * l * l;
+    }
+    if (inertia > 0) proof.rotation = pull / inertia;
+    return proof;
+}
+
 struct Findings {
     std::string name;
     taut::Index degrees_of_freedom = 0;
@@ -37,6 +72,7 @@ struct Findings {
     taut::StepLimit<double> symplectic_euler;
     taut::StepLimit<double> implicit_euler;
     std::optional<taut::StepLimit<double>> any_pose;
+    std::optional<EnergyProof> energy;
     std::optional<taut::Certificate> proof;
     std::vector<taut::SpringShare> springs_to_blame;
     std::vector<taut::ParticleShare> particles_to_blame;
@@ -70,6 +106,15 @@ inline Json optional_json(const std::optional<T>& value) {
     return value ? Json(*value) : Json(nullptr);
 }
 
+/// null: not known, or no damping is.
+inline Json energy_json(const std::optional<EnergyProof>& energy) {
+    const bool known = energy && !energy->alpha.empty();
+    Json json = energy ? limit_json(energy->limit) : Json{{"certified", nullptr}};
+    json["alpha_lower"] = known ? Json(energy->alpha.lower) : Json(nullptr);
+    json["alpha_upper"] = known ? Json(energy->alpha.upper) : Json(nullptr);
+    return json;
+}
+
 inline Json to_json(const Findings& found, double d0) {
     const auto bracket = [](const taut::EigenvalueBracket& k) {
         return Json{{"lower", k.lower}, {"upper", k.upper}};
@@ -88,6 +133,7 @@ inline Json to_json(const Findings& found, double d0) {
     json["implicit_euler"] = limit_json(found.implicit_euler);
     json["any_pose"] = {
         {"certified", found.any_pose ? certified_json(*found.any_pose) : Json(nullptr)}};
+    json["energy"] = energy_json(found.energy);
     json["rayleigh_window"] = {{"method", name(Method::explicit_euler)},
                                {"h", found.window_step},
                                {"d0", d0},
@@ -144,13 +190,31 @@ inline void print_limit(const char* label, const taut::StepLimit<double>& limit)
     std::printf("  %s\n", name(limit.cause));
 }
 
-/// What a limit that holds while the scene moves costs beside the one that holds where it stands.
-inline void print_price(const taut::StepLimit<double>& any_pose,
-                        const taut::StepLimit<double>& at_pose) {
-    if (!(any_pose.certified > 0) || any_pose.unbounded()) return;
-    if (!(at_pose.certified > 0) || at_pose.unbounded()) return;
-    std::printf("  any pose:  its step is %.1f %% of the one certified where the scene stands\n",
-                100 * any_pose.certified / at_pose.certified);
+/// Which of three a limit is, what it costs, and what is no proof.
+inline void print_promises(const Findings& found) {
+    std::printf("  this pose: no small vibration about it grows\n");
+    if (!found.any_pose || !found.energy || found.any_pose->unbounded()) return;
+    const auto& at_pose = found.symplectic_euler;
+    const auto& at_any = *found.any_pose;
+    std::printf(
+        "  any pose:  none grows about each that it moves through, yet its energy may rise\n");
+    if (at_any.certified > 0 && at_pose.certified > 0 && !at_pose.unbounded()) {
+        std::printf("             (%.1f %% of the step at this pose)\n",
+                    100 * at_any.certified / at_pose.certified);
+    }
+    const auto& energy = *found.energy;
+    if (!energy.alpha.empty()) {
+        constexpr double share = 0.9;  // at the limit itself one α is left
+        const auto alpha = energy.limit.alpha(share * energy.limit.certified);
+        std::printf(
+            "  energy:    no step raises it, with graph damping alpha = %.4e s; at %.1f of the "
+            "step\n"
+            "             alpha in [%.4e, %.4e] s; the least slows rotation at %.2g /s\n",
+            energy.alpha.lower, share, alpha.lower, alpha.upper, alpha.lower * energy.rotation);
+    }
+    std::printf(
+        "  recipe:    %.4g of any pose, alpha = %.4g h of the steps' own: measured, not proved\n",
+        taut::recipe.safety, taut::recipe.damping.projected);
 }
 
 /// A sentence for every cause that a user can do something about.
@@ -191,6 +255,10 @@ inline void print_remedies(const Remedies& remedies) {
         std::printf(": proved safe as the scene is\n");
         return;
     }
+    if (!(remedies.stiffness_scale > 0) || !std::isfinite(remedies.mass_scale)) {
+        std::printf(": no scale of stiffness or masses is proved to make it safe\n");
+        return;
+    }
     std::printf(", any one of\n  all stiffness times %.4g, or all masses times %.4g\n",
                 remedies.stiffness_scale, remedies.mass_scale);
     if (!remedies.added_mass || !remedies.added_mass->reached) return;
@@ -211,14 +279,22 @@ inline void print_table(const Findings& found, double d0) {
                 static_cast<long long>(found.degrees_of_freedom));
     std::printf("Largest stable time step\n  %-22s %-14s %-14s %7s  %s\n", "", "certified",
                 "refuted", "ratio", "set by");
+    std::printf(" at this pose (linear)\n");
     print_limit("explicit Euler", found.explicit_euler);
     print_limit("symplectic Euler", found.symplectic_euler);
     print_limit("implicit Euler", found.implicit_euler);
-    if (found.any_pose) print_limit("symplectic, any pose", *found.any_pose);
+    if (found.any_pose) {
+        std::printf(" at any pose (linearised)\n");
+        print_limit("symplectic Euler", *found.any_pose);
+    }
+    if (found.energy) {
+        std::printf(" energy (nonlinear)\n");
+        print_limit("symplectic Euler", found.energy->limit);
+    }
     std::printf(
-        "  certified: proved stable at this pose, rounding included (any pose: while it moves)\n"
-        "  refuted:   a vibration is known that grows at this step; the true limit lies between\n");
-    if (found.any_pose) print_price(*found.any_pose, found.symplectic_euler);
+        "  certified: proved, rounding included\n"
+        "  refuted:   a vibration is known that grows (any pose, energy: the condition fails)\n");
+    print_promises(found);
     print_note("explicit Euler", found.explicit_euler);
     print_note("symplectic Euler", found.symplectic_euler);
     print_note("implicit Euler", found.implicit_euler);

@@ -26,7 +26,7 @@ using System = taut::SpringSystem<double, 3>;
 struct Scene {
     std::string name;
     System system;
-    std::vector<std::vector<taut::Index>> faces;  // corners are particles
+    std::vector<std::vector<taut::Index>> faces;  // corners are particles; of two: a line
     taut::Index unused_vertices = 0;
     taut::Index stretch_springs = 0;  // they come first, the others bend
 };
@@ -46,6 +46,10 @@ inline CLI::Validator non_negative() {
             },
             ">= 0"};
 }
+/// Of names: an empty one would be taken for an option that is not given.
+inline CLI::Validator not_empty() {
+    return {[](std::string& text) { return text.empty() ? "it is empty" : ""; }, ""};
+}
 
 struct SceneOptions {
     std::string mesh;
@@ -61,7 +65,8 @@ struct SceneOptions {
 
     /// Declares the options on `app`.
     void add_to(CLI::App& app) {
-        auto* file = app.add_option("MESH", mesh, "an OBJ mesh, in metres (or: hanging_cloth)");
+        auto* file = app.add_option("MESH", mesh, "an OBJ mesh, in metres (or: hanging_cloth)")
+                         ->check(not_empty());
         app.add_option("--scene", built_in, "a built-in scene instead of a mesh: hanging_cloth")
             ->check(CLI::IsMember({"hanging_cloth"}))
             ->excludes(file);
@@ -171,7 +176,7 @@ inline Scene make_scene(const SceneOptions& options) {
         }
         if (!built_in && particle[pin] < 0) {
             throw std::runtime_error("--pin: vertex " + std::to_string(pin) +
-                                     " is used by no face");
+                                     " is used by no face or line");
         }
         scene.system.pin(built_in ? pin : particle[pin]);
     }
@@ -186,7 +191,7 @@ inline std::string describe(const Scene& scene) {
          << scene.system.pinned_count() << " pinned), " << scene.system.spring_count()
          << " springs";
     if (scene.unused_vertices > 0) {
-        text << "; " << scene.unused_vertices << " vertices that no face uses are left out";
+        text << "; " << scene.unused_vertices << " vertices that no face or line uses are left out";
     }
     return text.str();
 }

@@ -9,21 +9,26 @@
 #include <memory>
 
 #include "cloth.hpp"
+#include "obstacle.hpp"
 
 namespace drape {
 
-/// Advances by a span, s. Empty, or what went wrong, and then the state is that of its start.
-using Advance = std::function<std::string(State&, double)>;
+/// Advances by a frame. Empty, or what went wrong.
+using Advance = std::function<std::string(State&)>;
 
-/// How a frame is cut: `spans` of `steps` steps of h each, contacts resolved after each span.
+/// How a frame is cut: `steps` of h each, contacts resolved after each.
 struct Plan {
     int frames = 0;
-    double frame = 0;  // s
-    taut::Index spans = 1;
+    double frame = 0;       // s
     taut::Index steps = 1;  // at least, with a guard
     double h = 0;           // s, at most
+};
 
-    double span() const { return frame / static_cast<double>(spans); }
+/// What a motion is made of; cloth and obstacle must outlive it.
+struct Scene {
+    const Cloth& cloth;
+    const Obstacle& obstacle;
+    const Plan& plan;
 };
 
 namespace detail {
@@ -35,68 +40,93 @@ inline std::string name_particle(taut::Status status, taut::Index particle) {
 }
 
 template <class Stepper>
-Advance by_stepper(std::shared_ptr<Stepper> stepper, const Plan& plan) {
-    return [stepper, plan](State& state, double) {
-        const taut::Report report = stepper->step(state, plan.h, plan.steps);
-        return report ? std::string() : name_particle(report.status, report.where);
+Advance by_stepper(const Scene& scene, std::shared_ptr<Stepper> stepper) {
+    const Plan plan = scene.plan;
+    const bool contacts = bool(scene.obstacle);
+    return [plan, contacts, stepper, &cloth = scene.cloth,
+            &obstacle = scene.obstacle](State& state) -> std::string {
+        const taut::Index at_once = contacts ? 1 : plan.steps;
+        for (taut::Index done = 0; done < plan.steps; done += at_once) {
+            const taut::Report report = stepper->step(state, plan.h, at_once);
+            if (!report) return name_particle(report.status, report.where);
+            obstacle.resolve(cloth, state);
+        }
+        return {};
     };
 }
 
-template <class Stepper, class... Arguments>
-Advance by_guard(const Cloth& cloth, const Plan& plan, const Arguments&... arguments) {
-    using Guard = taut::Guarded<Stepper>;
-    typename Guard::Options options;
-    options.max_step = plan.h;
-    options.max_substeps = std::numeric_limits<taut::Index>::max() / 64;
-    auto guard = std::make_shared<Guard>(cloth, options, arguments...);
-    return [guard](State& state, double span) {
-        const auto report = guard->advance(state, span);
-        if (report) return std::string();
-        std::string text = name_particle(report.status, report.particle);
-        if (report.spring >= 0) text += ", spring " + std::to_string(report.spring);
-        return text + "; given up after " + std::to_string(report.retries) + " retries";
-    };
+template <class Report>
+std::string name_trouble(const Report& report) {
+    if (report) return {};
+    std::string text = name_particle(report.status, report.particle);
+    if (report.spring >= 0) text += ", spring " + std::to_string(report.spring);
+    return text + "; given up after " + std::to_string(report.retries) + " retries";
 }
 
 /// @param arguments  further ones of the stepper's constructor
 template <class Stepper, class... Arguments>
-Advance plain_or_guarded(bool guarded, const Cloth& cloth, const Plan& plan,
-                         const Arguments&... arguments) {
-    if (guarded) return by_guard<Stepper>(cloth, plan, arguments...);
-    return by_stepper(std::make_shared<Stepper>(cloth, arguments...), plan);
+Advance by_guard(const Options& chosen, const Scene& scene, const Arguments&... arguments) {
+    using Guard = taut::Guarded<Stepper>;
+    typename Guard::Options options;
+    options.damping = chosen.own_damping();
+    options.max_step = scene.plan.h;
+    options.max_substeps = std::numeric_limits<taut::Index>::max() / 64;
+    auto guard = std::make_shared<Guard>(scene.cloth, options, arguments...);
+    return [guard, frame = scene.plan.frame, &cloth = scene.cloth,
+            &obstacle = scene.obstacle](State& state) {
+        if (!obstacle) return name_trouble(guard->advance(state, frame));
+        return name_trouble(
+            guard->advance(state, frame, [&](State& s) { obstacle.resolve(cloth, s); }));
+    };
+}
+
+template <class Stepper, class... Arguments>
+Advance plain_or_guarded(const Options& chosen, const Scene& scene, const Arguments&... arguments) {
+    if (chosen.guard) return by_guard<Stepper>(chosen, scene, arguments...);
+    return by_stepper(scene, std::make_shared<Stepper>(scene.cloth, arguments...));
+}
+
+template <class Stepper>
+Advance damped_or_guarded(const Options& chosen, const Scene& scene) {
+    if (chosen.guard) return by_guard<Stepper>(chosen, scene);
+    const taut::ExplicitOptions options{1, chosen.own_damping()};
+    return by_stepper(scene, std::make_shared<Stepper>(scene.cloth, options));
 }
 
 }  // namespace detail
 
-/// The chosen integrator behind one call; `cloth` must outlive it.
-inline Advance make_motion(const Options& options, const Cloth& cloth, const Plan& plan) {
+/// The chosen integrator behind one call.
+inline Advance make_motion(const Options& options, const Scene& scene) {
+    using detail::damped_or_guarded;
     using detail::plain_or_guarded;
     using Implicit = taut::ImplicitEuler<Cloth>;
     if (options.integrator == "newton") {
         typename Implicit::Options newton;
         newton.newton_iterations = 100;
-        return plain_or_guarded<Implicit>(options.guard, cloth, plan, newton);
+        return plain_or_guarded<Implicit>(options, scene, newton);
     }
     if (options.integrator == "explicit") {
-        return detail::by_stepper(std::make_shared<taut::ExplicitEuler<Cloth>>(cloth), plan);
+        return detail::by_stepper(scene, std::make_shared<taut::ExplicitEuler<Cloth>>(scene.cloth));
     }
     if (options.integrator == "verlet") {
-        return plain_or_guarded<taut::VelocityVerlet<Cloth>>(options.guard, cloth, plan);
+        return damped_or_guarded<taut::VelocityVerlet<Cloth>>(options, scene);
     }
-    if (options.integrator == "implicit") {
-        return plain_or_guarded<Implicit>(options.guard, cloth, plan);
-    }
-    if (options.integrator == "bdf2") {
-        return plain_or_guarded<taut::Bdf2<Cloth>>(options.guard, cloth, plan);
-    }
+    if (options.integrator == "implicit") return plain_or_guarded<Implicit>(options, scene);
+    if (options.integrator == "bdf2") return plain_or_guarded<taut::Bdf2<Cloth>>(options, scene);
     if (options.integrator == "projective") {
-        return plain_or_guarded<taut::ProjectiveDynamics<Cloth>>(options.guard, cloth, plan);
+        return plain_or_guarded<taut::ProjectiveDynamics<Cloth>>(options, scene);
     }
-    return plain_or_guarded<taut::SymplecticEuler<Cloth>>(options.guard, cloth, plan);
+    return damped_or_guarded<taut::SymplecticEuler<Cloth>>(options, scene);
 }
 
 /// A particle that falls at 3 m/s enters an obstacle by 12 mm within this time, s.
 constexpr double between_contacts = 1.0 / 240;
+
+/// Of the any-pose limit, which does not count the steps' own damping [T23].
+inline double share_of_limit(const Options& options) {
+    if (!options.damps()) return 0.95;
+    return taut::share_of_limit(taut::recipe.safety, options.own_damping());
+}
 
 /// The step that --step leaves open, s. Throws when there is none.
 inline double default_step(const Options& options, const Cloth& cloth, double frame) {
@@ -111,7 +141,7 @@ inline double default_step(const Options& options, const Cloth& cloth, double fr
     if (!(limit.certified > 0)) {
         throw std::runtime_error("no step is certified: " + std::string(describe(limit.cause)));
     }
-    return std::min(longest, 0.95 * limit.certified);
+    return std::min(longest, share_of_limit(options) * limit.certified);
 }
 
 /// Throws naming the options that ask for too much.
@@ -130,15 +160,8 @@ inline Plan make_plan(const Options& options, const Cloth& cloth) {
     }
     const auto steps = std::max<taut::Index>(
         1, static_cast<taut::Index>(std::ceil(plan.frame / wanted * (1 - 1e-12))));
+    plan.steps = steps;
     plan.h = plan.frame / static_cast<double>(steps);
-    if (options.collide.empty()) {
-        plan.steps = steps;
-    } else {
-        // A guard audits every span: not more of them than contacts need.
-        const auto contacts = static_cast<taut::Index>(std::ceil(plan.frame / between_contacts));
-        plan.spans = options.guard ? std::min(steps, contacts) : steps;
-        plan.steps = (steps + plan.spans - 1) / plan.spans;
-    }
     return plan;
 }
 

@@ -16,8 +16,9 @@ struct Options {
     std::optional<double> bending;  // k_b, N·m²
     std::string integrator = "symplectic";
     bool guard = false;
-    double step = 0;      // s; 0: the integrator's own
-    double duration = 2;  // s
+    std::optional<double> step_damping;  // α/h of the steps' own; the recipe's, if open
+    double step = 0;                     // s; 0: the integrator's own
+    double duration = 2;                 // s
     double frame_rate = 30;
     std::string collide;
     std::optional<double> radius;     // m
@@ -32,6 +33,13 @@ struct Options {
 
     bool implicit() const {
         return integrator != "symplectic" && integrator != "verlet" && integrator != "explicit";
+    }
+    /// Whether its steps have damping of their own, which the recipe asks for.
+    bool damps() const { return integrator == "symplectic" || integrator == "verlet"; }
+    taut::StiffnessDamping<double> own_damping() const {
+        if (!damps()) return {};
+        return step_damping ? taut::StiffnessDamping<double>{*step_damping, 0}
+                            : taut::recipe.damping;
     }
     void add_to(CLI::App& app);
     /// Throws naming the options that do not go together.
@@ -71,9 +79,15 @@ inline void Options::add_motion(CLI::App& app) {
     app.add_flag("--guard", guard,
                  "watch the energy of every frame, and take back one that gains any");
     app.add_option("--step", step,
-                   "largest time step, s (default: 0.95 of the any-pose limit; implicit and bdf2: "
-                   "1/60 s; newton and projective: a frame; with --collide at most 1/240 s)")
+                   "largest time step, s (default: the recipe's share of the any-pose limit, with "
+                   "--guard the guard's; explicit 0.95; implicit and bdf2: 1/60 s; newton and "
+                   "projective: a frame; "
+                   "with --collide at most 1/240 s)")
         ->check(example::positive());
+    app.add_option("--step-damping", step_damping,
+                   "alpha/h, the damping that symplectic and verlet steps add to the scene's own, "
+                   "which stays as it is (default: the recipe's; 0: none)")
+        ->check(example::non_negative());
     app.add_option("--duration", duration, "simulated time, s")
         ->check(example::positive())
         ->capture_default_str();
@@ -106,6 +120,7 @@ inline void Options::add_obstacle(CLI::App& app) {
 
 inline void Options::add_output(CLI::App& app) {
     app.add_option("--output", output, "folder for the frames and energy.csv")
+        ->check(example::not_empty())
         ->capture_default_str();
     app.add_option("--format", format,
                    "what the frames are written as: obj, text; ply, binary, half the size")
@@ -113,7 +128,8 @@ inline void Options::add_output(CLI::App& app) {
         ->capture_default_str();
     app.add_option("--cache", cache,
                    "a PC2 point cache too: in Blender, import the first frame and give it a Mesh "
-                   "Cache modifier with this file");
+                   "Cache modifier with this file")
+        ->check(example::not_empty());
     app.add_flag("--springs", springs,
                  "frame_*.vtk too, with the tension and strain of every spring, for ParaView");
     app.add_flag("--quiet", quiet, "no progress line");
@@ -126,6 +142,10 @@ inline void Options::check() const {
     }
     if (radius && collide != "sphere") {
         throw std::runtime_error("--radius: it belongs to --collide sphere, not to " + collide);
+    }
+    if (step_damping && !damps()) {
+        throw std::runtime_error("--step-damping: symplectic and verlet steps take it, not " +
+                                 integrator);
     }
     if (guard && integrator == "explicit") {
         throw std::runtime_error(

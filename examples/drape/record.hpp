@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "../common/output_text.hpp"
 #include "cloth.hpp"
 
 namespace drape {
@@ -16,7 +17,8 @@ namespace drape {
 /// The files of a run. Everything throws naming the option and the file.
 class Record {
 public:
-    Record(const Options& options, const Cloth& cloth, taut::MeshFaces faces);
+    /// @param frames  that will be written after the first
+    Record(const Options& options, const Cloth& cloth, const taut::MeshFaces& faces, int frames);
 
     /// The next frame. @param kinetic, potential  J
     void add(const Cloth& cloth, const State& state, double kinetic, double potential);
@@ -31,12 +33,16 @@ private:
     }
     using Frames = std::variant<taut::ObjSequence, taut::PlySequence>;
 
-    static Frames make_frames(const Options& options, taut::MeshFaces faces);
+    static Frames make_frames(const Options& options, const taut::MeshFaces& faces);
+    std::string path(taut::Index frame) const {
+        return std::visit([frame](const auto& frames) { return frames.path(frame); }, frames_);
+    }
     /// Of the next frame.
     std::string path() const {
-        return std::visit([](const auto& frames) { return frames.path(frames.frames()); }, frames_);
+        return path(std::visit([](const auto& frames) { return frames.frames(); }, frames_));
     }
-    std::string springs_path() const;
+    std::string springs_path(std::string frame) const;
+    void require_different_files(const Options& options, int frames) const;
     /// A longer run before this one would be taken for the end of it.
     void warn_of_old_frames() const;
 
@@ -47,16 +53,37 @@ private:
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> energy_{nullptr, &std::fclose};
 };
 
-inline Record::Frames Record::make_frames(const Options& options, taut::MeshFaces faces) {
+inline Record::Frames Record::make_frames(const Options& options, const taut::MeshFaces& faces) {
     std::string prefix = options.output + "/frame_";
-    if (options.format == "ply") return taut::PlySequence(std::move(prefix), std::move(faces));
-    return taut::ObjSequence(std::move(prefix), std::move(faces));
+    taut::MeshFaces polygons;
+    taut::MeshEdges lines;
+    for (const auto& face : faces) {
+        if (face.size() > 2) polygons.push_back(face);
+        if (face.size() == 2) lines.push_back({face[0], face[1]});
+    }
+    if (options.format == "ply") {
+        return taut::PlySequence(std::move(prefix), std::move(polygons), std::move(lines));
+    }
+    return taut::ObjSequence(std::move(prefix), std::move(polygons), std::move(lines));
 }
 
-inline Record::Record(const Options& options, const Cloth& cloth, taut::MeshFaces faces)
+inline void Record::require_different_files(const Options& options, int frames) const {
+    const example::FileOption mesh{"MESH", options.scene.mesh, false};
+    const example::FileOption cache{"--cache", options.cache, true};
+    example::require_different({mesh, cache, {"--output", energy_path_, true}});
+    for (taut::Index frame = 0; frame <= frames; ++frame) {
+        example::require_different({mesh, cache, {"--output", path(frame), true}});
+        if (!springs_) continue;
+        example::require_different({mesh, cache, {"--springs", springs_path(path(frame)), true}});
+    }
+}
+
+inline Record::Record(const Options& options, const Cloth& cloth, const taut::MeshFaces& faces,
+                      int frames)
     : energy_path_(options.output + "/energy.csv"),
       springs_(options.springs),
-      frames_(make_frames(options, std::move(faces))) {
+      frames_(make_frames(options, faces)) {
+    require_different_files(options, frames);
     std::error_code failed;
     std::filesystem::create_directories(options.output, failed);
     if (!failed) energy_.reset(std::fopen(energy_path_.c_str(), "w"));
@@ -75,7 +102,7 @@ inline void Record::add_energy(double time, double kinetic, double potential) {
 inline void Record::add(const Cloth& cloth, const State& state, double kinetic, double potential) {
     add_energy(state.time, kinetic, potential);
     if (springs_) {
-        require("--springs", taut::write_vtk(springs_path(), cloth, state));
+        require("--springs", taut::write_vtk(springs_path(path()), cloth, state));
     }
     if (cache_) require("--cache", cache_->write(state.x));
     require("--output", std::visit([&](auto& frames) { return frames.write(state.x); }, frames_));
@@ -90,8 +117,7 @@ inline void Record::close() {
     warn_of_old_frames();
 }
 
-inline std::string Record::springs_path() const {
-    std::string frame = path();
+inline std::string Record::springs_path(std::string frame) const {
     return frame.replace(frame.size() - 3, 3, "vtk");
 }
 

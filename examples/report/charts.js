@@ -5,10 +5,11 @@
 // The charts. Each draws into `box` from the page's data and may be called again at another width.
 
 const LIMITS = [
-  ["explicit_euler", "Explicit Euler", "at this pose"],
-  ["symplectic_euler", "Symplectic Euler", "at this pose"],
-  ["any_pose", "Symplectic Euler", "any pose, while it moves"],
-  ["implicit_euler", "Implicit Euler", "at this pose"],
+  ["explicit_euler", "Explicit Euler", "at this pose (linear)"],
+  ["symplectic_euler", "Symplectic Euler", "at this pose (linear)"],
+  ["any_pose", "Symplectic Euler", "at any pose (linearised)"],
+  ["energy", "Symplectic Euler", "energy (nonlinear)"],
+  ["implicit_euler", "Implicit Euler", "at this pose (linear)"],
 ];
 
 /// The ends of a bracket, s: up to `certified` it is proved, from `refuted` on it fails.

@@ -33,7 +33,8 @@ function writeHead() {
     return [name, value, unit];
   };
   const facts = [fact(mesh ? "Symplectic Euler, certified at this pose" : "Symplectic Euler, certified", findings.symplectic_euler)];
-  if (findings.any_pose.cause) facts.push(fact("Symplectic Euler, certified while it moves", findings.any_pose));
+  if (findings.any_pose.cause) facts.push(fact("Symplectic Euler, certified at any pose", findings.any_pose));
+  if (findings.energy.cause) facts.push(fact("Symplectic Euler, certified for the energy", findings.energy));
   const stiffest = findings.k_max.upper;
   facts.push(["Fastest vibration, at most", ...(stiffest > 0 ? frequency(Math.sqrt(stiffest) / (2 * Math.PI)) : ["none", ""])]);
   byId("facts").replaceChildren(
@@ -54,7 +55,7 @@ function writeHead() {
   fill(
     "lede",
     `Symplectic Euler: ${limitSentence(findings.symplectic_euler)}.` +
-      (frame ? ` At the step certified ${findings.any_pose.cause ? "for a moving mesh" : "here"}, a frame of 1/60\u00a0s is ${whole(frame)} ${frame === 1 ? "step" : "steps"}.` : "") +
+      (frame ? ` At the step certified ${findings.any_pose.cause ? "at any pose" : "here"}, a frame of 1/60\u00a0s is ${whole(frame)} ${frame === 1 ? "step" : "steps"}.` : "") +
       remedy(findings.want_step),
   );
 }
@@ -84,9 +85,17 @@ function causeSentences() {
   return [...groups].map(([cause, names]) => ` ${names.join(", ")}: ${cause}.`).join("");
 }
 
+/// What the three kinds of promise are; bare matrices have one.
+function promises() {
+  const { energy } = data.findings;
+  if (!energy.cause) return "";
+  const damping = energy.alpha_lower === null ? "" : ` if every spring damps the whole relative velocity of its ends, by α = ${seconds(energy.alpha_lower, 4)}`;
+  return ` At this pose: no small vibration about the mesh as it stands grows. At any pose: none grows about any pose that it moves through, but its energy may rise. Energy: no step raises it, however the mesh moves${damping}; pins are at rest and nothing from outside pushes.`;
+}
+
 function writeCaptions() {
   const { findings } = data;
-  fill("limits", `Each bar is one integrator: steps in its first part are certified, steps in its last part are refuted, and the true limit lies between.${causeSentences()}`);
+  fill("limits", `Each bar is one integrator: steps in its first part are certified, steps in its last part are refuted, and the true limit lies between.${promises()}${causeSentences()}`);
   if (data.multipliers) {
     const { below, above } = data.multipliers;
     for (const side of ["below", "above"])

@@ -135,7 +135,8 @@ function fit(mesh, width, height) {
   return 0.84 * Math.min(width / mesh.span[0], height / mesh.span[1]);
 }
 
-/// Triangles, and lines on them, from the farthest to the nearest. Triangles are flat shaded.
+/// Triangles, and lines on them, from the farthest to the nearest. Triangles are flat shaded; one
+/// whose last two corners are the same is a line of the mesh.
 /// @param view   context, zoom and the points on the screen
 /// @param paint  level of each particle or null, colours, edge (a colour or null), and lines: pairs
 ///               of particles with `bias`, what they are drawn nearer by, and `stroke(index)`
@@ -168,7 +169,7 @@ function paintInOrder(view, triangles, paint) {
     const colour = colours[Math.round((most / 255) * LEVELS) * (SHADES + 1) + Math.min(SHADES, Math.round(light * SHADES))];
     context.fillStyle = colour;
     context.strokeStyle = edge || colour;
-    context.lineWidth = 0.6;
+    context.lineWidth = j === k ? 1.6 : 0.6;
     context.moveTo(screen[i], screen[i + 1]);
     context.lineTo(screen[j], screen[j + 1]);
     context.lineTo(screen[k], screen[k + 1]);

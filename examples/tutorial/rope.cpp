@@ -15,9 +15,9 @@ using taut::Method;
 
 /// Swings for two seconds in steps of at most h, s.
 /// @returns the share of the energy above rest that is lost; NaN if the state overflowed
-template <class Stepper>
-double loss(const Rope& rope, Rope::State state, double h) {
-    Stepper stepper(rope);
+template <class Stepper, class... Options>
+double loss(const Rope& rope, Rope::State state, double h, const Options&... options) {
+    Stepper stepper(rope, options...);
     const auto steps = static_cast<int>(std::ceil(2 / h));
     const double before = rope.energy(state);
     if (!stepper.step(state, 2.0 / steps, steps)) return NAN;
@@ -60,7 +60,16 @@ int main() {
 
     const double moving = taut::any_pose_limit(rope).certified;
     std::printf("at any pose: %.3e s\n", moving);
-    print("symplectic Euler there", loss<taut::SymplecticEuler<Rope>>(rope, state, 0.95 * moving));
+    const taut::ExplicitOptions damped{1, taut::recipe.damping};
+    const double step = taut::recipe.safety * moving;
+    print("symplectic Euler by the recipe",
+          loss<taut::SymplecticEuler<Rope>>(rope, state, step, damped));
+    const auto energy = taut::energy_limit(rope);
+    std::printf("for the energy: %.3e s\n", energy.certified);
+    rope.set_graph_damping(energy.alpha(0.9 * energy.certified).lower);
+    print("symplectic Euler below it",
+          loss<taut::SymplecticEuler<Rope>>(rope, state, 0.9 * energy.certified));
+    rope.set_graph_damping(0);
 
     const double h = 2e-4;
     print("explicit Euler at 2e-4 s", loss<taut::ExplicitEuler<Rope>>(rope, state, h));

@@ -88,6 +88,59 @@ TEST_CASE("implicit_newton: with a convex energy no step raises the energy, at a
     }
 }
 
+TEST_CASE("implicit_newton: a spring of 1e20 N/m excuses no particle but its own", "[integrator]") {
+    const int count = 200;
+    int converged = 0;
+    for (std::uint32_t seed = 1; seed <= count; ++seed) {
+        Random random(seed);
+        const double h = std::pow(10, random.uniform(-3, 0));
+        auto system = random_system<double, 3, TensionOnly>(random);
+        auto alone = random_state(random, system);
+        alone.v.leftCols(2).setZero();
+        auto stepper = newton(system);
+        auto beside = alone;
+        REQUIRE(stepper.step(alone, h));
+
+        // The same with a pair beside it that nothing joins to it.
+        const Index a = system.add_particle(random.vector<double, 3>(2, 3), 1);
+        const Index b = system.add_particle(random.vector<double, 3>(4, 5), 1);
+        system.add_spring<TensionOnly>(a, b, {1e20});
+        const auto placed = system.initial_state();
+        beside.x.conservativeResize(Eigen::NoChange, system.size());
+        beside.v.conservativeResize(Eigen::NoChange, system.size());
+        beside.x.rightCols(2) = placed.x.rightCols(2);
+        beside.v.rightCols(2) = random.points<double, 3>(2, -1, 1);
+        auto with_pair = newton(system, 60, 1e-6);
+        if (!with_pair.step(beside, h)) continue;
+        ++converged;
+        INFO("seed " << seed << ", h " << h);
+        CHECK(distance(beside.v.leftCols(8), alone.v) <= 1e-3 * largest(alone.v));
+    }
+    CHECK(converged >= count / 2);
+}
+
+TEMPLATE_TEST_CASE("implicit_newton: the work of moving pins and constraints is no gain",
+                   "[integrator]", float, double) {
+    for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+        Random random(seed);
+        RandomOptions options;
+        options.dampers = true;
+        options.rayleigh = seed % 2 == 0;
+        const auto system = random_system<TestType, 3, TensionOnly>(random, options);
+        auto state = random_state(random, system);
+        state.v.leftCols(2) *= 20;  // the pins
+        typename ImplicitEuler<std::decay_t<decltype(system)>>::Options many;
+        many.newton_iterations = 100;
+        ImplicitEuler stepper(system, many);
+        stepper.constraints().hold_in_plane(3, random.vector<TestType, 3>(1, 2), 10);
+        stepper.constraints().prescribe(5, random.vector<TestType, 3>(-20, 20));
+        const auto before = system.energy(state);
+        INFO("seed " << seed);
+        REQUIRE(stepper.step(state, TestType(0.1)));
+        CHECK(system.energy(state) > before);
+    }
+}
+
 TEST_CASE("implicit_newton: one iteration is the linearised step, and matrices need no more",
           "[integrator]") {
     Random random(3);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/integrator/projective_dynamics.hpp>
@@ -7,6 +8,7 @@
 
 #include "../support/catch.hpp"
 #include "../support/check_stepper.hpp"
+#include "../support/dense.hpp"
 #include "../support/message.hpp"
 #include "../support/random_system.hpp"
 #include "../support/returning_steps.hpp"
@@ -18,6 +20,9 @@ using taut::ImplicitEuler;
 using taut::ProjectiveDynamics;
 
 namespace {
+
+template <class Scalar, int Dim>
+using AllLaws = taut::SpringSystem<Scalar, Dim, taut::Hookean, TensionOnly, Buckling, Glue>;
 
 /// Everything at once: pins that move, gravity, dampers, Rayleigh damping, an external force.
 template <class System>
@@ -38,6 +43,17 @@ ProjectiveDynamics<System> converging(const System& system, int window) {
     options.window = window;
     return ProjectiveDynamics<System>(system, options);
 }
+
+/// Keeps the last matrix that it factorised.
+template <class Scalar>
+struct Witness : Eigen::SimplicialLLT<taut::SparseMatrix<Scalar>> {
+    static inline Eigen::MatrixXd seen;
+
+    void factorize(const taut::SparseMatrix<Scalar>& A) {
+        seen = Eigen::MatrixXd(A.template cast<double>());
+        Eigen::SimplicialLLT<taut::SparseMatrix<Scalar>>::factorize(A);
+    }
+};
 
 /// φ of a step of h from `start` that ends in `end`.
 template <class System>
@@ -109,6 +125,53 @@ TEMPLATE_TEST_CASE("projective_dynamics: no iteration raises the step's objectiv
                     last = next;
                 }
             }
+        }
+    }
+}
+
+TEMPLATE_TEST_CASE("projective_dynamics: its matrix is no less than any Hessian of the objective",
+                   "[integrator]", (AllLaws<double, 1>), (AllLaws<double, 2>), (AllLaws<double, 3>),
+                   (AllLaws<float, 1>), (AllLaws<float, 2>), (AllLaws<float, 3>)) {
+    using Scalar = typename TestType::Scalar;
+    constexpr int Dim = TestType::Dim;
+    for (std::uint32_t seed = 1; seed <= 60; ++seed) {
+        Random random(seed);
+        RandomOptions options;
+        options.springs = 3;
+        options.rayleigh = seed % 2 == 0;
+        auto system = random_like<TestType>(random, options);
+        for (int s = 0; s < 6; ++s) {
+            const Index a = random.below(8);
+            const Index b = (a + 1 + random.below(7)) % 8;
+            const auto damping = static_cast<Scalar>(log_uniform(random, 0.01, 1000));
+            system.template add_spring<taut::Hookean>({a, b, {Scalar(10)}, Scalar(0.5), damping});
+        }
+        const auto start = random_state(random, system);
+        const auto h = static_cast<Scalar>(log_uniform(random, 1e-3, 10));
+        ProjectiveDynamics<TestType, Witness<Scalar>> stepper(system);
+        auto moved = start;
+        REQUIRE(stepper.step(moved, h));
+
+        const auto free = free_dofs(system);
+        const auto n = static_cast<Index>(free.size());
+        const auto damped = dense_matrices(system, start);
+        for (int pose = 0; pose < 10; ++pose) {
+            const auto bent = dense_matrices(system, random_state(random, system));
+            const double step = static_cast<double>(h);
+            const Eigen::MatrixXd hessian = bent.M + step * damped.D + step * step * bent.K;
+            Eigen::MatrixXd excess(n, n);
+            for (Index i = 0; i < n; ++i) {
+                for (Index j = 0; j < n; ++j) {
+                    const double bound =
+                        i % Dim == j % Dim ? Witness<Scalar>::seen(i / Dim, j / Dim) : 0;
+                    excess(i, j) = bound - hessian(free[i], free[j]);
+                }
+            }
+            INFO("seed " << seed << ", h " << h << ", pose " << pose);
+            const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(excess,
+                                                                        Eigen::EigenvaluesOnly);
+            CHECK(solver.eigenvalues()[0] >=
+                  -Tolerance<Scalar>::rounding * largest(Witness<Scalar>::seen));
         }
     }
 }

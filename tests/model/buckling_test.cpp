@@ -125,6 +125,64 @@ TEMPLATE_TEST_CASE("buckling: energy, tension and slope agree away from the kink
     }
 }
 
+TEMPLATE_TEST_CASE("buckling: at l = L its slope is the stiffness, one ulp below it the onset",
+                   "[model]", float, double, long double) {
+    Random random(4);
+    for (const double c : {2.0, 7.88, 9.8, 10.5, 100.0, 1e6}) {
+        const double length = random.uniform(0.3, 2);
+        const auto q = with_onset(c, random.uniform(0.1, 5), length);
+        const auto p = q.cast<TestType>();
+        const auto L = static_cast<TestType>(length);
+        const TestType below = std::nextafter(L, TestType(0));
+        CHECK(Buckling::tension_slope(p, L, std::nextafter(L, TestType(4))) == p.stiffness);
+        CHECK(Buckling::tension_slope(p, L, L) == p.stiffness);
+        CHECK(Buckling::tension_slope(p, L, below) == p.onset);
+        CHECK(Buckling::tension(p, L, L) == 0);
+        CHECK(Buckling::tension(p, L, below) == p.onset * (below - L));
+    }
+}
+
+TEST_CASE("buckling: just past each crossing the slope is that of the curve which took over",
+          "[model]") {
+    using Long = long double;
+    Random random(5);
+    int crossings = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+        // Below π² the line comes back as the ends meet, above it never does.
+        const double c = trial % 2 == 0 ? random.uniform(7.95, 9.8) : random.uniform(10, 1000);
+        const double L = random.uniform(0.3, 2);
+        const auto p = with_onset(c, random.uniform(0.1, 5), L);
+        const auto on_line = [&](double l) {
+            return Buckling::tension(p, L, l) == p.onset * (l - L);
+        };
+        // One crossing is above the length at which the beam is the furthest from the line, w =
+        // 5.782; the other one below.
+        const double furthest = L * (1 - 0.7205);
+        REQUIRE_FALSE(on_line(furthest));
+        for (const double end : {L * (1 - 1e-12), L * 1e-6}) {
+            if (!on_line(end)) continue;
+            ++crossings;
+            double line = end;
+            double beam = furthest;
+            while (std::abs(line - beam) > 4e-16 * L) {
+                const double middle = (line + beam) / 2;
+                (on_line(middle) ? line : beam) = middle;
+            }
+            const double beyond = beam + (beam < line ? -1e-9 : 1e-9) * L;
+            const double before = line + (beam < line ? 1e-9 : -1e-9) * L;
+            CHECK(Buckling::tension_slope(p, L, before) == p.onset);
+            // The beam's own slope, from both sides of a point on it in long double.
+            const auto q = p.cast<Long>();
+            const Long step = 1e-10L * L;
+            const Long rise = Buckling::tension(q, Long(L), Long(beyond) + step) -
+                              Buckling::tension(q, Long(L), Long(beyond) - step);
+            CHECK_THAT(Buckling::tension_slope(p, L, beyond),
+                       WithinRel(static_cast<double>(rise / (2 * step)), 1e-5));
+        }
+    }
+    CHECK(crossings >= 250);
+}
+
 TEST_CASE("buckling: the beam shows exactly where the bound counts it", "[model]") {
     const double L = 0.8;
     for (const double c : {7.8, 7.86}) {  // the line is never exceeded

@@ -123,6 +123,57 @@ TEMPLATE_TEST_CASE("linear_system: asymmetry of a few ulp is averaged, of many i
                   {"stiffness", "symmetric", "GeneralLinearSystem"}) == "");
 }
 
+TEMPLATE_TEST_CASE("linear_system: each pair of entries is judged by its own rows", "[model]",
+                   float, double) {
+    const TestType ulp = std::numeric_limits<TestType>::epsilon();
+    Random random(4);
+    for (int repeat = 0; repeat < 200; ++repeat) {
+        // Stiff and soft rows beside each other, some of them coupled.
+        const Dense<TestType> A = draw_matrix<TestType>(random, 8);
+        Dense<TestType> S = A + A.transpose();
+        for (Index i = 0; i < 8; ++i) {
+            const auto scale = static_cast<TestType>(log_uniform(random, 1e-6, 1e6));
+            S.row(i) *= scale;
+            S.col(i) *= scale;
+        }
+        S = S.template triangularView<Eigen::Lower>();
+        S += Dense<TestType>(S.transpose());
+        const Index i = random.below(8);
+        const Index j = (i + 1 + random.below(7)) % 8;
+        const TestType own =
+            std::min(S.row(i).cwiseAbs().maxCoeff(), S.row(j).cwiseAbs().maxCoeff());
+        const auto accepted = [&](TestType asymmetry, bool as_damping) {
+            Dense<TestType> changed = S;
+            changed(i, j) += asymmetry * own;
+            const auto one = Eigen::Matrix<TestType, 8, 1>::Ones().eval();
+            return message_of([&] {
+                       if (as_damping) {
+                           LinearSystem<TestType>(one, sparse<TestType>(changed),
+                                                  sparse<TestType>(S));
+                       } else {
+                           LinearSystem<TestType>(one, {}, sparse<TestType>(changed));
+                       }
+                   })
+                .empty();
+        };
+        INFO("matrix " << repeat << ", (" << i << ", " << j << ")");
+        for (const bool as_damping : {false, true}) {
+            CHECK(accepted(0, as_damping));
+            CHECK(accepted(8 * ulp, as_damping));
+            CHECK_FALSE(accepted(64 * ulp, as_damping));
+            CHECK_FALSE(accepted(TestType(0.1), as_damping));
+        }
+    }
+    // A circulatory block that a stiff neighbour hid.
+    Dense<TestType> K = Dense<TestType>::Zero(3, 3);
+    K(0, 0) = TestType(1e12);
+    K.bottomRightCorner(2, 2) << TestType(1e-6), TestType(1e-4), TestType(-1e-4), TestType(1e-6);
+    CHECK(missing(message_of([&] {
+                      LinearSystem<TestType>(mass.cast<TestType>(), {}, sparse<TestType>(K));
+                  }),
+                  {"stiffness", "symmetric", "(2, 1)", "(1, 2)"}) == "");
+}
+
 TEST_CASE("linear_system: exactly symmetric matrices are kept to the bit", "[model]") {
     Random random(3);
     const Eigen::MatrixXd A = draw_matrix<double>(random, 8);

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include <taut/model/buckling.hpp>
 #include <taut/model/hookean.hpp>
 #include <taut/model/spring_set.hpp>
 
 #include "../support/catch.hpp"
+#include "../support/random.hpp"
 #include "../support/tolerance.hpp"
 
 namespace taut_test::spring_set_test {
@@ -64,6 +66,42 @@ TEST_CASE("spring_set: a float spring has a tangent in double", "[model]") {
     CHECK(t.axial == static_cast<double>(0.1F));
     const double expected = static_cast<double>(0.1F) * (1 - static_cast<double>(0.3F) / 0.7);
     CHECK_THAT(t.transverse, Catch::Matchers::WithinRel(expected, Tolerance<double>::rounding));
+}
+
+// Far from the origin rounding reaches across both kinks of Buckling: the line between them, the
+// stiffest of all, is narrower.
+TEMPLATE_TEST_CASE("spring_set: no slope within rounding is above axial_range", "[model]", float,
+                   double) {
+    Random random(1401);
+    int between = 0;
+    for (int repeat = 0; repeat < 2000; ++repeat) {
+        SpringSet<TestType, taut::Buckling> set;
+        const auto onset = static_cast<TestType>(log_uniform(random, 1, 1e6));
+        const auto bending =
+            static_cast<TestType>(static_cast<double>(onset) * log_uniform(random, 1e-16, 1e-2));
+        const auto L = static_cast<TestType>(random.uniform(0.5, 2));
+        set.add({0, 1, {1, bending, onset}, L});
+        const double origin = log_uniform(random, 1e-3, 1e5);
+        const double most = 4 * static_cast<double>(std::numeric_limits<TestType>::epsilon()) *
+                            (2 * origin + 2 * static_cast<double>(L));
+        taut::Points<double, 1> x(1, 2);
+        x << origin, origin + static_cast<double>(L) + most * random.uniform(-1, 1);
+        const double l = x(0, 1) - x(0, 0);
+        const double stiffer = set.axial_range(0, x, set.tangent(0, x)).second;
+        const auto p = set.parameters[0].template cast<double>();
+        const double rest = static_cast<double>(L);
+        for (int i = -50; i <= 51; ++i) {
+            const double at = i > 50 ? std::nextafter(rest, 0.0) : l + most * i / 50;
+            if (!(at > 0) || std::abs(at - l) > most) continue;
+            const double slope = taut::Buckling::tension_slope(p, rest, at);
+            CAPTURE(onset, bending, origin, l - rest, at - l);
+            const double rounding = 1e-12 * taut::Buckling::stiffness_bound(p, rest);
+            REQUIRE(slope <= stiffer + rounding);
+        }
+        between +=
+            12 * static_cast<double>(bending) / (rest * rest) / static_cast<double>(onset) < most;
+    }
+    REQUIRE(between > 200);
 }
 
 }  // namespace taut_test::spring_set_test

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 // What makes TensionOnly a string; what it shares with all laws is tested in hookean_test.cpp.
+#include <cmath>
+#include <limits>
 #include <taut/model/spring_system.hpp>
 #include <taut/model/tension_only.hpp>
 
@@ -22,6 +24,26 @@ TEMPLATE_TEST_CASE("tension_only: slack it is nothing, taut it is Hooke's spring
         CHECK(TensionOnly::tension(p, L, l) == (taut ? taut::Hookean::tension(p, L, l) : 0));
         CHECK(TensionOnly::tension_slope(p, L, l) == (taut ? p.stiffness : 0));
         CHECK(TensionOnly::energy(p, L, l) == (taut ? taut::Hookean::energy(p, L, l) : 0));
+    }
+}
+
+TEMPLATE_TEST_CASE(
+    "tension_only: its slope is that of the slack side at l = L and k one ulp beyond", "[model]",
+    float, double, long double) {
+    Random random(2);
+    for (int trial = 0; trial < 200; ++trial) {
+        const TensionOnly::Parameters<TestType> p{static_cast<TestType>(random.uniform(20, 200))};
+        const auto L = static_cast<TestType>(random.uniform(0.1, 2));
+        const TestType below = std::nextafter(L, TestType(0));
+        const TestType beyond = std::nextafter(L, TestType(4));
+        CHECK(TensionOnly::tension_slope(p, L, below) == 0);
+        CHECK(TensionOnly::tension_slope(p, L, L) == 0);
+        CHECK(TensionOnly::tension_slope(p, L, beyond) == p.stiffness);
+        CHECK(TensionOnly::tension(p, L, below) == 0);
+        CHECK(TensionOnly::tension(p, L, L) == 0);
+        CHECK(TensionOnly::tension(p, L, beyond) == p.stiffness * (beyond - L));
+        CHECK(TensionOnly::energy(p, L, L) == 0);
+        CHECK(TensionOnly::energy(p, L, beyond) > 0);
     }
 }
 

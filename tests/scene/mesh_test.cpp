@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cstdint>
+#include <iterator>
 #include <limits>
 #include <set>
 #include <taut/scene/mesh.hpp>
@@ -9,11 +11,11 @@
 
 #include "../support/catch.hpp"
 #include "../support/message.hpp"
+#include "../support/random.hpp"
 #include "../support/tolerance.hpp"
 
 namespace taut_test::mesh_test {
 
-using taut::Index;
 using taut::MeshOptions;
 using taut::springs_from_mesh;
 
@@ -39,7 +41,8 @@ struct Joined {
 };
 
 /// The particle pairs that are joined, by stiffness.
-Joined joined(const taut::MeshSprings<double>& mesh) {
+template <class Scalar>
+Joined joined(const taut::MeshSprings<Scalar>& mesh) {
     Joined pairs;
     const auto& set = mesh.system.springs();
     for (std::size_t s = 0; s < set.a.size(); ++s) {
@@ -129,6 +132,41 @@ TEST_CASE("mesh: a face given twice adds nothing", "[scene]") {
     CHECK(twice.bend.empty());
 }
 
+TEMPLATE_TEST_CASE("mesh: faces of two corners are springs, and nothing else changes", "[scene]",
+                   float, double) {
+    for (std::uint32_t seed = 0; seed < 50; ++seed) {
+        INFO("seed " << seed);
+        Random random(seed);
+        const Index n = 6 + random.below(30);
+        const auto vertices = random.template points<TestType, 3>(n, -1, 1);
+        Faces lines;
+        Pairs pairs;
+        for (Index i = 0; i < n; ++i) {  // every vertex, and some pairs twice
+            const Index a = random.below(n - 1);
+            lines.push_back({i <= a ? a + 1 : a, i});
+            pairs.emplace(std::min(lines.back()[0], i), std::max(lines.back()[0], i));
+        }
+        const auto net = springs_from_mesh<TestType>(vertices, lines);
+        CHECK(joined(net).stretch == pairs);
+        CHECK(net.bend_springs == 0);
+
+        const auto columns = n / 2 - 1;
+        Faces faces = triangle_grid(1, columns);
+        const auto grid = joined(springs_from_mesh<TestType>(vertices, faces));
+        // Before, between and behind the faces.
+        for (const auto& line : lines)
+            faces.insert(faces.begin() + random.below(faces.size()), line);
+        const auto both = joined(springs_from_mesh<TestType>(vertices, faces));
+        Pairs stretch = grid.stretch;
+        stretch.insert(pairs.begin(), pairs.end());
+        CHECK(both.stretch == stretch);
+        Pairs bend;  // but where a line is already
+        std::set_difference(grid.bend.begin(), grid.bend.end(), pairs.begin(), pairs.end(),
+                            std::inserter(bend, bend.end()));
+        CHECK(both.bend == bend);
+    }
+}
+
 TEST_CASE("mesh: spring counts of closed and open surfaces follow Euler's formula", "[scene]") {
     // Tetrahedron: E = 6, every pair is joined already.
     const auto tetrahedron = joined(4, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}});
@@ -192,8 +230,9 @@ TEST_CASE("mesh: bad input: faces", "[scene][bad_input]") {
         return missing(message_of([&] { joined(4, faces); }), words);
     };
     CHECK(refused({}, {"springs_from_mesh", "no faces"}) == "");
-    CHECK(refused({{0, 1, 2}, {0, 1}}, {"face 1", "2 corners", "at least 3"}) == "");
-    CHECK(refused({{}}, {"face 0", "0 corners", "at least 3"}) == "");
+    CHECK(refused({{0, 1, 2}, {0}}, {"face 1", "1 corners", "at least 2"}) == "");
+    CHECK(refused({{}}, {"face 0", "0 corners", "at least 2"}) == "");
+    CHECK(refused({{0, 1}, {2, 2}}, {"face 1", "vertex 2 twice"}) == "");
     CHECK(refused({{0, 1, 2}, {0, 1, 3}, {0, 1, 4}}, {"face 2", "vertex 4", "4 vertices"}) == "");
     CHECK(refused({{0, -1, 2}}, {"face 0", "vertex -1", "4 vertices"}) == "");
     CHECK(refused({{0, 1, 2, 1}}, {"face 0", "vertex 1 twice"}) == "");

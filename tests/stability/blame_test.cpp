@@ -226,6 +226,103 @@ TEST_CASE("blame: scales where every step is safe, and where none is", "[stabili
     CHECK(active.min_mass_scale(Method::symplectic_euler, 1e-3) == infinity);
 }
 
+TEMPLATE_TEST_CASE("blame: scales are those of one mode, however far from 1", "[stability]",
+                   (Case<double, 1>), (Case<double, 2>), (Case<double, 3>), (Case<float, 1>),
+                   (Case<float, 3>)) {
+    using Scalar = typename TestType::Scalar;
+    constexpr int Dim = TestType::Dim;
+    constexpr bool is_double = std::is_same_v<Scalar, double>;
+    const auto held = [](double value) { return static_cast<double>(static_cast<Scalar>(value)); };
+    Random random(1302);
+    for (int repeat = 0; repeat < 120; ++repeat) {
+        const auto k = static_cast<Scalar>(log_uniform(random, 1e-4, 1e6));
+        const auto m = static_cast<Scalar>(log_uniform(random, 1e-4, 1e4));
+        const double h =
+            is_double ? log_uniform(random, 1e-140, 1e140) : log_uniform(random, 1e-30, 1e30);
+        const Index kind = random.below(3);  // undamped, d0, α
+        const double d0 = held(kind == 1 ? random.uniform(0.1, 2.2) / h : 0);
+        const double alpha = held(kind == 2 ? random.uniform(0.1, 4) * h : 0);
+        taut::SpringSystem<Scalar, Dim> system;
+        using Vector = Eigen::Matrix<Scalar, Dim, 1>;
+        system.add_particle(Vector::Zero(), 1);
+        system.add_particle(Vector::Unit(0), m);
+        system.add_spring(0, 1, k);
+        system.pin(0);
+        system.set_rayleigh({d0, alpha});
+        const Stability<double> stability = [&] {
+            if (repeat % 2 == 1 && kind == 0) {
+                const Eigen::VectorXd mass = Eigen::VectorXd::Constant(1, static_cast<double>(m));
+                const Eigen::MatrixXd K = Eigen::MatrixXd::Constant(1, 1, static_cast<double>(k));
+                return Stability<double>(taut::LinearSystem<double>(mass, {}, sparse(K)));
+            }
+            taut::SpringSystem<double, Dim> copy;
+            copy.add_particle(Eigen::Matrix<double, Dim, 1>::Zero(), 1);
+            copy.add_particle(Eigen::Matrix<double, Dim, 1>::Unit(0), static_cast<double>(m));
+            copy.add_spring(0, 1, static_cast<double>(k));
+            copy.pin(0);
+            copy.set_rayleigh({d0, alpha});
+            return Stability<double>(copy, copy.initial_state());
+        }();
+        const Stability<Scalar> own(system, system.initial_state());
+        for (const Method method : stepping) {
+            const bool is_explicit = method == Method::explicit_euler;
+            // The largest z = h²k/m by [T8] and [T10], with d = d0 + αk.
+            const double a = alpha / h;
+            double z = is_explicit ? (a > 1        ? 2 / (a - 0.5)
+                                      : d0 * h < 2 ? d0 * h / (1 - a)
+                                                   : 0)
+                                   : (4 - 2 * h * d0) / (1 + 2 * a);
+            if (!(z > 0)) z = 0;
+            const double stiffer = z / h * (static_cast<double>(m) / static_cast<double>(k)) / h;
+            INFO(name(method) << ", k = " << k << ", m = " << m << ", h = " << h << ", d0 = " << d0
+                              << ", alpha = " << alpha);
+            const auto check = [&](double scale, double expected) {
+                if (expected == 0 || std::isinf(expected)) {
+                    CHECK(scale == expected);
+                } else {
+                    CHECK_THAT(scale, WithinRel(expected, 1e-7));
+                }
+            };
+            check(stability.max_stiffness_scale(method, h), stiffer);
+            check(stability.min_mass_scale(method, h), 1 / stiffer);
+            check(own.max_stiffness_scale(method, h), stiffer);
+            check(own.min_mass_scale(method, h), 1 / stiffer);
+        }
+    }
+}
+
+TEST_CASE("blame: a scale that double does not hold is none, and none is ever too generous",
+          "[stability]") {
+    Random random(1303);
+    for (int repeat = 0; repeat < 400; ++repeat) {
+        const double k = log_uniform(random, 1e-150, 1e150);
+        const double m = log_uniform(random, 1e-150, 1e150);
+        const double h = log_uniform(random, 1e-300, 1e300);
+        const Eigen::VectorXd mass = Eigen::VectorXd::Constant(1, m);
+        const Eigen::MatrixXd K = Eigen::MatrixXd::Constant(1, 1, k);
+        taut::SpringSystem<double, 1> system;
+        using Vector = Eigen::Matrix<double, 1, 1>;
+        system.add_particle(Vector(0.0), 1);
+        system.add_particle(Vector(1.0), m);
+        system.add_spring(0, 1, k);
+        system.pin(0);
+        const Real truth = 4 * (static_cast<Real>(m) / k) / h / h;
+        for (const auto& stability :
+             {Stability<double>(taut::LinearSystem<double>(mass, {}, sparse(K))),
+              Stability<double>(system, system.initial_state())}) {
+            const double stiffer = stability.max_stiffness_scale(Method::symplectic_euler, h);
+            const double lighter = stability.min_mass_scale(Method::symplectic_euler, h);
+            INFO("k = " << k << ", m = " << m << ", h = " << h);
+            if (std::isfinite(stiffer)) CHECK(static_cast<Real>(stiffer) <= truth);
+            if (std::isinf(stiffer)) CHECK(truth >= std::numeric_limits<double>::max());
+            if (lighter > 0) CHECK(static_cast<Real>(lighter) >= 1 / truth);
+            if (lighter == 0)
+                CHECK(1 / truth <=
+                      1.001 * std::max(1.0, 1 / m) * std::numeric_limits<double>::min());
+        }
+    }
+}
+
 TEST_CASE("blame: substeps", "[stability]") {
     const auto cloth = cloth_of(5);
     const Stability<double> stability(cloth, cloth.initial_state());

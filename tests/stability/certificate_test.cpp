@@ -242,6 +242,49 @@ TEST_CASE("certificate: the errors of forming a matrix count", "[stability]") {
     }
 }
 
+TEST_CASE("certificate: its allowance for rounding is that of the theory, and little more",
+          "[stability]") {
+    const Real u = std::numeric_limits<double>::epsilon() / 2;
+    const auto share = [&](Index q) {  // [T22] in long double
+        const Real gamma = static_cast<Real>(q + 1) * u / (1 - static_cast<Real>(q + 1) * u);
+        return gamma / (1 - gamma);
+    };
+    for (const Index q : {1, 2, 3, 7, 30, 1000, 30000, 1000000, 100000000}) {
+        INFO(q << " in the widest row");
+        const Real computed = taut::detail::cholesky_rounding(q);
+        CHECK(computed >= share(q));
+        CHECK(computed <= share(q + 1) * (1 + 2 * static_cast<Real>(q + 2) * u));
+    }
+    // The shift pays for the factorisation, for the errors of forming A, for the subtraction on
+    // diagonals below 4 and for underflow.
+    Random random(211);
+    for (const auto& [p, q] :
+         {std::pair<Index, Index>{1, 1}, {7, 1}, {5, 4}, {20, 20}, {3000, 1}}) {
+        for (const double slack : {0.0, 1e-14, 1e-9, 1e-3}) {
+            const Sparse A = badly_scaled(random, grid(p, q, random.uniform(4.1, 8)), 40);
+            Real trace = 0;
+            const auto proof = taut::Prover<>{}(Sparse(A), [&](const Eigen::VectorXd& s) {
+                trace = 0;
+                for (Index i = 0; i < A.rows(); ++i) {
+                    const Real scale = s[i];
+                    trace += scale * scale * static_cast<Real>(A.coeff(i, i));
+                }
+                return slack;
+            });
+            const Index widest = taut::EigenCholesky{}.analyze(A);
+            const auto n = static_cast<Real>(A.rows());
+            const Real eta = std::numeric_limits<double>::min();
+            const Real needed = share(widest) * trace + static_cast<Real>(slack) +  //
+                                2 * u + n * static_cast<Real>(widest + 1) * eta;
+            INFO(p << " x " << q << ", slack " << slack);
+            CHECK(static_cast<Real>(proof.shift) >= needed);
+            const Real most = share(widest + 1) * trace + static_cast<Real>(slack) + 8 * u;
+            CHECK(static_cast<Real>(proof.shift) <= most * (1 + 1e-10L));
+            CHECK(proof.proved == (slack < 1e-2));
+        }
+    }
+}
+
 TEST_CASE("certificate: one analysis serves every matrix of a pattern", "[stability]") {
     taut::Prover<CountingCholesky> prover;
     CountingCholesky::analyses = 0;

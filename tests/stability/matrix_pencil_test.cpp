@@ -87,6 +87,58 @@ TEST_CASE("matrix_pencil: masses at both ends of the range leave no bound too lo
     CHECK(bounded > 100);
 }
 
+TEMPLATE_TEST_CASE("matrix_pencil: every entry of D says whether it is d0*M", "[stability]", double,
+                   long double) {
+    Random random(906);
+    const auto pencil_of = [](const taut::VectorX<TestType>& mass,
+                              const taut::VectorX<TestType>& damping) {
+        taut::SparseMatrix<TestType> D(mass.size(), mass.size());
+        taut::SparseMatrix<TestType> K(mass.size(), mass.size());
+        for (Index i = 0; i < mass.size(); ++i) {
+            if (damping[i] != 0) D.insert(i, i) = damping[i];
+            K.insert(i, i) = mass[i];
+        }
+        return MatrixPencil(LinearSystem<TestType>(mass, D, K));
+    };
+    for (int repeat = 0; repeat < 1000; ++repeat) {
+        const Index n = 2 + random.below(6);
+        taut::VectorX<TestType> mass(n);
+        for (Index i = 0; i < n; ++i) {
+            // More digits than Random's.
+            const double digits = random.uniform(1, 2) + random.uniform(0, 1) * 0x1p-30;
+            mass[i] = static_cast<TestType>(log_uniform(random, 1e-70, 1e70) * digits);
+        }
+        const auto d0 =
+            static_cast<TestType>(log_uniform(random, 1e-70, 1e70) * random.uniform(1, 2) / 3);
+        taut::VectorX<TestType> damping = d0 * mass;
+        const auto pencil = pencil_of(mass, damping);
+        CHECK(pencil.is_rayleigh());
+        CHECK(pencil.damping_semidefinite());
+        CHECK_THAT(pencil.rayleigh().mass_proportional, WithinRel(static_cast<double>(d0), 1e-15));
+        // Any one of them may deny it.
+        const Index other = random.below(n);
+        damping[other] *= static_cast<TestType>(1 + 1e-14);
+        CHECK_FALSE(pencil_of(mass, damping).is_rayleigh());
+        damping[other] = 0;
+        CHECK_FALSE(pencil_of(mass, damping).is_rayleigh());
+    }
+    // Where d0·m, or an entry over m, would vanish, the entry is out of range already.
+    for (int repeat = 0; repeat < 100; ++repeat) {
+        const auto tiny = static_cast<TestType>(log_uniform(random, 1e-300, 1e-170));
+        const auto small = static_cast<TestType>(log_uniform(random, 1e-300, 1e-170));
+        taut::VectorX<TestType> mass(2);
+        taut::VectorX<TestType> damping(2);
+        mass << 1, small;
+        damping << tiny, 0;
+        CHECK_FALSE(pencil_of(mass, damping).lost().empty());
+        mass << 1, 1 / small;
+        damping << 0, tiny;
+        CHECK_FALSE(pencil_of(mass, damping).lost().empty());
+    }
+    CHECK(pencil_of(taut::VectorX<TestType>::Ones(3), taut::VectorX<TestType>::Zero(3))
+              .is_rayleigh());
+}
+
 TEST_CASE("matrix_pencil: the bound is sharp where no sign cancels", "[stability]") {
     // Collatz and Wielandt: for entries ≥ 0, and for a row of springs, it converges to the truth.
     Random random(901);

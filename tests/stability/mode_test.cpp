@@ -180,6 +180,52 @@ TEST_CASE("mode: closed forms by hand", "[stability]") {
     CHECK(critical_step(Method::symplectic_euler, -4, 3) == infinity);
 }
 
+TEST_CASE("mode: no square vanishes or overflows on the way to critical_step", "[stability]") {
+    Random random(506);
+    for (int repeat = 0; repeat < 3000; ++repeat) {
+        const double k = repeat % 4 == 0 ? 0 : log_uniform(random, 1e-307, 1e307);
+        const double d = repeat % 4 == 1 ? 0 : log_uniform(random, 1e-307, 1e307);
+        INFO("k = " << k << ", d = " << d);
+        const Real dd = d, kk = k;
+        // The multipliers of a step of 1 s without stiffness are 1 and 1 − d. Where these are
+        // nearly one, rounding moves them by its square root, but not (μ − 1)(μ − 1 + d).
+        const auto mu = taut::multipliers(Method::symplectic_euler, 0, d, 1);
+        const Real size = std::max(Real(1), dd);
+        for (const auto& m : mu) {
+            const std::complex<Real> beyond_1(Real(m.real()) - 1, m.imag());
+            CHECK(std::abs(beyond_1 / size * ((beyond_1 + dd) / size)) <= 1e-14L);
+        }
+        const auto sum = std::complex<Real>(mu[0]) + std::complex<Real>(mu[1]);
+        CHECK(std::abs(sum - (2 - dd)) <= 1e-14L * size);
+        CHECK(taut::spectral_radius(Method::symplectic_euler, 0, d, 1) ==
+              std::max(std::abs(mu[0]), std::abs(mu[1])));
+        const auto check = [](double h, Real exact) {
+            if (exact > static_cast<Real>(std::numeric_limits<double>::max())) {
+                CHECK(h == infinity);
+            } else if (exact > 1e-307L) {
+                CHECK_THAT(h, WithinRel(static_cast<double>(exact), 1e-14));
+            }
+        };
+        check(critical_step(Method::symplectic_euler, k, d),
+              4 / (dd + std::sqrt(dd * dd + 4 * kk)));
+        const Real under = dd * dd - 4 * kk;
+        // Where two roots meet, the limit moves by the square root of a rounding.
+        if (std::abs(under) > 1e-3L * dd * dd) {
+            check(critical_step(Method::explicit_euler, k, d),
+                  under < 0 ? dd / kk : 4 / (dd + std::sqrt(under)));
+        }
+        if (k == 0) continue;
+        check(critical_step(Method::implicit_euler, -k, d),
+              (dd + std::sqrt(dd * dd + 4 * kk)) / (2 * kk));
+        // A buckled mode of symplectic Euler has a limit where it is overdamped.
+        if (under > 1e-3L * dd * dd) {
+            check(critical_step(Method::symplectic_euler, -k, d), 4 / (dd + std::sqrt(under)));
+        } else if (under < -1e-3L * kk) {
+            CHECK(critical_step(Method::symplectic_euler, -k, d) == infinity);
+        }
+    }
+}
+
 TEST_CASE("mode: a buckled mode is limited by the step alone", "[stability]") {
     Random random(504);
     for (int repeat = 0; repeat < 1000; ++repeat) {

@@ -185,6 +185,7 @@ TEST_CASE("rayleigh: an empty window has no stable alpha, and its reason is the 
     CHECK(mass > 100);
     CHECK(std::string(describe(EmptyWindow::none)) != describe(EmptyWindow::step_too_large));
     CHECK(std::string(describe(EmptyWindow::mass_damping_too_large)).size() > 10);
+    CHECK(std::string(describe(EmptyWindow::overflow)).size() > 10);
 }
 
 TEST_CASE("rayleigh: zero modes and the implicit method", "[stability]") {
@@ -272,6 +273,42 @@ TEST_CASE("rayleigh: compression only narrows the window of explicit Euler", "[s
             if (method != Method::explicit_euler) CHECK(with.upper == without.upper);
         }
     });
+}
+
+TEST_CASE("rayleigh: whatever a window contains is stable, to the last bit of its ends",
+          "[stability]") {
+    constexpr double ulp = std::numeric_limits<double>::epsilon();
+    // The conditions are sums of terms of this size, here taken in long double.
+    constexpr Real noise = 16 * real_epsilon;
+    Random random(604);
+    int windows = 0;
+    for (int repeat = 0; repeat < 20000; ++repeat) {
+        Problem p{};
+        p.k_max = log_uniform(random, 1e-3, 1e6);
+        const Index kind = random.below(4);
+        p.k_min = kind == 0 ? 0 : kind == 1 ? p.k_max : p.k_max * log_uniform(random, 1e-9, 1);
+        // A few ulp off h·d0 = 2, off h²k = 4, or off neither.
+        const double off = 1 - static_cast<double>(random.below(200) - 100) * ulp;
+        const bool long_step = repeat % 3 == 0;
+        p.h = 2 / std::sqrt(p.k_max) * (long_step ? off : log_uniform(random, 1e-4, 1));
+        p.d0 = long_step         ? random.uniform(0, 1) / p.h
+               : repeat % 3 == 1 ? 2 / p.h * off
+                                 : random.uniform(0, 2) / p.h;
+        for (const Method method : explicit_methods) {
+            const auto window = rayleigh_window(method, p.h, p.d0, p.k_min, p.k_max);
+            if (window.empty != EmptyWindow::none) continue;
+            ++windows;
+            for (const double alpha :
+                 {0.0, std::nextafter(window.lower, infinity), std::nextafter(window.upper, 0.0),
+                  window.lower / 2 + window.upper / 2}) {
+                if (!window.contains(alpha)) continue;
+                INFO(taut::name(method) << ", h = " << p.h << ", d0 = " << p.d0 << ", k in ["
+                                        << p.k_min << ", " << p.k_max << "], alpha = " << alpha);
+                CHECK(room(method, p.h, p.d0, alpha, p.k_min, p.k_max) >= -noise);
+            }
+        }
+    }
+    CHECK(windows > 20000);
 }
 
 TEST_CASE("rayleigh: wrong input is refused", "[stability]") {

@@ -285,4 +285,49 @@ TEMPLATE_TEST_CASE("spring_pencil: what is called semi-definite is so", "[stabil
     CHECK((indefinite > 50 || TestType::value == 1));
 }
 
+TEMPLATE_TEST_CASE("spring_pencil: a slight compression is no semi-definite stiffness",
+                   "[stability]", (Case<double, 2>), (Case<double, 3>), (Case<float, 2>),
+                   (Case<float, 3>)) {
+    using Scalar = typename TestType::Scalar;
+    constexpr int Dim = TestType::Dim;
+    constexpr bool is_double = std::is_same_v<Scalar, double>;
+    constexpr auto epsilon = static_cast<double>(std::numeric_limits<Scalar>::epsilon());
+    Random random(107);
+    for (int repeat = 0; repeat < 60; ++repeat) {
+        // One spring from a pin, at random in space, with T/l = −share of its stiffness k.
+        const double k = log_uniform(random, 1e-3, 1e6);
+        const double m = log_uniform(random, 1e-3, 1e3);
+        const auto squeezed = [&](double share) {
+            taut::SpringSystem<Scalar, Dim> system;
+            const auto end = random.vector<Scalar, Dim>(0.5, 1);
+            system.add_particle(Eigen::Matrix<Scalar, Dim, 1>::Zero(), 1);
+            system.add_particle(end, static_cast<Scalar>(m));
+            const double rest = end.template cast<double>().norm() * (1 + share);
+            system.add_spring(taut::Spring<Scalar, taut::Hookean>{
+                0, 1, {static_cast<Scalar>(k)}, static_cast<Scalar>(rest), 0});
+            system.pin(0);
+            return system;
+        };
+        const auto semidefinite = [&](const auto& system) {
+            const auto x = system.initial_state().x.template cast<double>().eval();
+            return taut::SpringPencil<Dim>::at_pose(system, x).stiffness_semidefinite();
+        };
+        for (const double share : {1e-1, 1e-2, 1e-4, 1e-6, 1e-9, 1e-12}) {
+            if (share < 4 * epsilon) continue;
+            INFO("repeat " << repeat << ", share " << share);
+            const auto system = squeezed(share);
+            CHECK_FALSE(semidefinite(system));
+            CHECK(semidefinite(squeezed(-share)));
+            const auto limit = taut::Stability<Scalar>(system, system.initial_state())
+                                   .max_step(taut::Method::symplectic_euler);
+            // What rounding to Scalar explains is no statement about physics.
+            if (share < 100 * epsilon) continue;
+            CHECK(limit.cause == taut::Cause::buckling);
+            const double rate = std::sqrt(share * k / m);
+            CHECK_THAT(limit.growth_rate, WithinRel(rate, is_double ? 1e-3 : 0.1));
+        }
+        if (is_double) CHECK(semidefinite(squeezed(0)));
+    }
+}
+
 }  // namespace taut_test::spring_pencil_test

@@ -52,6 +52,27 @@ auto random_system(Random& random, const RandomOptions& options = {}) {
     return random_like<taut::SpringSystem<Scalar, Dim, Laws...>>(random, options);
 }
 
+/// Springs of no rest length: K is constant, and so is D of drag and Rayleigh damping. Two pins.
+template <class Scalar, int Dim>
+auto zero_length_system(Random& random) {
+    taut::SpringSystem<Scalar, Dim> system;
+    constexpr Index particles = 9;
+    for (Index i = 0; i < particles; ++i) {
+        system.add_particle(random.vector<Scalar, Dim>(-1, 1),
+                            static_cast<Scalar>(log_uniform(random, 0.1, 10)));
+    }
+    for (Index s = 0; s < 18; ++s) {
+        const Index a = random.below(particles);
+        const Index b = (a + 1 + random.below(particles - 1)) % particles;
+        const auto k = static_cast<Scalar>(log_uniform(random, 1, 1000));
+        system.add_spring(taut::Spring<Scalar, taut::Hookean>{a, b, {k}, Scalar(0)});
+    }
+    system.pin(0);
+    system.pin(1);
+    system.set_gravity(random.vector<Scalar, Dim>(-10, 10));
+    return system;
+}
+
 /// A crumpled pose: every particle anywhere in a cube, with any velocity.
 template <class System>
 typename System::State random_state(Random& random, const System& system) {

@@ -27,7 +27,7 @@ using ComplexVector = Eigen::Matrix<std::complex<Real>, Eigen::Dynamic, 1>;
 
 constexpr Real real_epsilon = std::numeric_limits<Real>::epsilon();
 
-/// M, K, K⁺, D of the free degrees of freedom [T1], [T2], [T27], [T28].
+/// M, K, K⁺, D of the free degrees of freedom [T1], [T2], [T27], [T28], [T34].
 struct Exact {
     RealVector mass;
     RealMatrix K;
@@ -78,8 +78,10 @@ Exact exact_matrices(const System& system, const Pose& pose) {
                 A.block(Dim * a, Dim * b, Dim, Dim) -= H;
                 A.block(Dim * b, Dim * a, Dim, Dim) -= H;
             };
+            const RealMatrix bound = Law::stiffness_bound(p, L) * one;
+            add(e.D, static_cast<Real>(system.graph_damping()) * bound);
             if (l == 0) {
-                const RealMatrix H = Law::stiffness_bound(p, L) * one;
+                const RealMatrix& H = bound;
                 add(e.K, H);
                 add(e.K_plus, H);
                 continue;

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include <taut/model/tension_only.hpp>
 #include <taut/scene/chain.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/tradeoff/recommend.hpp>
@@ -34,8 +35,7 @@ double ticking() {
 
 }  // namespace
 
-TEST_CASE("feasible_plans: explicit steps are proved at every pose, all are accurate",
-          "[tradeoff]") {
+TEST_CASE("feasible_plans: explicit steps are by the recipe, all are accurate", "[tradeoff]") {
     Goal goal;
     goal.accuracy = taut::ModeTolerance{0.03, 0.03};
     for (const double frequency : {1.0, 30.0, 400.0}) {
@@ -50,9 +50,13 @@ TEST_CASE("feasible_plans: explicit steps are proved at every pose, all are accu
                 const double h = plan.candidate.h;
                 INFO(name(plan.candidate) << ", h = " << h);
                 CHECK_THAT(h * static_cast<double>(plan.substeps), WithinRel(goal.frame, 1e-12));
-                if (!is_implicit(plan.candidate.scheme)) CHECK(h <= 0.95 * limit.certified);
-                CHECK(
-                    goal.accuracy->admits(taut::mode_error(plan.candidate.scheme, h * frequency)));
+                if (!is_implicit(plan.candidate.scheme))
+                    CHECK(h <= taut::recipe.safety * limit.certified);
+                const double added = plan.candidate.damping.projected;
+                CHECK(added ==
+                      (is_implicit(plan.candidate.scheme) ? 0 : taut::recipe.damping.projected));
+                CHECK(goal.accuracy->admits(
+                    taut::mode_error(plan.candidate.scheme, h * frequency, 0, added)));
             }
         }
     }
@@ -65,7 +69,8 @@ TEST_CASE("feasible_plans: the scene's damping counts", "[tradeoff]") {
     Cloth scene = cloth(1e5);
     scene.set_rayleigh({4, 0});  // a damping ratio of 0.1 at 20 rad/s
     for (const auto& plan : taut::feasible_plans(scene, goal, taut::recommended_candidates(goal))) {
-        const auto expected = taut::mode_error(plan.candidate.scheme, plan.candidate.h * 20, 0.1);
+        const auto expected = taut::mode_error(plan.candidate.scheme, plan.candidate.h * 20, 0.1,
+                                               plan.candidate.damping.projected);
         CHECK(plan.error.artificial_damping == expected.artificial_damping);
         CHECK(plan.error.period_error == expected.period_error);
         CHECK(goal.accuracy->admits(plan.error));
@@ -73,6 +78,37 @@ TEST_CASE("feasible_plans: the scene's damping counts", "[tradeoff]") {
     // A mode too damped to swing has plans all the same.
     scene.set_rayleigh({400, 0});
     CHECK(taut::feasible_plans(scene, goal, taut::recommended_candidates(goal)).size() == 5);
+}
+
+TEST_CASE("feasible_plans: the explicit plan keeps the energy of a net that only pulls",
+          "[tradeoff]") {
+    using Threads = taut::SpringSystem<double, 3, taut::TensionOnly>;
+    const Cloth pushing = cloth(1000);
+    auto start = pushing.initial_state();
+    Threads net;
+    for (Index i = 0; i < pushing.size(); ++i) {
+        net.add_particle(start.x.col(i), pushing.mass(i));
+        if (pushing.is_pinned(i)) net.pin(i);
+    }
+    const auto& set = pushing.springs();
+    for (Index s = 0; s < pushing.spring_count(); ++s)
+        net.add_spring<taut::TensionOnly>(set.a[s], set.b[s], {set.parameters[s].stiffness});
+    net.set_gravity(pushing.gravity());
+    const auto plans = taut::feasible_plans(net, {}, taut::recommended_candidates({}));
+    const taut::Plan& plan = plans.front();
+    const Candidate& candidate = plan.candidate;
+    REQUIRE(candidate.scheme == Scheme::symplectic_euler);
+    CHECK(plan.bound == taut::StepBound::stability);
+    auto state = net.initial_state();
+    const double energy = net.energy(state);
+    taut::with_stepper(net, candidate, [&](auto& stepper) {
+        double kinetic = 0;
+        for (int frame = 0; frame < 600; ++frame) {
+            REQUIRE(stepper.step(state, candidate.h, plan.substeps));
+            kinetic = std::max(kinetic, net.kinetic_energy(state));
+            REQUIRE(net.energy(state) <= energy + 0.01 * kinetic);
+        }
+    });
 }
 
 TEST_CASE("recommend: where all steps cost the same, the fewest win", "[tradeoff]") {

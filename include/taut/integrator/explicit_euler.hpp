@@ -34,6 +34,9 @@ public:
         return steps_.run(*system_, state, h, count, Update{});
     }
 
+    /// The stepper's own damping, as shares of the step.
+    const StiffnessDamping<double>& damping() const { return steps_.damping(); }
+
 private:
     struct Update {
         template <class X, class V, class A, class Step>

@@ -9,79 +9,41 @@
 #include <type_traits>
 #include <utility>
 
+#include "../core/concepts.hpp"
 #include "../stability/any_pose.hpp"
-#include "detail/energy_audit.hpp"
+#include "detail/energy_account.hpp"
+#include "detail/guarded_traits.hpp"
 #include "detail/last_state.hpp"
+#include "detail/refinement.hpp"
+#include "detail/work_meter.hpp"
+#include "explicit_options.hpp"
+#include "guarded_report.hpp"
 
 namespace taut {
-namespace detail {
-
-template <class Stepper>
-struct stepped_system;
-template <template <class...> class Stepper, class System, class... Policies>
-struct stepped_system<Stepper<System, Policies...>> {
-    using type = System;
-};
-
-template <class Stepper>
-using method_of = decltype(Stepper::method);
-template <class Stepper>
-using constraint_forces_of = decltype(std::declval<const Stepper&>().constraint_forces());
-
-struct NoResponse {
-    template <class State>
-    void operator()(State&) const {}
-};
-
-/// What the guard takes a stepper for; one without a `method` counts as implicit.
-template <class Stepper>
-constexpr Method guarded_method() {
-    if constexpr (is_detected_v<method_of, Stepper>) {
-        return Stepper::method;
-    } else {
-        return Method::implicit_euler;
-    }
-}
-
-}  // namespace detail
-
-/// Why the guard took a frame back.
-enum class Alarm {
-    none,
-    step_failed,  ///< a substep did not succeed: its state was not finite, or its solver failed
-    energy        ///< the energy rose by more than anything did work
-};
-
-/// Outcome of Guarded::advance; false when the frame was given up, and then the state is that of
-/// its start.
-template <class Scalar>
-struct [[nodiscard]] GuardedReport {
-    Status status = Status::ok;
-    Alarm alarm = Alarm::none;  ///< of the last attempt that was taken back
-    Index substeps = 0;         ///< of the last attempt
-    Scalar h = 0;               ///< its step, s
-    int retries = 0;
-    Scalar advanced = 0;     ///< s; less than the frame if max_substeps cut it, 0 on failure
-    double energy_rise = 0;  ///< J, beyond all work, in the last attempt that finished
-    Index particle = -1;     ///< on failure: the first one not finite, or the fastest
-    Index spring = -1;       ///< on failure: the one with the most energy
-
-    /// Whether status is ok.
-    explicit operator bool() const { return status == Status::ok; }
-};
 
 /// Advances whole frames by a stepper on a SpringSystem, and cannot explode unnoticed.
 ///
 /// A frame is cut into equal substeps of at most safety·any_pose_limit [T23], renewed whenever the
 /// system's revision() has moved on; implicit steppers take options.max_step. At its end the state
-/// must be finite, and the energy that the method keeps on a linear scene (for symplectic Euler
-/// H + ½h vᵀf) may have risen by no more than the work of external forces, moving pins and
-/// constraints and a slack. Else the frame is taken back to its start and tried again with twice
-/// the substeps, now with the work of every single one in the books.
+/// must be finite and its energy within an account that is kept for the whole run [T36]: what the
+/// scene had at the start, all work done on it since, and energy_drift. Else the frame is taken
+/// back to its start and tried again with twice the substeps, which later frames keep for a while.
 ///
-/// The audit of a frame costs one and a half explicit steps, one of a retried frame as much a
-/// substep. It catches what no analysis sees: stiff external forces, and implicit steps that
-/// overshoot. What changes the state between frames is not judged.
+/// A scene that is stuck stays cheap: after a frame that was given up each further one is attempted
+/// once, every second with the limit's substeps, every fourth with twice as many and so on, until
+/// one stands. With M = max_retries that is M/2 + 1 plain frames on average instead of 2^(M+1) − 1.
+/// All retries are renewed when one stands and when the system's revision() has moved on.
+///
+/// What `ok` promises: let E = T + V be the kinetic energy of free particles and the elastic
+/// energy, E_then that of any earlier accepted frame, W all work since (gravity's included, up to
+/// what half a substep does), and S the largest E of late. By default C = 3.5, w = 2.4 for
+/// symplectic Euler, C = 2.3, w = 2 for velocity Verlet, C = w = 1 for implicit steps [T36],
+///
+///     E ≤ C·E_then + w·(W + energy_slack·S + energy_drift·∫S dt + rounding).
+///
+/// A frame without external force, moving pin or response costs one pass over the springs more.
+/// External forces are evaluated once more a substep, twice where they change faster than the
+/// step resolves, and springs at moving pins once.
 /// @tparam Stepper  SymplecticEuler, VelocityVerlet, ImplicitEuler, Bdf2, ProjectiveDynamics or
 ///                  your own, of a SpringSystem; one without a `method` counts as implicit
 template <class Stepper, class System = typename detail::stepped_system<Stepper>::type>
@@ -96,18 +58,22 @@ public:
 
     /// What a frame may cost, and what counts as a gain of energy.
     struct Options {
-        Scalar safety = static_cast<Scalar>(0.95);  ///< of the any-pose limit, in (0, 1]
+        /// The stepper's own damping, as shares of a substep, unless its options are given:
+        /// explicit steppers only. The scene's stays as it is.
+        StiffnessDamping<double> damping = recipe.damping;
+        /// Of the any-pose limit, in (0, 1]; at most 1/(1 + 2a) is used, with a of own damping. At
+        /// a half a linear spring under symplectic Euler swings threefold in energy, at 0.95
+        /// thirty-nine times, and tension-only cloth gains energy.
+        Scalar safety = static_cast<Scalar>(recipe.safety);
         Scalar max_step = std::numeric_limits<Scalar>::infinity();  ///< s, > 0
         /// A frame that needs more is shortened to this many steps, so that a late frame does not
         /// make the next one later. Retries go beyond it.
         Index max_substeps = 1000;
-        int max_retries = 6;  ///< each with twice the substeps
-        /// Share of the energy by which it may rise at once: of kinetic and elastic energy at the
-        /// frame's start and the work done in it.
+        int max_retries = 6;  ///< each with twice the substeps, ≤ 30
+        /// Share of the largest kinetic and elastic energy of late by which the account may be
+        /// exceeded. What it admits once is not admitted again.
         double energy_slack = 0.01;
-        /// And by which it may go on rising, 1/s: what the slack has admitted grows back this fast,
-        /// or as the energy falls.
-        double energy_drift = 0.1;
+        double energy_drift = 0.003;  ///< 1/s, share of the same by which the account grows
     };
 
     /// Keeps a reference: the system must outlive the guard. Options out of range go to fail().
@@ -118,8 +84,12 @@ public:
     explicit Guarded(const System&&, const Options& = {}, Arguments&&...) = delete;
 
     /// Advances by `frame`, s, finite and > 0. No certified step (overflow) is invalid_step.
-    /// @param respond  respond(state) after every substep: contacts, for example. What it does to
-    ///                 the energy is not judged. It is called in attempts that are taken back, too.
+    /// What changes state or scene between frames moves the account by the energy that this adds
+    /// or takes, and renews no slack.
+    /// @param respond  respond(state) after every substep: contacts, for example. It may return the
+    ///                 work that it does on purpose, J; other energy that it gives counts as a
+    ///                 gain. It is called in attempts that are taken back, too, and must leave the
+    ///                 system as it is: tear and pin between frames.
     template <class Respond = detail::NoResponse>
     GuardedReport<Scalar> advance(State& state, Scalar frame, Respond&& respond = {});
     /// The same on an engine's own arrays, copied back once a frame, and there if they are not what
@@ -149,11 +119,29 @@ private:
                view.x == viewed_.x.template cast<Stored>() &&
                view.v == viewed_.v.template cast<Stored>();
     }
+    /// The stepper's own, as shares of its step.
+    StiffnessDamping<double> damping() const {
+        if constexpr (detail::is_detected_v<detail::damping_of, Stepper>) {
+            return stepper_.damping();
+        } else {
+            return {};
+        }
+    }
+    /// Of the any-pose limit: what substeps are cut to.
+    double share() const { return share_of_limit(static_cast<double>(options_.safety), damping()); }
+    template <class... Arguments>
+    static Stepper made(const System& system, const Options& options, Arguments&&... arguments);
     Scalar largest_step();
     const Points<Scalar, System::Dim>* constraint_forces() const;
+    detail::EnergyTerms terms() const;
+    detail::EnergyBooks books(const State& state) {
+        return detail::energy_books(*system_, state, method, meter_.pins(), forces_, damping());
+    }
+    Status prepare(const State& state, Scalar frame, Scalar largest, GuardedReport<Scalar>& report);
     template <class Respond>
-    Report attempt(State& state, const GuardedReport<Scalar>& report, Respond& respond);
-    bool admits(Scalar span, GuardedReport<Scalar>& report);
+    Report attempt(State& state, GuardedReport<Scalar>& report, Respond& respond);
+    bool admits(const State& state, Scalar span, GuardedReport<Scalar>& report);
+    void settle(const State& state, int retries);
     template <class Respond>
     void name_culprits(GuardedReport<Scalar>& report, const State& failed, Respond& respond);
 
@@ -162,9 +150,13 @@ private:
     Stepper stepper_;
     std::optional<StepLimit<Scalar>> limit_;
     detail::LastState<State> start_;  // the last good one
-    detail::EnergyAudit<System> audit_;
-    double slack_;  // what is left of energy_slack
-    State viewed_;  // of a StateView
+    detail::EnergyBooks start_books_;
+    detail::EnergyAccount account_;
+    detail::EnergyAccount::Frame frame_;
+    detail::WorkMeter<System> meter_;
+    detail::Refinement refinement_;
+    Points<Scalar, System::Dim> forces_;  // workspace
+    State viewed_;                        // of a StateView
 };
 
 template <class Stepper, class System>
@@ -173,8 +165,8 @@ Guarded<Stepper, System>::Guarded(const System& system, const Options& options,
                                   Arguments&&... arguments)
     : system_(&system),
       options_(options),
-      stepper_(system, std::forward<Arguments>(arguments)...),
-      slack_(options.energy_slack) {
+      stepper_(made(system, options, std::forward<Arguments>(arguments)...)),
+      refinement_(options.max_retries) {
     require_positive("Guarded", "safety", options.safety);
     if (options.safety > 1) fail("Guarded: safety is ", options.safety, "; it must be <= 1");
     if (!(options.max_step > 0)) {
@@ -183,22 +175,37 @@ Guarded<Stepper, System>::Guarded(const System& system, const Options& options,
     if (options.max_substeps < 1) {
         fail("Guarded: max_substeps is ", options.max_substeps, "; it must be >= 1");
     }
-    if (options.max_retries < 0) {
-        fail("Guarded: max_retries is ", options.max_retries, "; it must be >= 0");
+    if (options.max_retries < 0 || options.max_retries > 30) {
+        fail("Guarded: max_retries is ", options.max_retries, "; it must be within 0 and 30");
+    }
+    if (options.max_substeps > std::numeric_limits<Index>::max() >> options.max_retries) {
+        fail("Guarded: max_substeps is ", options.max_substeps, ", which overflows when ",
+             options.max_retries, " retries double it");
     }
     require_non_negative("Guarded", "energy_slack", options.energy_slack);
     require_non_negative("Guarded", "energy_drift", options.energy_drift);
+}
+
+template <class Stepper, class System>
+template <class... Arguments>
+Stepper Guarded<Stepper, System>::made(const System& system, const Options& options,
+                                       Arguments&&... arguments) {
+    constexpr bool damps = detail::is_detected_v<detail::damping_of, Stepper> &&
+                           std::is_constructible_v<Stepper, const System&, ExplicitOptions>;
+    if constexpr (sizeof...(Arguments) == 0 && damps) {
+        return Stepper(system, ExplicitOptions{1, options.damping});
+    } else {
+        return Stepper(system, std::forward<Arguments>(arguments)...);
+    }
 }
 
 /// 0 when no step is certified.
 template <class Stepper, class System>
 auto Guarded<Stepper, System>::largest_step() -> Scalar {
     if constexpr (limited) {
-        if (!limit_ || !limit_->step_for(*system_, options_.safety)) {
-            limit_ = any_pose_limit(*system_);
-        }
-        return std::min(options_.max_step,
-                        limit_->step_for(*system_, options_.safety).value_or(Scalar(0)));
+        const auto safety = static_cast<Scalar>(share());
+        if (!limit_ || !limit_->step_for(*system_, safety)) limit_ = any_pose_limit(*system_);
+        return std::min(options_.max_step, limit_->step_for(*system_, safety).value_or(Scalar(0)));
     } else {
         return options_.max_step;
     }
@@ -213,41 +220,75 @@ auto Guarded<Stepper, System>::constraint_forces() const -> const Points<Scalar,
     }
 }
 
-/// The report's substeps from start_, a retry with all of them in the books.
+template <class Stepper, class System>
+detail::EnergyTerms Guarded<Stepper, System>::terms() const {
+    return detail::EnergyTerms::of(method, share(), damping().total(), options_.energy_slack,
+                                   options_.energy_drift);
+}
+
+/// The report's substeps from start_.
 template <class Stepper, class System>
 template <class Respond>
-Report Guarded<Stepper, System>::attempt(State& state, const GuardedReport<Scalar>& report,
+Report Guarded<Stepper, System>::attempt(State& state, GuardedReport<Scalar>& report,
                                          Respond& respond) {
     constexpr bool responds = !std::is_same_v<std::decay_t<Respond>, detail::NoResponse>;
-    const bool every = report.retries > 0;
     const auto h = static_cast<double>(report.h);
-    const Index at_once = responds || every ? 1 : report.substeps;
-    audit_.rewind();
-    Report step;
-    for (Index i = 0; i < report.substeps && step; i += at_once) {
-        step = stepper_.step(state, report.h, at_once);
-        if (!step) break;
-        if (every) audit_.add_motion(*system_, state, constraint_forces());
-        if (!responds) continue;
-        respond(state);
-        if (!state.finite()) return {Status::diverged, 0, 0, state.first_not_finite()};
-        if (every) audit_.add_response(*system_, state, method, h);
+    meter_.start(method, h, std::min(1.0, 2 * (1 - share() * share())), damping().times(h));
+    report.response = 0;
+    if (limited && !responds && !meter_.needed(*system_, state)) {
+        return stepper_.step(state, report.h, report.substeps);
     }
-    if (step && !every) audit_.add_motion(*system_, state, constraint_forces());
+    Report step;
+    for (Index i = 0; i < report.substeps; ++i) {
+        meter_.depart(*system_, state, responds, constraint_forces() != nullptr);
+        step = stepper_.step(state, report.h);
+        if (!step) break;
+        meter_.arrive(*system_, state, constraint_forces());
+        if constexpr (responds) {
+            const bool count = report.retries > 0 || refinement_.stuck();
+            const double before = count ? books(state).kept(method, h) : 0;
+            const double claimed = detail::claimed_work(respond, state);
+            meter_.add(claimed);
+            if (!state.finite()) return {Status::diverged, 0, 0, state.first_not_finite()};
+            if (count) report.response += books(state).kept(method, h) - before - claimed;
+        }
+    }
     return step;
 }
 
 /// Whether the energy at the end of a frame may be what it is.
 template <class Stepper, class System>
-bool Guarded<Stepper, System>::admits(Scalar span, GuardedReport<Scalar>& report) {
-    report.energy_rise = audit_.rise(method, static_cast<double>(report.h));
-    const double moved = audit_.moved();
-    const double share =
-        std::min(options_.energy_slack, slack_ + options_.energy_drift * static_cast<double>(span));
-    if (!(report.energy_rise <= share * moved + audit_.rounding())) return false;
-    const double used = moved > 0 ? report.energy_rise / moved : 0;
-    slack_ = std::min(options_.energy_slack, std::max(0.0, share - used));
-    return true;
+bool Guarded<Stepper, System>::admits(const State& state, Scalar span,
+                                      GuardedReport<Scalar>& report) {
+    frame_ = {start_books_,
+              books(state),
+              method,
+              static_cast<double>(report.h),
+              static_cast<double>(span),
+              meter_.work(),
+              meter_.in_doubt(),
+              meter_.unresolved(),
+              meter_.thrown()};
+    const auto verdict = account_.judge(frame_, terms());
+    report.energy_rise = verdict.rise;
+    report.work = frame_.work;
+    if (verdict.admitted) return true;
+    report.alarm = Alarm::energy;
+    if (verdict.rise - verdict.in_doubt <= verdict.allowed) {
+        report.alarm = Alarm::stiff_force;
+    } else if (verdict.rise - report.response <= verdict.allowed) {
+        report.alarm = Alarm::response;
+    }
+    return false;
+}
+
+/// The frame stands.
+template <class Stepper, class System>
+void Guarded<Stepper, System>::settle(const State& state, int retries) {
+    account_.settle(frame_, terms());
+    start_.keep(*system_, state);
+    start_books_ = frame_.end;
+    refinement_.settle(retries);
 }
 
 /// From the end of a frame that gained energy, or, if a substep failed, from the last state before.
@@ -267,7 +308,29 @@ void Guarded<Stepper, System>::name_culprits(GuardedReport<Scalar>& report, cons
         }
     }
     if (report.particle < 0) report.particle = detail::fastest_particle(*system_, last);
-    report.spring = detail::fullest_spring(*system_, last);
+    report.spring = detail::most_loaded_spring(*system_, last);
+}
+
+/// Refuses what cannot be advanced; else opens the frame.
+template <class Stepper, class System>
+Status Guarded<Stepper, System>::prepare(const State& state, Scalar frame, Scalar largest,
+                                         GuardedReport<Scalar>& report) {
+    if (!(frame > 0) || !std::isfinite(frame) || !(largest > 0)) return Status::invalid_step;
+    const bool fits = state.x.cols() == system_->size() && state.v.cols() == system_->size();
+    if (!fits || !state.finite()) {
+        report.particle = fits ? state.first_not_finite() : -1;
+        return Status::invalid_state;
+    }
+    if (start_.is(*system_, state)) return Status::ok;
+    const detail::EnergyBooks touched = books(state);
+    if (account_.opened()) {
+        account_.edit(start_books_, touched, terms());
+    } else {
+        account_.open(touched, terms());
+    }
+    start_.keep(*system_, state);
+    start_books_ = touched;
+    return Status::ok;
 }
 
 template <class Stepper, class System>
@@ -276,41 +339,33 @@ auto Guarded<Stepper, System>::advance(State& state, Scalar frame, Respond&& res
     -> GuardedReport<Scalar> {
     GuardedReport<Scalar> report;
     const Scalar largest = largest_step();
-    const bool fits = state.x.cols() == system_->size() && state.v.cols() == system_->size();
-    if (!(frame > 0) || !std::isfinite(frame) || !(largest > 0)) {
-        report.status = Status::invalid_step;
-    } else if (!fits || !state.finite()) {
-        report.status = Status::invalid_state;
-        report.particle = fits ? state.first_not_finite() : -1;
-    }
+    report.status = prepare(state, frame, largest, report);
     if (!report) return report;
-    if (!start_.is(*system_, state)) {
-        start_.keep(*system_, state);
-        audit_.open(*system_, state);
-    }
     const double needed = std::ceil(static_cast<double>(frame) / static_cast<double>(largest));
     const bool late = needed > static_cast<double>(options_.max_substeps);
     report.substeps = late ? options_.max_substeps : std::max(Index(1), static_cast<Index>(needed));
     const Scalar span = late ? largest * static_cast<Scalar>(report.substeps) : frame;
+    refinement_.begin(system_->revision());
+    report.substeps <<= refinement_.level();
     report.h = span / static_cast<Scalar>(report.substeps);
 
     for (;; ++report.retries, report.substeps *= 2, report.h /= 2) {
         const Report step = attempt(state, report, respond);
         report.status = step.status;
         report.particle = step.where;
-        if (step && admits(span, report)) break;
-        report.alarm = step ? Alarm::energy : Alarm::step_failed;
+        if (!step) report.alarm = Alarm::step_failed;
+        if (step && admits(state, span, report)) break;
         if (step) report.status = Status::diverged;
-        if (report.retries == options_.max_retries) {
+        if (!refinement_.again(report.retries)) {
             name_culprits(report, state, respond);
             state = start_.state();
+            refinement_.give_up();
             return report;
         }
         state = start_.state();
     }
     report.advanced = span;
-    start_.keep(*system_, state);
-    audit_.go_on();
+    settle(state, report.retries);
     return report;
 }
 

@@ -36,7 +36,7 @@ struct NoNewton {};
 ///
 /// Options ask for the nonlinear step instead, M(v⁺ − v) = h(f(x⁺) − D(x)v⁺), by Newton's method
 /// from that solve with a line search on the objective of the step: where the energy is convex,
-/// [T24] holds.
+/// [T24] holds, as Options::tolerance states it.
 ///
 /// constraints() hold particles in planes, on lines, at points or to velocities, exactly in a
 /// direct solve, by filtering in conjugate gradients [T31], as in D. Baraff, A. Witkin, "Large
@@ -69,10 +69,22 @@ public:
         /// Linear solves of a step at most. 1: the linearised step; more: the nonlinear one, and
         /// not_converged if they do not reach the tolerance. Without effect on matrices.
         int newton_iterations = 1;
-        /// On the residual r of the nonlinear equation, > 0: ‖r‖ relative to that at the inertial
-        /// move or to the momentum, and the energy |v⁺ᵀr| that it leaves open [T24] relative to
-        /// kinetic and elastic energy before the step and the work done in it. What rounding leaves
-        /// passes in any case.
+        /// On the residual r of the nonlinear equation, > 0, in three quotients: of each particle
+        /// ‖r_i‖ over the sizes of the momenta and impulses that meet in it, at the step's end or
+        /// at the inertial move; |v⁺ᵀr| over the stake T + V + |W|; where energy_never_rises_v what
+        /// the step gains over the same stake. Rounding alone may lift them above it.
+        ///
+        /// The promise of a step that is ok, with the kinetic energy T and the springs' V before
+        /// it, T⁺ and V⁺ after it, the work W of gravity and external force in it, J, where
+        /// energy_never_rises_v and what is pinned or constrained is at rest [T24]:
+        ///
+        ///     T⁺ + V⁺ − T − V − W ≤ tolerance·(T + V + |W|) + R(x) + R(x⁺)
+        ///                                            + 64ε(T + V + |W| + T⁺ + V⁺)
+        ///     R(x) = Σ (tension·ρ_s + ½·stiffness_bound·ρ_s²) + Σ m_i‖gravity‖ρ_i,
+        ///
+        /// over springs s of ends a and b and free particles i, ε that of Scalar, ρ_i = 4ε‖x_i‖,
+        /// ρ_s = ρ_a + ρ_b: R is what the rounding of positions can do. A step that cannot be
+        /// solved so far, of a stiffness beyond the solver's digits say, is refused.
         double tolerance = 1e-6;
     };
 

@@ -9,8 +9,8 @@ namespace taut {
 
 /// Symplectic (semi-implicit) Euler [T5]:  v⁺ = v + h M⁻¹ f(x, v),  x⁺ = x + h v⁺  (the new v).
 ///
-/// Stable up to 2/√k_max without damping [T10]. For a moving scene take the step from
-/// any_pose_limit(system).
+/// Stable up to 2/√k_max without damping, at a pose [T10]. For a moving scene take step and damping
+/// from `recipe`, which are measured, or from energy_limit(system), which are proved [T34].
 template <class System>
 class SymplecticEuler {
     static_assert((require_system<System>(), true));
@@ -33,6 +33,9 @@ public:
     Report step(AnyState& state, Scalar h, Index count = 1) {
         return steps_.run(*system_, state, h, count, Update{});
     }
+
+    /// The stepper's own damping, as shares of the step.
+    const StiffnessDamping<double>& damping() const { return steps_.damping(); }
 
 private:
     struct Update {

@@ -5,6 +5,7 @@
 #include "../core/method.hpp"
 #include "detail/last_state.hpp"
 #include "detail/step_loop.hpp"
+#include "explicit_options.hpp"
 
 namespace taut {
 
@@ -20,25 +21,32 @@ class VelocityVerlet {
 public:
     using Scalar = typename System::Scalar;
     using State = typename System::State;
+    using Options = ExplicitOptions;
     static constexpr Method method = Method::velocity_verlet;
     static constexpr int order = 2;
 
     /// Keeps a reference: the system must outlive the stepper.
-    explicit VelocityVerlet(const System& system) : system_(&system) {}
-    explicit VelocityVerlet(const System&&) = delete;
+    /// @param options  its damping; one thread whatever it says
+    explicit VelocityVerlet(const System& system, const Options& options = {})
+        : system_(&system), damping_(options.damping) {
+        detail::require_step_damping<System>(options.damping);
+    }
+    explicit VelocityVerlet(const System&&, const Options& = {}) = delete;
 
     /// Takes `count` steps of h, s, finite and > 0, of a State or StateView. On failure the state
     /// is as it was before.
     template <class AnyState>
     Report step(AnyState& state, Scalar h, Index count = 1) {
-        bool known = last_.is(*system_, state);
+        // With damping of its own a force belongs to one step size.
+        bool known = last_.is(*system_, state) && (!damping_ || h == last_h_);
+        last_h_ = h;
         const Report report = loop_.run(*system_, state, h, count, [&](State& own) -> Report {
-            if (!known) system_->force(own, f_);
+            if (!known) force(own, h);
             known = true;
             kick(own, h / 2);
             own.x += h * own.v;
             own.time += h;
-            system_->force(own, f_);
+            force(own, h);
             kick(own, h / 2);
             return {};
         });
@@ -46,12 +54,24 @@ public:
         return report;
     }
 
+    /// The stepper's own damping, as shares of the step.
+    const StiffnessDamping<double>& damping() const { return damping_; }
+
 private:
+    void force(const State& state, [[maybe_unused]] Scalar h) {
+        if constexpr (detail::is_spring_system_v<System>) {
+            system_->force(state, f_, damping_.times(static_cast<double>(h)));
+        } else {
+            system_->force(state, f_);
+        }
+    }
     void kick(State& state, Scalar h) const {
         state.v.array() += h * (f_.array().rowwise() * system_->inverse_mass().transpose().array());
     }
 
     const System* system_;
+    StiffnessDamping<double> damping_;
+    Scalar last_h_ = 0;  // of f_
     detail::StepLoop<State> loop_;
     decltype(State::x) f_;           // force at the end of the last step, Dim × n, N
     detail::LastState<State> last_;  // what f_ belongs to

@@ -10,4 +10,27 @@ struct RayleighDamping {
     double stiffness_proportional = 0;  ///< α, s
 };
 
+/// Damping in proportion to the springs' stiffness: D = projected·K⁺ + graph·(L_k ⊗ I).
+template <class Scalar>
+struct StiffnessDamping {
+    Scalar projected = 0;  ///< α of K⁺ [T28], s: slows the change of length, spares rotation
+    Scalar graph = 0;      ///< α of the graph Laplacian L_k [T34], s: slows all relative motion
+
+    /// Whether there is any.
+    explicit operator bool() const { return projected > 0 || graph > 0; }
+    /// What bounds both together, for K⁺ ⪯ L_k ⊗ I at every pose.
+    Scalar total() const { return projected + graph; }
+    /// The sum of both kinds.
+    StiffnessDamping operator+(const StiffnessDamping& other) const {
+        return {projected + other.projected, graph + other.graph};
+    }
+    /// Both times `factor`.
+    StiffnessDamping times(Scalar factor) const { return {factor * projected, factor * graph}; }
+    /// The same in another precision.
+    template <class Other>
+    StiffnessDamping<Other> cast() const {
+        return {static_cast<Other>(projected), static_cast<Other>(graph)};
+    }
+};
+
 }  // namespace taut

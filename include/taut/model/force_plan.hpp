@@ -60,12 +60,22 @@ public:
         });
     }
 
-    /// Adds the forces of springs, their dampers and K⁺ that the sweep's tile brings to its block.
+    /// Adds the forces of springs and of all their damping that the sweep's tile brings to its
+    /// block.
     void add_forces(const Sweep& sweep) const {
         std::apply(
             [&](const auto&... plan) {
-                (sweep.alpha > 0 ? (plan.template add_forces<true>(sweep), ...)
-                                 : (plan.template add_forces<false>(sweep), ...));
+                const auto add = [&](auto kind) {
+                    (plan.template add_forces<decltype(kind)::value>(sweep), ...);
+                };
+                using detail::Proportional;
+                if (sweep.damping.projected > 0) {
+                    add(std::integral_constant<Proportional, Proportional::projected>{});
+                } else if (sweep.damping.graph > 0) {
+                    add(std::integral_constant<Proportional, Proportional::graph>{});
+                } else {
+                    add(std::integral_constant<Proportional, Proportional::none>{});
+                }
             },
             plans_);
     }

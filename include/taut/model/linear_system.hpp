@@ -93,8 +93,9 @@ private:
 
 /// The paper's M, D, K, f with symmetric D and K, checked at construction [T1].
 ///
-/// An asymmetry of a few ulp, as assembly leaves it, is averaged away; more is refused, with the
-/// entry named. Bring your own matrices, or call SpringSystem::linearize.
+/// An asymmetry of a few ulp of the largest entry in either row of a pair, as assembly leaves it,
+/// is averaged away; more is refused, with the entry named. Bring your own matrices, or call
+/// SpringSystem::linearize.
 template <class Scalar>
 class LinearSystem : public GeneralLinearSystem<Scalar> {
 public:
@@ -253,17 +254,22 @@ auto LinearSystem<Scalar>::symmetric(const char* argument, Matrix matrix) -> Mat
     if (matrix.rows() != matrix.cols()) return matrix;  // its shape is refused by the base class
     const Matrix transposed = matrix.transpose();
     const Matrix difference = matrix - transposed;
-    Scalar largest = 0;
+    Vector largest = Vector::Zero(matrix.rows());  // of each row and its column
     for (Index j = 0; j < matrix.outerSize(); ++j) {
         for (typename Matrix::InnerIterator entry(matrix, j); entry; ++entry) {
-            largest = std::max(largest, std::abs(entry.value()));
+            const Scalar size = std::abs(entry.value());
+            largest[j] = std::max(largest[j], size);
+            largest[entry.row()] = std::max(largest[entry.row()], size);
         }
     }
-    const Scalar rounding = 16 * std::numeric_limits<Scalar>::epsilon() * largest;
+    // What a stiff row rounds is no excuse for a soft one.
+    const auto rounding = [&](Index i, Index j) {
+        return 16 * std::numeric_limits<Scalar>::epsilon() * std::min(largest[i], largest[j]);
+    };
     bool exact = true;
     for (Index j = 0; j < difference.outerSize(); ++j) {
         for (typename Matrix::InnerIterator entry(difference, j); entry; ++entry) {
-            if (std::abs(entry.value()) > rounding) {
+            if (std::abs(entry.value()) > rounding(entry.row(), j)) {
                 fail("LinearSystem: ", argument, "(", entry.row(), ", ", j, ") is ",
                      matrix.coeff(entry.row(), j), " but (", j, ", ", entry.row(), ") is ",
                      matrix.coeff(j, entry.row()),

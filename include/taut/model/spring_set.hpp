@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "../core/types.hpp"
+#include "damping.hpp"
 
 namespace taut {
 
@@ -39,6 +42,13 @@ struct SpringTangent {
         return p;
     }
 };
+
+/// |dx|, m, but never below √η, with η the least normal number (1.5e-154 m in double, 1.1e-19 m in
+/// float): nearer ends coincide, since the squares that the length is made of vanish.
+template <class Vector, class Scalar = typename Vector::Scalar>
+Scalar spring_length(const Vector& dx) {
+    return std::sqrt(std::max(dx.squaredNorm(), std::numeric_limits<Scalar>::min()));
+}
 
 /// axial·d dᵀ + transverse·(I − d dᵀ), symmetric to the bit.
 template <class Vector, class Scalar = typename Vector::Scalar>
@@ -95,8 +105,9 @@ struct SpringSet {
         return static_cast<Index>(count - kept);
     }
 
-    /// The tangent of spring s with its ends at x, in the precision of x. At l = 0, and where l
-    /// overflows, it is the law's bound times the identity: no tangent is larger.
+    /// The tangent of spring s with its ends at x, in the precision of x. Where the ends coincide
+    /// for Scalar (spring_length), and where l overflows, it is the law's bound times the identity:
+    /// no tangent is larger.
     template <class Real, int Dim>
     SpringTangent<Real, Dim> tangent(std::size_t s, const Points<Real, Dim>& x) const {
         SpringTangent<Real, Dim> t;
@@ -107,8 +118,9 @@ struct SpringSet {
         t.bound = Law::stiffness_bound(p, L);
         t.damping = static_cast<Real>(damping_of(s));
         t.d = x.col(t.b) - x.col(t.a);
-        const Real l = t.d.norm();
-        if (l > 0 && std::isfinite(l)) {
+        const Real l2 = t.d.squaredNorm();
+        if (l2 >= static_cast<Real>(std::numeric_limits<Scalar>::min()) && std::isfinite(l2)) {
+            const Real l = std::sqrt(l2);
             t.d /= l;
             t.axial = Law::tension_slope(p, L, l);
             t.transverse = Law::tension(p, L, l) / l;
@@ -117,6 +129,94 @@ struct SpringSet {
             t.axial = t.transverse = t.bound;
         }
         return t;
+    }
+
+    /// The force of spring s on its end a, N; the opposite acts on b.
+    /// @param dx  x_b − x_a, m   @param dv  v_b − v_a, m/s
+    /// @param by  damping in proportion to stiffness, where Proportional
+    template <bool Dampers, bool Proportional, class Vector>
+    Vector pull(std::size_t s, const Vector& dx, const Vector& dv,
+                const StiffnessDamping<Scalar>& by) const {
+        Vector pull = Vector::Zero();
+        Scalar bound = 0;
+        if constexpr (Proportional) {
+            bound = Law::stiffness_bound(parameters[s], rest_length[s]);
+            pull = by.graph * bound * dv;
+        }
+        if (dx.squaredNorm() > 0) {
+            const Scalar l = spring_length(dx);
+            const Scalar over_l = Law::tension(parameters[s], rest_length[s], l) / l;
+            pull += over_l * dx;
+            if constexpr (Dampers || Proportional) {
+                const Vector d = dx / l;
+                const Scalar stretching = d.dot(dv);
+                if constexpr (Dampers) pull += damping[s] * stretching * d;
+                if constexpr (Proportional) {
+                    const Scalar slope = Law::tension_slope(parameters[s], rest_length[s], l);
+                    const Scalar axial = slope > 0 ? slope : Scalar(0);
+                    const Scalar transverse = over_l > 0 ? over_l : Scalar(0);
+                    pull +=
+                        by.projected * (transverse * dv + (axial - transverse) * stretching * d);
+                }
+            }
+        } else {
+            pull += by.projected * bound * dv;
+        }
+        return pull;
+    }
+
+    /// The power that damping takes from spring s, W, by the factors of its sum.
+    struct Braking {
+        double damper = 0;     ///< of its own damper, W
+        double projected = 0;  ///< dvᵀH⁺dv with H⁺ its block of K⁺, W/s
+        double graph = 0;      ///< dvᵀdv times the law's bound, W/s
+
+        /// In proportion to stiffness, W.
+        double of(const StiffnessDamping<double>& by) const {
+            return by.projected * projected + by.graph * graph;
+        }
+    };
+    /// @param dx  x_b − x_a, m   @param dv  v_b − v_a, m/s
+    template <class Vector>
+    Braking braking(std::size_t s, const Vector& dx, const Vector& dv) const {
+        Braking power;
+        const auto bound = static_cast<double>(Law::stiffness_bound(parameters[s], rest_length[s]));
+        const auto dv2 = static_cast<double>(dv.squaredNorm());
+        power.graph = power.projected = bound * dv2;
+        if (!(dx.squaredNorm() > 0)) return power;
+        const Scalar l = spring_length(dx);
+        const Scalar slope = Law::tension_slope(parameters[s], rest_length[s], l);
+        const Scalar over_l = Law::tension(parameters[s], rest_length[s], l) / l;
+        const auto stretching = static_cast<double>((dx / l).dot(dv));
+        const double along = stretching * stretching;
+        power.damper = static_cast<double>(damping_of(s)) * along;
+        power.projected = std::max(0.0, static_cast<double>(slope)) * along +
+                          std::max(0.0, static_cast<double>(over_l)) * (dv2 - along);
+        return power;
+    }
+
+    /// The least and the largest T′ of spring s about its length at x, N/m: those of both sides
+    /// where the rounding of positions and rest length to Scalar may take it across a kink.
+    /// @param t  the spring's tangent at x
+    template <class Real, int Dim>
+    std::pair<Real, Real> axial_range(std::size_t s, const Points<Real, Dim>& x,
+                                      const SpringTangent<Real, Dim>& t) const {
+        std::pair<Real, Real> range{t.axial, t.axial};
+        if (t.d.isZero(0)) return range;
+        const auto p = parameters[s].template cast<Real>();
+        const Real L = static_cast<Real>(rest_length[s]);
+        const Real l = (x.col(t.b) - x.col(t.a)).norm();
+        const Real size = x.col(t.a).cwiseAbs().maxCoeff() + x.col(t.b).cwiseAbs().maxCoeff() + L;
+        const Real reach = 8 * static_cast<Real>(std::numeric_limits<Scalar>::epsilon()) * size;
+        // Between two kinks within reach, as those of Buckling may be, a slope shows at L alone.
+        const Real below = std::nextafter(L, Real(0));
+        const bool at_rest = l - reach < below && L < l + reach;
+        for (const Real side : {l - reach, l + reach, at_rest ? below : l, at_rest ? L : l}) {
+            if (!(side > 0) || !std::isfinite(side)) continue;
+            const Real slope = Law::tension_slope(p, L, side);
+            range = {std::min(range.first, slope), std::max(range.second, slope)};
+        }
+        return range;
     }
 
 private:

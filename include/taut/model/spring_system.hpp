@@ -12,6 +12,7 @@
 #include "../core/error.hpp"
 #include "../core/revision.hpp"
 #include "damping.hpp"
+#include "detail/law_check.hpp"
 #include "hookean.hpp"
 #include "linear_system.hpp"
 #include "spring_set.hpp"
@@ -66,7 +67,8 @@ public:
     template <class Law>
     Index add_spring(Index a, Index b, const typename Law::template Parameters<Scalar>& parameters,
                      Scalar damping = 0);
-    /// A spring with its rest length given. @returns its index within its law
+    /// A spring with its rest length given. A debug build fails if the law exceeds its own
+    /// stiffness_bound at one of some lengths. @returns its index within its law
     template <class Law>
     Index add_spring(const Spring<Scalar, Law>& spring);
 
@@ -98,6 +100,10 @@ public:
     void set_gravity(const Vector& gravity);
     /// @param rayleigh  both factors finite and ≥ 0; acts through K⁺ [T28]
     void set_rayleigh(const RayleighDamping& rayleigh);
+    /// Every spring also damps the whole relative velocity of its ends, by α times its stiffness
+    /// bound: D = α(L_k ⊗ I) [T34]. energy_limit says at which α and h no energy can be gained.
+    /// It slows rotation, too. @param alpha  s, finite and ≥ 0
+    void set_graph_damping(double alpha);
     /// The analysis does not see this force's dependence on x and v.
     void set_external_force(ExternalForce force) {
         external_force_ = std::move(force);
@@ -122,6 +128,12 @@ public:
     }
     /// Both factors 0 unless set.
     const RayleighDamping& rayleigh() const { return rayleigh_; }
+    /// α of set_graph_damping, s; 0 unless set.
+    double graph_damping() const { return graph_damping_; }
+    /// All damping in proportion to stiffness.
+    StiffnessDamping<double> stiffness_damping() const {
+        return {rayleigh_.stiffness_proportional, graph_damping_};
+    }
     /// m/s², 0 unless set.
     const Vector& gravity() const { return gravity_; }
     /// The springs of one law.
@@ -142,7 +154,8 @@ public:
     /// The positions given to add_particle, at rest.
     State initial_state() const;
     /// f ← total force on every particle, N, Dim × n; on a pinned one, what its pin has to bear.
-    void force(const State& state, Force& f) const;
+    /// @param added  a stepper's own damping, beside the system's
+    void force(const State& state, Force& f, const StiffnessDamping<double>& added = {}) const;
     /// Whether one was set that is not empty.
     bool has_external_force() const { return static_cast<bool>(external_force_); }
     /// f ← the external force alone, N, Dim × n.
@@ -188,8 +201,9 @@ private:
     void set_pinned(Index i, bool pinned);
     template <class Law>
     SpringSet<Scalar, Law>& set_with(const char* function, Index s);
-    template <bool Dampers, bool Rayleigh, class Set>
-    void add_spring_forces(const Set& set, const State& state, Force& f) const;
+    template <bool Dampers, bool Proportional, class Set>
+    void add_spring_forces(const Set& set, const State& state, const StiffnessDamping<Scalar>& by,
+                           Force& f) const;
 
     std::vector<Vector> position_;      // where add_particle put each particle, m
     std::vector<Scalar> mass_;          // kg, of pinned particles too
@@ -197,6 +211,7 @@ private:
     SpringSets sets_;
     Vector gravity_ = Vector::Zero();  // m/s²
     RayleighDamping rayleigh_;
+    double graph_damping_ = 0;  // s
     ExternalForce external_force_;
     Revision revision_;
     Revision topology_revision_;

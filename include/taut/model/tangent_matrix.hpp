@@ -95,6 +95,7 @@ void TangentMatrix<Scalar, Dim>::assemble(const System& system, const Points<Sca
     const Scalar on_mass = static_cast<Scalar>(c.mass + c.damping * rayleigh.mass_proportional);
     const Scalar on_k = static_cast<Scalar>(c.stiffness);
     const Scalar on_k_plus = static_cast<Scalar>(c.damping * rayleigh.stiffness_proportional);
+    const Scalar on_bound = static_cast<Scalar>(c.damping * system.graph_damping());
     const Scalar on_damper = static_cast<Scalar>(c.damping);
     std::size_t s = 0;
     system.for_each_tangent(x, [&](const SpringTangent<Scalar, Dim>& raw) {
@@ -103,8 +104,10 @@ void TangentMatrix<Scalar, Dim>::assemble(const System& system, const Points<Sca
         const Index b = column_[raw.b];
         const auto plus = raw.projected();
         const auto& k = c.project ? plus : raw;
-        const Scalar axial = on_k * k.axial + on_k_plus * plus.axial + on_damper * raw.damping;
-        const Scalar transverse = on_k * k.transverse + on_k_plus * plus.transverse;
+        const Scalar graph = on_bound * raw.bound;
+        const Scalar axial =
+            on_k * k.axial + on_k_plus * plus.axial + on_damper * raw.damping + graph;
+        const Scalar transverse = on_k * k.transverse + on_k_plus * plus.transverse + graph;
         const Block P = spring_block(raw.d, axial, transverse);
         if (a >= 0) pattern_.add(A, diagonal_[a], a, P);
         if (b >= 0) pattern_.add(A, diagonal_[b], b, P);

@@ -31,10 +31,11 @@ struct MeshSprings {
 
 /// Springs over a polygon mesh, at rest as the mesh lies: one for each edge, two more across each
 /// quad, and one between the far corners of two triangles that share an edge alone (unless those
-/// corners are joined already). A polygon of more than four corners counts as its fan of triangles.
+/// corners are joined already). A polygon of more than four corners counts as its fan of triangles;
+/// one of two corners is an edge alone, as of a rope or a net.
 /// @param vertices  3 × V, m
-/// @param faces     corner indices, at least three different ones in each
-/// @throws naming the face when a corner is out of range, repeated, or there are fewer than three
+/// @param faces     corner indices, at least two different ones in each
+/// @throws naming the face when a corner is out of range, repeated, or there are fewer than two
 template <class Scalar>
 MeshSprings<Scalar> springs_from_mesh(const Points<Scalar, 3>& vertices,
                                       const std::vector<std::vector<Index>>& faces,
@@ -71,9 +72,9 @@ struct Hinge {
 inline void require_faces(const std::vector<std::vector<Index>>& faces, Index vertices) {
     for (std::size_t f = 0; f < faces.size(); ++f) {
         auto corners = faces[f];
-        if (corners.size() < 3) {
+        if (corners.size() < 2) {
             fail("springs_from_mesh: face ", f, " has ", corners.size(),
-                 " corners; at least 3 are needed");
+                 " corners; at least 2 are needed");
         }
         for (const Index corner : corners) {
             if (corner < 0 || corner >= vertices) {
@@ -135,6 +136,8 @@ MeshSprings<Scalar> springs_from_mesh(const Points<Scalar, 3>& vertices,
             for (std::size_t i = 0; i < 4; ++i) edges.add(face[i], face[(i + 1) % 4]);
             edges.add(face[0], face[2]);
             edges.add(face[1], face[3]);
+        } else if (face.size() == 2) {
+            edges.add(face[0], face[1]);
         } else {
             for (std::size_t i = 1; i + 1 < face.size(); ++i) {
                 add_triangle(face[0], face[i], face[i + 1]);

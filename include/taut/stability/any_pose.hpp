@@ -17,6 +17,11 @@ StepLimit<Scalar> any_pose_bracket(const SpringSystem<Scalar, Dim, Laws...>& sys
     const auto laplacian = SpringPencil<1>::any_pose(system);
     StepLimit<Scalar> limit;
     limit.revision = system.revision();
+    if (!laplacian.lost().empty()) {
+        limit.refuted = std::numeric_limits<Scalar>::infinity();
+        limit.cause = Cause::overflow;
+        return limit;
+    }
     Bracket bracket;
     bracket.certified = laplacian.size() == 0 ? infinity : certified_symplectic(laplacian);
     if (!std::isfinite(bracket.certified)) {
@@ -41,10 +46,12 @@ StepLimit<Scalar> any_pose_bracket(const SpringSystem<Scalar, Dim, Laws...>& sys
 
 }  // namespace detail
 
-/// The step that holds while the scene moves: 4M − 2hL_c − h²L_k ≻ 0 on the graph Laplacians proves
+/// The step at any pose (linearised): 4M − 2hL_c − h²L_k ≻ 0 on the graph Laplacians proves
 /// that symplectic Euler (and velocity Verlet) has no multiplier μ ≤ −1 at any pose [T23]. By the
 /// splitting bound alone [T26].
 ///
+/// It bounds the growth of small vibrations about each pose that a scene moves through, not the
+/// energy of the motion: that does energy_limit; `recipe` is what to step a moving scene by.
 /// `certified` is proved; `refuted` is where the condition itself fails: no larger step can be
 /// certified for every pose in this way, though a given pose may allow one. Void when stiffness or
 /// damping is added, mass removed or a particle unpinned (see StepLimit::step_for).

@@ -98,7 +98,7 @@ DefinitenessProof proves_positive_definite(const SparseMatrix<double>& A) {
 /// Proves the combination S of a pencil, the rounding of its assembly counted.
 template <class Cholesky>
 DefinitenessProof prove(Prover<Cholesky>& prover, const Pencil& pencil, const Combination& c) {
-    return prover(pencil.assemble(c),
+    return prover(pencil.assemble_least(c),
                   [&](const Eigen::VectorXd& scale) { return pencil.assembly_error(c, scale); });
 }
 

@@ -43,7 +43,8 @@ AddedMass added_mass(const SpringSystem<Scalar, Dim, Laws...>& system,
     added.mass.assign(static_cast<std::size_t>(system.size()), 0);
     const double budget = 4 - 2 * h * system.rayleigh().mass_proportional;
     if (!(budget > 0)) return added;
-    const auto pencil = SpringPencil<Dim>::at_pose(system, state.x.template cast<double>());
+    const auto pencil =
+        SpringPencil<Dim>::at_pose(system, state.x.template cast<TangentReal<Scalar>>());
     std::vector<Index> free;
     for (Index i = 0; i < system.size(); ++i) {
         if (!system.is_pinned(i)) free.push_back(i);
@@ -89,7 +90,7 @@ AddedMass added_mass(const SpringSystem<Scalar, Dim, Laws...>& system,
                          static_cast<Scalar>(static_cast<double>(system.mass(i)) + added.mass[i]));
     }
     added.frequency_change = detail::frequency_changes(
-        pencil, SpringPencil<Dim>::at_pose(heavier, state.x.template cast<double>()));
+        pencil, SpringPencil<Dim>::at_pose(heavier, state.x.template cast<TangentReal<Scalar>>()));
     return added;
 }
 

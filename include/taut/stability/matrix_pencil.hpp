@@ -52,8 +52,13 @@ private:
     Matrix magnitudes(const Combination& c) const {
         return std::abs(c.stiffness) * K_.cwiseAbs() + std::abs(c.damping) * D_.cwiseAbs();
     }
-    static bool diagonally_dominant(const Matrix& A);
-    static bool proves_semidefinite(const Matrix& A);
+    using Real = TangentReal<Scalar>;
+
+    /// @param check  takes each entry and its row
+    template <class Check>
+    static Matrix checked(const SparseMatrix<Scalar>& A, Check&& check);
+    static bool diagonally_dominant(const SparseMatrix<Real>& A);
+    static bool proves_semidefinite(const SparseMatrix<Scalar>& A);
     void detect_rayleigh();
 
     Matrix K_;
@@ -65,65 +70,95 @@ private:
 
 template <class Scalar>
 MatrixPencil<Scalar>::MatrixPencil(const LinearSystem<Scalar>& system)
-    : K_(system.stiffness().template cast<double>()), D_(system.damping().template cast<double>()) {
-    mass_ = system.mass().template cast<double>();
+    : K_(checked(system.stiffness(),
+                 [&](Scalar k, Index row) { in_range(k, "stiffness in row", row); })),
+      D_(checked(system.damping(),
+                 [&](Scalar d, Index row) { in_range(d, "damping in row", row); })) {
+    mass_.resize(system.size());
+    for (Index i = 0; i < system.size(); ++i)
+        mass_[i] = in_range(system.mass()[i], "mass in row", i);
+    if (!lost().empty()) return;
     detect_rayleigh();
-    stiffness_semidefinite_ = proves_semidefinite(K_);
-    damping_semidefinite_ = is_rayleigh_ || proves_semidefinite(D_);
+    stiffness_semidefinite_ = proves_semidefinite(system.stiffness());
+    damping_semidefinite_ = is_rayleigh_ || proves_semidefinite(system.damping());
 }
 
-/// D = d0·M is the one Rayleigh form that bare matrices show exactly; α·K is not looked for, since
-/// rounding would hide it.
+template <class Scalar>
+template <class Check>
+auto MatrixPencil<Scalar>::checked(const SparseMatrix<Scalar>& A, Check&& check) -> Matrix {
+    for (Index j = 0; j < A.outerSize(); ++j) {
+        for (typename SparseMatrix<Scalar>::InnerIterator entry(A, j); entry; ++entry) {
+            check(entry.value(), entry.row());
+        }
+    }
+    return A.template cast<double>();
+}
+
+/// D = d0·M is the one Rayleigh form that bare matrices show; α·K is not looked for, since rounding
+/// would hide it. Every entry has its say: d0 is what all quotients agree on to the rounding of a
+/// product, of a quotient and of both to double. A D that is 0 anywhere on its diagonal, or whose
+/// quotients vanish or overflow, is not of this form.
 template <class Scalar>
 void MatrixPencil<Scalar>::detect_rayleigh() {
-    const double d0 = D_.coeff(0, 0) / mass_[0];
-    Matrix mass(size(), size());
-    mass.setIdentity();
-    mass.diagonal() = d0 * mass_;
-    const Matrix rest = D_ - mass;  // exact zeros when D was made as d0·M
-    is_rayleigh_ = D_.nonZeros() == 0;
-    if (!is_rayleigh_ && d0 >= 0) {
-        double largest = 0;
-        for (Index j = 0; j < rest.outerSize(); ++j) {
-            for (Matrix::InnerIterator entry(rest, j); entry; ++entry) {
-                largest = std::max(largest, std::abs(entry.value()) / mass_[entry.row()]);
+    constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+    double least = std::numeric_limits<double>::infinity();
+    double most = 0;
+    bool diagonal = true;
+    for (Index j = 0; j < size(); ++j) {
+        double d = 0;
+        for (Matrix::InnerIterator entry(D_, j); entry; ++entry) {
+            if (entry.row() == j) {
+                d = entry.value();
+            } else {
+                diagonal = diagonal && entry.value() == 0;
             }
         }
-        is_rayleigh_ = largest == 0;
-        if (is_rayleigh_) rayleigh_.mass_proportional = d0;
+        const double quotient = d / mass_[j];
+        least = std::min(least, d != 0 && !std::isnormal(quotient) ? -1 : quotient);
+        most = std::max(most, quotient);
     }
+    is_rayleigh_ = diagonal && least >= 0 && most <= least * (1 + rounding) && std::isfinite(most);
+    if (is_rayleigh_) rayleigh_.mass_proportional = most;
 }
 
 /// a_ii ≥ Σ|a_ij| in every row; where the sum rounds, with room for it.
 template <class Scalar>
-bool MatrixPencil<Scalar>::diagonally_dominant(const Matrix& A) {
+bool MatrixPencil<Scalar>::diagonally_dominant(const SparseMatrix<Real>& A) {
     for (Index j = 0; j < A.outerSize(); ++j) {
-        double diagonal = 0;
-        double others = 0;
+        Real diagonal = 0;
+        Real others = 0;
         bool exact = true;
         int count = 0;
-        for (Matrix::InnerIterator entry(A, j); entry; ++entry, ++count) {
+        for (typename SparseMatrix<Real>::InnerIterator entry(A, j); entry; ++entry, ++count) {
             if (entry.row() == j) {
                 diagonal = entry.value();
             } else {
                 // Knuth's two-sum: the residue of this addition.
-                const double term = std::abs(entry.value());
-                const double sum = others + term;
-                const double back = sum - others;
+                const Real term = std::abs(entry.value());
+                const Real sum = others + term;
+                const Real back = sum - others;
                 exact = exact && (others - (sum - back)) + (term - back) == 0;
                 others = sum;
             }
         }
-        const double room = exact ? 0 : count * std::numeric_limits<double>::epsilon() * others;
+        const Real room = exact ? 0 : count * std::numeric_limits<Real>::epsilon() * others;
         if (!(diagonal >= others + room)) return false;
     }
     return true;
 }
 
+/// By its own numbers, or in double, and then with what the conversion may have changed.
 template <class Scalar>
-bool MatrixPencil<Scalar>::proves_semidefinite(const Matrix& A) {
-    if (A.nonZeros() == 0 || diagonally_dominant(A)) return true;
-    return proves_positive_definite(A).proved;
+bool MatrixPencil<Scalar>::proves_semidefinite(const SparseMatrix<Scalar>& A) {
+    if (A.nonZeros() == 0 || diagonally_dominant(A.template cast<Real>())) return true;
+    constexpr bool rounds =
+        std::numeric_limits<Scalar>::digits > std::numeric_limits<double>::digits;
+    const double rounding = rounds ? std::numeric_limits<double>::epsilon() : 0;
+    const Matrix rounded = A.template cast<double>();
+    const auto error = [&](const Eigen::VectorXd& s) {
+        return rounding * s.cwiseProduct(rounded.cwiseAbs() * s).maxCoeff();
+    };
+    return Prover<>{}(Matrix(rounded), error).proved;
 }
 
 template <class Scalar>
@@ -235,7 +270,13 @@ template <class Scalar>
 std::shared_ptr<const Pencil> MatrixPencil<Scalar>::scaled(double stiffness, double mass) const {
     auto pencil = std::make_shared<MatrixPencil>(*this);
     pencil->mass_ *= mass;
-    pencil->K_ *= stiffness;
+    // An entry that vanished would take the allowance for its row's underflow with it.
+    constexpr double least = std::numeric_limits<double>::min();
+    pencil->K_ = K_.unaryExpr([&](double entry) {
+        const double product = stiffness * entry;
+        const bool zero = entry == 0 || stiffness == 0;
+        return zero ? 0 : std::copysign(std::max(std::abs(product), least), product);
+    });
     if (is_rayleigh_) pencil->D_ *= mass;
     return pencil;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "mode.hpp"
@@ -11,9 +12,10 @@ namespace taut {
 
 /// Why no stiffness-proportional damping α makes a step stable.
 enum class EmptyWindow {
-    none,                   ///< the window is not empty
-    step_too_large,         ///< h ≥ 2/√k_max: no Rayleigh damping helps [T12]
-    mass_damping_too_large  ///< d0 alone is too much for this h
+    none,                    ///< the window is not empty
+    step_too_large,          ///< h ≥ 2/√k_max: no Rayleigh damping helps [T12]
+    mass_damping_too_large,  ///< d0 alone is too much for this h
+    overflow                 ///< k_max is too large for double: nothing is proved
 };
 
 /// One sentence for people.
@@ -24,6 +26,9 @@ constexpr const char* describe(EmptyWindow reason) {
             return "the step is at or above 2/sqrt(k_max): take a smaller step";
         case EmptyWindow::mass_damping_too_large:
             return "the mass-proportional damping d0 is too large for this step: lower one of them";
+        case EmptyWindow::overflow:
+            return "the numbers of this scene overflow in double: check the units of its stiffness "
+                   "and masses";
     }
     return "unknown reason";
 }
@@ -42,9 +47,55 @@ struct AlphaWindow {
     }
 };
 
+namespace detail {
+
+/// A number that is above the exact result of the one operation that gave `value` …
+inline double above(double value) {
+    return std::nextafter(value, std::numeric_limits<double>::infinity());
+}
+/// … and one that is below.
+inline double below(double value) {
+    return std::nextafter(value, -std::numeric_limits<double>::infinity());
+}
+
+/// The ends of rayleigh_window for an explicit method, its reason apart, rounded inwards: whether
+/// any α is left.
+inline bool explicit_window(Method method, double h, double d0, double k_min, double k_max,
+                            double compression, AlphaWindow& window) {
+    const bool is_explicit = method == Method::explicit_euler;
+    // What counts as d0 in the upper end.
+    const double d0_above =
+        is_explicit && compression > 0 ? above(d0 + above(above(h * compression) / 2)) : d0;
+    // The mode k = 0 sees d0 alone; with d0 ≥ 2/h only k_min > 0 can leave a window [T15]. One
+    // rounding keeps the sign, which two would not.
+    const double room = std::fma(-h, d0_above, 2.0);
+    if (k_min == 0 && !(room > 0)) return false;
+    if (k_max == 0) {
+        window = {0, std::numeric_limits<double>::infinity(), EmptyWindow::none, true};
+        return true;
+    }
+    const auto upper_at = [&](double k) {
+        const double quotient = below(below(below(room) / h) / k);  // (2/h − d0)/k
+        return below(is_explicit ? below(h / 2) + quotient : quotient - above(h / 2));
+    };
+    window.upper = upper_at(k_max);
+    if (k_min > 0) window.upper = std::min(window.upper, upper_at(k_min));
+    window.lower = 0;
+    if (is_explicit) {
+        const double least = d0 > 0 ? above(h - below(d0 / k_max)) : h;
+        window.lower = std::max(least, 0.0);
+    }
+    // α = 0 is explicit Euler with d0 alone: stable when h k_max < d0; symplectic is neutral.
+    window.includes_zero = !is_explicit || std::fma(h, k_max, -d0) < 0;
+    return window.upper > window.lower;
+}
+
+}  // namespace detail
+
 /// The feasible α of D' = d0 + αK' at step h, s, for eigenvalues of K' in [k_min, k_max] with
-/// 0 ≤ k_min, 1/s²: exact [T13]–[T16]. A mode with k = 0 and d0 = 0 is a zero mode and never
-/// counts against the window. With k_max = 0 or the implicit method the upper end is infinite.
+/// 0 ≤ k_min, 1/s²: exact [T13]–[T16], but for its own rounding, which is inwards: whatever the
+/// window contains is stable. A mode with k = 0 and d0 = 0 is a zero mode and never counts against
+/// the window. With k_max = 0 or the implicit method the upper end is infinite.
 /// @param compression  a bound on M⁻¹(K⁺ − K), 1/s², 0 unless springs are compressed: the true K,
 ///                     which explicit Euler sees, weakens its second condition by that [T17]
 inline AlphaWindow rayleigh_window(Method method, double h, double d0, double k_min, double k_max,
@@ -55,32 +106,14 @@ inline AlphaWindow rayleigh_window(Method method, double h, double d0, double k_
     if (!(k_max >= k_min) || !std::isfinite(k_max)) {
         fail("rayleigh_window: k_max is ", k_max, "; it must be finite and >= k_min, ", k_min);
     }
-    const double infinity = std::numeric_limits<double>::infinity();
-    double d0_above = d0;  // what counts as d0 in the upper end
-    if (method == Method::implicit_euler) return {0, infinity, EmptyWindow::none, true};
-    const bool is_explicit = method == Method::explicit_euler;
-    // Where both are too large the step is to blame: no smaller d0 helps [T12].
-    const bool too_long = h * h * (k_max + (is_explicit ? compression : 0)) >= 4;
-    const AlphaWindow empty{
-        0, 0, too_long ? EmptyWindow::step_too_large : EmptyWindow::mass_damping_too_large, false};
-    if (is_explicit) d0_above += h * compression / 2;
-    // The mode k = 0 sees d0 alone; with d0 ≥ 2/h only k_min > 0 can leave a window [T15].
-    if (k_min == 0 && h * d0_above >= 2) return empty;
-    if (k_max == 0) return {0, infinity, EmptyWindow::none, true};
-
-    const auto upper_at = [&](double k) {
-        return is_explicit ? h / 2 + (2 / h - d0_above) / k
-                           : (4 - 2 * h * d0 - h * h * k) / (2 * h * k);
-    };
+    if (method == Method::implicit_euler) {
+        return {0, std::numeric_limits<double>::infinity(), EmptyWindow::none, true};
+    }
     AlphaWindow window;
-    window.upper = upper_at(k_max);
-    if (k_min > 0) window.upper = std::min(window.upper, upper_at(k_min));
-    const double lower = is_explicit ? h - d0 / k_max : 0;
-    window.lower = std::max(lower, 0.0);
-    // α = 0 is explicit Euler with d0 alone: stable when h k_max < d0; symplectic is neutral.
-    window.includes_zero = is_explicit ? lower < 0 : true;
-    if (window.upper <= window.lower) return empty;
-    return window;
+    if (detail::explicit_window(method, h, d0, k_min, k_max, compression, window)) return window;
+    // Where both are too large the step is to blame: no smaller d0 helps [T12].
+    const bool helps = detail::explicit_window(method, h, 0, k_min, k_max, compression, window);
+    return {0, 0, helps ? EmptyWindow::mass_damping_too_large : EmptyWindow::step_too_large, false};
 }
 
 }  // namespace taut

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "../model/block_pattern.hpp"
@@ -12,27 +13,37 @@
 
 namespace taut {
 
-/// The pencil of springs at one pose: no matrix, 76 bytes a spring in three dimensions.
+/// The pencil of springs at one pose: no matrix, 84 bytes a spring in three dimensions.
 template <int Dim>
 class SpringPencil final : public Pencil {
 public:
     using Vector = Eigen::Matrix<double, Dim, 1>;
     using Block = Eigen::Matrix<double, Dim, Dim>;
 
-    /// The tangents of `system` at x, Dim × n, m.
+    /// What of a system's damping a pencil has.
+    enum class Damping { all, all_but_graph, none };
+
+    /// The tangents of `system` at x, Dim × n, m. A spring that rounding may take across a kink of
+    /// its law has the larger T′ of the two sides; a bound and a proof hold for both.
     template <class System>
-    static SpringPencil at_pose(const System& system, const Points<double, Dim>& x);
+    static SpringPencil at_pose(const System& system,
+                                const Points<TangentReal<typename System::Scalar>, Dim>& x);
     /// The graph Laplacians L_k and L_c of theory [T23], a pencil of dimension 1 whatever the
     /// system's: L_k ⊗ I bounds K at every pose.
     template <class System>
-    static SpringPencil any_pose(const System& system);
+    static SpringPencil any_pose(const System& system, Damping counted = Damping::all);
 
     int dim() const override { return Dim; }
     void multiply(const Combination& c, const Eigen::VectorXd& u,
                   Eigen::VectorXd& y) const override;
     Enclosed quadratic(const Combination& c, const Eigen::VectorXd& u) const override;
     double upper_bound(const Combination& c, double enough = 0) const override;
-    SparseMatrix<double> assemble(const Combination& c) const override;
+    SparseMatrix<double> assemble(const Combination& c) const override {
+        return assemble(c, [&](const Link& link) { return coefficients(c, link); });
+    }
+    SparseMatrix<double> assemble_least(const Combination& c) const override {
+        return assemble(c, [&](const Link& link) { return extreme_coefficients(c, link, -1); });
+    }
     double assembly_error(const Combination& c, const Eigen::VectorXd& s) const override;
     /// The bound of [T26] before the division by the masses: λ_max(Σ_b (1 + p_b/p_i) P_b) of each
     /// free particle for the springs' part of S, weights p > 0, one for each free particle.
@@ -63,9 +74,11 @@ private:
         int a;  // free particle, or −1 when pinned
         int b;
         Vector d;           // unit vector, or zero
-        double axial;       // T′, N/m
+        double axial;       // T′, N/m; at a kink that of the stiffer side
+        double softer;      // and that of the other one; the same elsewhere
         double transverse;  // T/l, N/m
-        double damping;     // N·s/m
+        double damping;     // N·s/m, axial
+        double graph;       // α_g·bound, N·s/m, all ways
         double bound;       // of the law, N/m: what rounding errors of the tangent are relative to
     };
     struct Coefficients {
@@ -75,15 +88,20 @@ private:
 
     template <class System>
     void set_particles(const System& system);
-    void add_link(int a, int b, const Vector& d, double axial, double transverse, double damping,
-                  double bound);
+    /// @param tangent  tangent(index), a Link without its ends and its damper
+    template <class Set, class Tangent>
+    void add_link(const Set& set, std::size_t s, const Tangent& tangent);
     Coefficients coefficients(const Combination& c, const Link& link) const;
+    /// The largest (sign = 1) or least (−1) on either side of a kink.
+    Coefficients extreme_coefficients(const Combination& c, const Link& link, int sign) const;
+    template <class CoefficientsOf>
+    SparseMatrix<double> assemble(const Combination& c, CoefficientsOf&& coefficients_of) const;
     /// What the rounding errors of a link's block are relative to, N/m.
     double magnitude(const Combination& c, const Link& link) const {
         const double factor =
             std::abs(c.stiffness) + std::abs(c.damping) * rayleigh_.stiffness_proportional;
         return factor * std::max(link.bound, std::abs(link.transverse)) +
-               std::abs(c.damping) * link.damping;
+               std::abs(c.damping) * (link.damping + link.graph);
     }
     double mass_coefficient(const Combination& c) const {
         return c.mass + c.damping * rayleigh_.mass_proportional;
@@ -112,13 +130,20 @@ private:
     std::vector<std::array<int, 3>> names_;  // of each link: spring, particle a, particle b
     int springs_ = 0;                        // met so far, links or not
     bool compressed_ = false;                // a spring has negative stiffness
-    bool damped_ = false;                    // a spring has a damper
+    bool damped_ = false;                    // a spring has a damper, or graph damping
+    double graph_damping_ = 0;               // as steppers hold it, s
 };
 
 template <int Dim>
 template <class System>
 void SpringPencil<Dim>::set_particles(const System& system) {
-    rayleigh_ = system.rayleigh();
+    using Scalar = typename System::Scalar;
+    const auto held = [](double factor) {
+        return static_cast<double>(static_cast<Scalar>(factor));
+    };
+    rayleigh_ = {held(system.rayleigh().mass_proportional),
+                 held(system.rayleigh().stiffness_proportional)};
+    graph_damping_ = held(system.graph_damping());
     free_.assign(static_cast<std::size_t>(system.size()), -1);
     int count = 0;
     for (Index i = 0; i < system.size(); ++i) {
@@ -129,57 +154,98 @@ void SpringPencil<Dim>::set_particles(const System& system) {
     for (Index i = 0; i < system.size(); ++i) {
         if (free_[i] >= 0) {
             mass_.template segment<Dim>(Dim * free_[i])
-                .setConstant(static_cast<double>(system.mass(i)));
+                .setConstant(in_range(system.mass(i), "mass of particle", i));
         }
     }
     links_.reserve(static_cast<std::size_t>(system.spring_count()));
 }
 
+/// For each spring of the system in turn; one without a free end is counted only.
 template <int Dim>
-void SpringPencil<Dim>::add_link(int a, int b, const Vector& d, double axial, double transverse,
-                                 double damping, double bound) {
+template <class Set, class Tangent>
+void SpringPencil<Dim>::add_link(const Set& set, std::size_t s, const Tangent& tangent) {
     const int index = springs_++;
-    if (free_[a] < 0 && free_[b] < 0) return;
-    names_.push_back({index, a, b});
-    links_.push_back({free_[a], free_[b], d, axial, transverse, damping, bound});
-    if (free_[a] >= 0) ++degree_[free_[a]];
-    if (free_[b] >= 0) ++degree_[free_[b]];
-    // One dimension has no transverse direction; a few ulp below zero are rounding of l − L.
-    const double rounding = -16 * std::numeric_limits<double>::epsilon() * bound;
-    compressed_ = compressed_ || axial < rounding || (Dim > 1 && transverse < rounding);
-    damped_ = damped_ || damping > 0;
+    const int a = free_[set.a[s]];
+    const int b = free_[set.b[s]];
+    if (a < 0 && b < 0) return;
+    Link link = tangent(index);
+    link.a = a;
+    link.b = b;
+    link.damping = in_range(set.damping_of(s), "damping of spring", index);
+    link.graph = graph_damping_ * link.bound;
+    names_.push_back({index, set.a[s], set.b[s]});
+    links_.push_back(link);
+    if (a >= 0) ++degree_[a];
+    if (b >= 0) ++degree_[b];
+    damped_ = damped_ || link.damping > 0 || link.graph > 0;
 }
 
 template <int Dim>
 template <class System>
-SpringPencil<Dim> SpringPencil<Dim>::at_pose(const System& system, const Points<double, Dim>& x) {
+SpringPencil<Dim> SpringPencil<Dim>::at_pose(
+    const System& system, const Points<TangentReal<typename System::Scalar>, Dim>& x) {
+    using Real = TangentReal<typename System::Scalar>;
     SpringPencil pencil;
     pencil.set_particles(system);
-    system.for_each_tangent(x, [&](const SpringTangent<double, Dim>& t) {
-        // At l = 0 there is no axis: the whole tangent is isotropic, in one dimension too.
-        const double transverse = Dim == 1 && t.d[0] != 0 ? 0 : t.transverse;
-        pencil.add_link(static_cast<int>(t.a), static_cast<int>(t.b), t.d, t.axial, transverse,
-                        t.damping, t.bound);
+    for (Index i = 0; i < system.size(); ++i) {
+        pencil.check_length(x.col(i).cwiseAbs().maxCoeff(), "position of particle", i);
+    }
+    system.for_each_set([&](const auto& set) {
+        for (std::size_t s = 0; s < set.a.size(); ++s) {
+            pencil.add_link(set, s, [&](int index) {
+                const SpringTangent<Real, Dim> t = set.tangent(s, x);
+                const auto [softer, stiffer] = set.axial_range(s, x, t);
+                // At l = 0 there is no axis: the whole tangent is isotropic, in one dimension too.
+                const Real transverse = Dim == 1 && t.d[0] != 0 ? 0 : t.transverse;
+                // A few ulp below zero are rounding of l − L.
+                const Real rounding = -16 * std::numeric_limits<Real>::epsilon() * t.bound;
+                pencil.compressed_ =
+                    pencil.compressed_ || softer < rounding || transverse < rounding;
+                Link link{};
+                link.d = t.d.template cast<double>();
+                link.axial = static_cast<double>(stiffer);
+                link.softer = static_cast<double>(softer);
+                link.transverse = static_cast<double>(transverse);
+                link.bound = pencil.in_range(t.bound, "stiffness of spring", index);
+                pencil.check_length(static_cast<Real>(set.rest_length[s]), "rest length of spring",
+                                    index);
+                return link;
+            });
+        }
     });
     return pencil;
 }
 
 template <int Dim>
 template <class System>
-SpringPencil<Dim> SpringPencil<Dim>::any_pose(const System& system) {
+SpringPencil<Dim> SpringPencil<Dim>::any_pose(const System& system, Damping counted) {
     static_assert(Dim == 1, "taut::SpringPencil::any_pose: the Laplacians have one row a particle");
+    using Real = TangentReal<typename System::Scalar>;
     SpringPencil pencil;
     pencil.set_particles(system);
+    // On Laplacians it is Rayleigh damping.
+    const double graph = std::exchange(pencil.graph_damping_, 0);
+    if (counted == Damping::all) pencil.rayleigh_.stiffness_proportional += graph;
+    if (counted == Damping::none) pencil.rayleigh_ = {};
     system.for_each_set([&](const auto& set) {
         using Law = typename std::decay_t<decltype(set)>::Law;
         for (std::size_t s = 0; s < set.a.size(); ++s) {
-            const auto parameters = set.parameters[s].template cast<double>();
-            const double bound =
-                Law::stiffness_bound(parameters, static_cast<double>(set.rest_length[s]));
-            pencil.add_link(set.a[s], set.b[s], Vector::Ones(), bound, 0,
-                            static_cast<double>(set.damping_of(s)), bound);
+            pencil.add_link(set, s, [&](int index) {
+                const Real bound = Law::stiffness_bound(set.parameters[s].template cast<Real>(),
+                                                        static_cast<Real>(set.rest_length[s]));
+                Link link{};
+                link.d = Vector::Ones();
+                link.bound = pencil.in_range(bound, "stiffness of spring", index);
+                link.axial = link.softer = link.bound;
+                link.transverse = 0;
+                return link;
+            });
         }
     });
+    if (counted == Damping::none) {
+        for (Link& link : pencil.links_) link.damping = 0;
+        pencil.damped_ = false;
+    }
     return pencil;
 }
 
@@ -188,9 +254,25 @@ auto SpringPencil<Dim>::coefficients(const Combination& c, const Link& link) con
     const double plus = c.damping * rayleigh_.stiffness_proportional;
     const double axial = std::max(link.axial, 0.0);
     const double transverse = std::max(link.transverse, 0.0);
-    return {
-        c.stiffness * (c.project ? axial : link.axial) + plus * axial + c.damping * link.damping,
-        c.stiffness * (c.project ? transverse : link.transverse) + plus * transverse};
+    const double graph = c.damping * link.graph;
+    return {c.stiffness * (c.project ? axial : link.axial) + plus * axial +
+                c.damping * link.damping + graph,
+            c.stiffness * (c.project ? transverse : link.transverse) + plus * transverse + graph};
+}
+
+template <int Dim>
+auto SpringPencil<Dim>::extreme_coefficients(const Combination& c, const Link& link, int sign) const
+    -> Coefficients {
+    Coefficients extreme = coefficients(c, link);
+    if (link.softer == link.axial) return extreme;
+    Link other = link;
+    // Between the two the factor bends at most where K⁺ does, at 0.
+    for (const double axial : {link.softer, std::clamp(0.0, link.softer, link.axial)}) {
+        other.axial = axial;
+        const double factor = coefficients(c, other).axial;
+        if (sign * factor > sign * extreme.axial) extreme.axial = factor;
+    }
+    return extreme;
 }
 
 template <int Dim>
@@ -234,53 +316,6 @@ Enclosed SpringPencil<Dim>::quadratic(const Combination& c, const Eigen::VectorX
 }
 
 template <int Dim>
-SparseMatrix<double> SpringPencil<Dim>::assemble(const Combination& c) const {
-    const BlockPattern pattern(size() / Dim, [&](const auto& visit) {
-        for (const Link& link : links_) {
-            if (link.a >= 0 && link.b >= 0) visit(link.a, link.b);
-        }
-    });
-    SparseMatrix<double> S = pattern.zero<double, Dim>();
-    const auto add = [&](int row, int column, const Block& P) {
-        if (row >= 0 && column >= 0) pattern.add(S, pattern.place(row, column), column, P);
-    };
-    for_each_link(c, [&](int a, int b, const Vector& d, double axial, double transverse) {
-        const Block P = spring_block(d, axial, transverse);
-        add(a, a, P);
-        add(b, b, P);
-        add(a, b, -P);
-        add(b, a, -P);
-    });
-    S.diagonal() += mass_coefficient(c) * mass_;
-    return S;
-}
-
-/// Each entry of a link's block carries ≤ 24 roundings of its magnitude (the tangent's own among
-/// them), and adding d of them up d more; a row of Dim entries meets two blocks of each link.
-template <int Dim>
-double SpringPencil<Dim>::assembly_error(const Combination& c, const Eigen::VectorXd& s) const {
-    std::vector<double> row(degree_.size());
-    std::vector<double> scale(degree_.size());
-    for (std::size_t i = 0; i < scale.size(); ++i) {
-        const auto first = static_cast<Index>(Dim * i);
-        scale[i] = s.segment<Dim>(first).maxCoeff();
-        row[i] = std::abs(mass_coefficient(c)) * mass_[first] * scale[i] * scale[i];
-    }
-    for (const Link& link : links_) {
-        const double entry = Dim * magnitude(c, link);
-        const double sa = link.a < 0 ? 0 : scale[link.a];
-        const double sb = link.b < 0 ? 0 : scale[link.b];
-        if (link.a >= 0) row[link.a] += entry * sa * (sa + sb);
-        if (link.b >= 0) row[link.b] += entry * sb * (sa + sb);
-    }
-    double largest = 0;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-        largest = std::max(largest, (degree_[i] + 32) * row[i]);
-    }
-    return largest * std::numeric_limits<double>::epsilon();
-}
-
-template <int Dim>
 std::vector<SpringShare> SpringPencil<Dim>::spring_shares(const Eigen::VectorXd& u) const {
     std::vector<SpringShare> shares;
     double total = 0;
@@ -313,12 +348,17 @@ std::vector<ParticleShare> SpringPencil<Dim>::particle_shares(const Eigen::Vecto
 
 template <int Dim>
 std::shared_ptr<const Pencil> SpringPencil<Dim>::scaled(double stiffness, double mass) const {
+    constexpr double least = std::numeric_limits<double>::min();
     auto pencil = std::make_shared<SpringPencil>(*this);
     pencil->mass_ *= mass;
     for (Link& link : pencil->links_) {
         link.axial *= stiffness;
+        link.softer *= stiffness;
         link.transverse *= stiffness;
-        link.bound *= stiffness;
+        link.graph *= stiffness;
+        // The rounding that a bound stands for must not vanish with it.
+        const bool zero = link.bound == 0 || stiffness == 0;
+        link.bound = std::max(link.bound * stiffness, zero ? 0 : least);
     }
     return pencil;
 }
@@ -326,3 +366,4 @@ std::shared_ptr<const Pencil> SpringPencil<Dim>::scaled(double stiffness, double
 }  // namespace taut
 
 #include "detail/spring_pencil_bound.ipp"
+#include "detail/spring_pencil_matrix.ipp"

@@ -50,14 +50,18 @@ struct LimitingMode {
 };
 
 /// How large may the step be, and how do you know? Analysis of one pose of a SpringSystem, or of a
-/// LinearSystem, in double whatever Scalar is. It keeps a copy of what it needs: later changes of
-/// the system do not reach it (see StepLimit::revision).
+/// LinearSystem, in double whatever Scalar is: what rounding to Scalar may do to a step counts, and
+/// masses, stiffnesses, dampings and lengths whose squares double does not hold (below 3e-151 or
+/// above 3e150) are refused by name. It keeps a copy of what it needs: later changes of the system
+/// do not reach it (see StepLimit::revision).
 ///
 ///     taut::Stability<double> stability(cloth, state);
 ///     auto limit = stability.max_step(taut::Method::symplectic_euler);
 ///
 /// Where springs are compressed, K⁺ stands for K in every answer and the growth of the physics is
-/// given apart [T27]. Zero modes never count as unstable.
+/// given apart [T27]. A certified step holds on both sides of a law's kink that lies within
+/// rounding of a spring's length; what refutes takes the stiffer side. Zero modes never count as
+/// unstable.
 /// @tparam Cholesky  the factorisation behind proofs (see Prover)
 template <class Scalar, class Cholesky = EigenCholesky>
 class Stability {
@@ -67,9 +71,10 @@ public:
 
     /// For matrices, where K⁺ = K.
     explicit Stability(const LinearSystem<Scalar>& system)
-        : pencil_(std::make_shared<MatrixPencil<Scalar>>(system)),
-          revision_(system.revision()),
-          stiffest_(largest_ritz_pair(*pencil_, {0, 1, 0})) {}
+        : pencil_(std::make_shared<MatrixPencil<Scalar>>(system)), revision_(system.revision()) {
+        pencil_->require_range("Stability");
+        stiffest_ = largest_ritz_pair(*pencil_, {0, 1, 0});
+    }
 
     /// @param state  the pose; its velocity is taken as zero. Fails unless it is finite and fits.
     template <int Dim, class... Laws>
@@ -86,9 +91,10 @@ public:
     /// passes [T26], and a Ritz vector. Bare matrices that are not diagonally dominant take some
     /// factorisations by Eigen, too.
     StepLimit<Scalar> max_step(Method method) const { return bracket(method, detail::Bounds{}); }
-    /// The same, narrowed by sparse factorisations until refuted/certified ≤ 1 + tightness where
-    /// the method's conditions allow it (1e-6 is reachable; a factorisation or two) [T22], up to
-    /// dense_size also by dense eigensolvers. An overload, since only its callers compile these.
+    /// The same, narrowed by sparse factorisations until refuted/certified ≤ 1 + tightness (and 6
+    /// ulp of Scalar) where the method's conditions allow it (1e-6 is reachable; a factorisation or
+    /// two) [T22], up to dense_size also by dense eigensolvers. An overload, since only its callers
+    /// compile these.
     /// @param tightness  0: as above
     StepLimit<Scalar> max_step(Method method, double tightness) const {
         require_non_negative("Stability::max_step", "tightness", tightness);
@@ -101,11 +107,16 @@ public:
     /// proved, since it takes k_max from above and k_min as 0 [T14]–[T16].
     AlphaWindow rayleigh_window(Method method, double h, double d0 = 0) const {
         if (size() == 0) return taut::rayleigh_window(method, h, d0, 0, 0, 0);
-        const double stiffest = std::max(0.0, pencil_->upper_bound({0, 1, 0}));
-        const double compression = pencil_->stiffness_semidefinite()
-                                       ? 0
-                                       : std::max(0.0, pencil_->upper_bound({0, -1, 0, false}));
-        return taut::rayleigh_window(method, h, d0, 0, stiffest, compression);
+        const double stiffest = pencil_->upper_bound({0, 1, 0});
+        // Springs count as semi-definite though rounding leaves them slightly compressed.
+        const bool compressed = method == Method::explicit_euler &&
+                                (pencil_->projects() || !pencil_->stiffness_semidefinite());
+        const double compression = compressed ? pencil_->upper_bound({0, -1, 0, false}) : 0;
+        if (!std::isfinite(stiffest) || !std::isfinite(compression)) {
+            return {0, 0, EmptyWindow::overflow, false};
+        }
+        return taut::rayleigh_window(method, h, d0, 0, std::max(0.0, stiffest),
+                                     std::max(0.0, compression));
     }
     /// Brackets of the extreme eigenvalues. @param count_zero_modes by the inertia of K⁺ − εM: one
     /// sparse factorisation
@@ -122,10 +133,11 @@ public:
     std::vector<ParticleShare> limiting_particles(Index count) const;
 
     /// The largest factor on all stiffness (αK⁺ included) for which step h, s, is still certified
-    /// by the bound; 0 if none is, infinity if every one is.
+    /// by the bound, to nine digits; 0 if none is, infinity if every one is, of those that double
+    /// holds.
     double max_stiffness_scale(Method method, double h) const;
     /// The least factor on all masses (d0·M included) for which step h, s, is certified by the
-    /// bound; infinity if none is.
+    /// bound, to nine digits; infinity if none is, 0 if every one is.
     double min_mass_scale(Method method, double h) const;
     /// The number of equal steps of a frame, s, that the bound certifies; nothing if no step is.
     std::optional<Index> substeps(Method method, double frame) const;
@@ -145,7 +157,7 @@ private:
     StepLimit<Scalar> symplectic_limit(Effort& effort) const;
     template <class Effort>
     void add_growth(StepLimit<Scalar>& limit, Effort& effort) const;
-    void admit_negative_damping(StepLimit<Scalar>& limit) const;
+    void admit_negative_damping(Method method, StepLimit<Scalar>& limit) const;
     double certified_when_scaled(Method method, double stiffness, double mass) const;
     StepLimit<Scalar> implicit_limit() const;
     StepLimit<Scalar> limit(double certified, double refuted, Cause cause) const {
@@ -174,8 +186,9 @@ void Stability<Scalar, Cholesky>::update(const SpringSystem<Scalar, Dim, Laws...
         const State<Scalar, Dim> still{state.x, State<Scalar, Dim>::zero(system.size()), 0};
         fail("Stability: the position of particle ", still.first_not_finite(), " is not finite");
     }
-    const Points<double, Dim> x = state.x.template cast<double>();
-    auto pencil = std::make_shared<SpringPencil<Dim>>(SpringPencil<Dim>::at_pose(system, x));
+    auto pencil = std::make_shared<SpringPencil<Dim>>(
+        SpringPencil<Dim>::at_pose(system, state.x.template cast<TangentReal<Scalar>>()));
+    pencil->require_range("Stability");
     if (pencil->size() > 0) {
         stiffest_ = detail::leading_pair(*pencil, {0, 1, 0}, stiffest_.vector);
     }
@@ -191,6 +204,7 @@ Certificate Stability<Scalar, Cholesky>::certify(Method method, double h) const 
     certificate.proved = h <= static_cast<double>(bound.certified);
     if (certificate.proved || !(h < static_cast<double>(bound.refuted))) return certificate;
     const Pencil& pencil = *pencil_;
+    const double wide = h * (1 + detail::step_rounding<Scalar>);
     const bool symplectic = method == Method::symplectic_euler || method == Method::velocity_verlet;
     // An h² that underflows would leave the stiffness out.
     if (symplectic && h * h >= std::numeric_limits<double>::min() &&
@@ -198,8 +212,8 @@ Certificate Stability<Scalar, Cholesky>::certify(Method method, double h) const 
         // [T19] at h itself; where K is indefinite hD ≺ 4M carries it to smaller steps.
         Prover<Cholesky> prover;
         certificate.proved =
-            prove(prover, pencil, {4, -h * h, -2 * h, false}).proved &&
-            (pencil.stiffness_semidefinite() || prove(prover, pencil, {4, 0, -h}).proved);
+            prove(prover, pencil, {4, -wide * wide, -2 * wide, false}).proved &&
+            (pencil.stiffness_semidefinite() || prove(prover, pencil, {4, 0, -wide}).proved);
         return certificate;
     }
     // A bracket narrowed to its distance from h may still contain h: the refuting end moves too.

@@ -22,7 +22,7 @@ enum class Cause {
     buckling,          ///< K is indefinite: the physics itself grows, at growth_rate
     damping_unproved,  ///< D could not be shown to be positive semi-definite
     rounding,          ///< semi-definiteness was shown up to rounding only: see certified_up_to
-    overflow           ///< values too large for double: nothing is proved
+    overflow           ///< values beyond the range of double: nothing is proved
 };
 
 /// The name as the programs and their JSON spell it.
@@ -64,8 +64,9 @@ constexpr const char* describe(Cause cause) {
             return "the damping matrix could not be shown to be positive semi-definite: no step is "
                    "certified; check its sign, or give dampers as springs";
         case Cause::overflow:
-            return "the numbers of this scene overflow in double, so nothing is proved: check the "
-                   "units of its stiffness, masses and damping";
+            return "the numbers of this scene are beyond the range of double, so nothing is "
+                   "proved: "
+                   "check the units of its stiffness, masses and damping";
         case Cause::rounding:
             return "a matrix could be shown to be positive semi-definite only up to rounding, so "
                    "slow growth is not excluded: certified_up_to is safe but for admitted_growth; "
@@ -106,11 +107,19 @@ struct StepLimit {
 
 namespace detail {
 
-/// The largest Scalar ≤ value; `value` first loses what its own arithmetic may have rounded up.
+/// By how much, relative, rounding may move a limit: the arithmetic in double that made it, and
+/// what a stepper holds as Scalars, 1/m, d0, α and two products of these (3/2 ulp).
+template <class Scalar>
+inline constexpr double step_rounding =
+    8 * std::numeric_limits<double>::epsilon() +
+    2 * static_cast<double>(std::numeric_limits<Scalar>::epsilon());
+
+/// The largest Scalar ≤ value, which first loses what rounding may have added.
 template <class Scalar>
 Scalar round_down(double value) {
+    if (std::isnan(value)) return 0;  // no number proves nothing
     if (!std::isfinite(value)) return static_cast<Scalar>(value);
-    value -= 8 * std::numeric_limits<double>::epsilon() * value;
+    value -= step_rounding<Scalar> * value;
     const Scalar rounded = static_cast<Scalar>(value);
     return static_cast<double>(rounded) <= value ? rounded : std::nextafter(rounded, Scalar(0));
 }
@@ -118,8 +127,9 @@ Scalar round_down(double value) {
 /// The smallest Scalar ≥ value, with the same allowance.
 template <class Scalar>
 Scalar round_up(double value) {
+    if (std::isnan(value)) return std::numeric_limits<Scalar>::infinity();  // and refutes nothing
     if (!std::isfinite(value)) return static_cast<Scalar>(value);
-    value += 8 * std::numeric_limits<double>::epsilon() * value;
+    value += step_rounding<Scalar> * value;
     const Scalar rounded = static_cast<Scalar>(value);
     return static_cast<double>(rounded) >= value
                ? rounded

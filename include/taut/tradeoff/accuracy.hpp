@@ -7,6 +7,7 @@
 #include <complex>
 #include <limits>
 
+#include "../core/detail/bisection.hpp"
 #include "../core/error.hpp"
 #include "scheme.hpp"
 
@@ -55,6 +56,12 @@ inline void require_mode(const char* function, double z, double zeta) {
     }
 }
 
+inline void require_added(Scheme scheme, double added) {
+    require_non_negative("mode_error", "added", added);
+    if (added > 0 && scheme != Scheme::symplectic_euler && scheme != Scheme::velocity_verlet)
+        fail("mode_error: added is ", added, "; it must be 0 for ", name(scheme));
+}
+
 }  // namespace detail
 
 /// The exact errors of one mode: ln μ/h against λ. For ζ = 0 and small z the damping ratio is
@@ -62,9 +69,12 @@ inline void require_mode(const char* function, double z, double zeta) {
 /// −z²/24, −z²/24, z²/3 and z²/3 (theory, section 12). With ζ > 0 all but BDF2, of order 2, err
 /// like z.
 /// @param z  hω, rad, > 0   @param zeta  the mode's own damping ratio, in [0, 1)
-inline ModeError mode_error(Scheme scheme, double z, double zeta = 0) {
+/// @param added  α/h of ExplicitOptions::damping.projected, ≥ 0, which damps by added·z/2 more: an
+///               error. Of symplectic Euler and velocity Verlet; others have none
+inline ModeError mode_error(Scheme scheme, double z, double zeta = 0, double added = 0) {
     detail::require_mode("mode_error", z, zeta);
-    const std::complex<double> e = detail::multiplier_less_one(scheme, z, zeta);
+    detail::require_added(scheme, added);
+    const std::complex<double> e = detail::multiplier_less_one(scheme, z, zeta + added * z / 2);
     const double decay = -std::log1p(2 * e.real() + std::norm(e)) / 2;
     const double phase = std::atan2(e.imag(), 1 + e.real());
     return {decay / std::hypot(decay, phase) - zeta,
@@ -96,27 +106,27 @@ struct ModeTolerance {
 /// on the exact multiplier; modes below it with the same damping ratio err less. Infinity when
 /// every step does. Safe is another question: usable h = min(safe h, accurate h) [T25].
 /// @param up_to_frequency  ω, rad/s, > 0   @param zeta  the mode's own damping ratio, in [0, 1)
+/// @param added  as for mode_error
 inline double accurate_step(Scheme scheme, const ModeTolerance& tolerance, double up_to_frequency,
-                            double zeta = 0) {
+                            double zeta = 0, double added = 0) {
     require_positive("accurate_step", "up_to_frequency", up_to_frequency);
     for (const double bound : {tolerance.damping_ratio, tolerance.period}) {
         if (!(bound > 0)) fail("accurate_step: a tolerance is ", bound, "; both must be > 0");
     }
     // Errors of a damped mode may change sign, so the first step that errs too much is sought from
-    // below. All errors are below z at small z.
+    // below. All errors are below z·max(1, added) at small z.
     constexpr double stride = 1.02;
     constexpr double everything = 1e6;  // radians a step
     double low = 1e-2 * std::min({0.1, tolerance.damping_ratio, tolerance.period});
-    while (tolerance.admits(mode_error(scheme, low * stride, zeta))) {
+    low /= std::max(1.0, added);
+    while (tolerance.admits(mode_error(scheme, low * stride, zeta, added))) {
         low *= stride;
         if (low > everything) return std::numeric_limits<double>::infinity();
     }
-    double high = low * stride;
-    for (int repeat = 0; repeat < 60; ++repeat) {
-        const double middle = (low + high) / 2;
-        (tolerance.admits(mode_error(scheme, middle, zeta)) ? low : high) = middle;
-    }
-    return low / up_to_frequency;
+    detail::Bisection<double> search(low, low * stride, 0);
+    while (search.open())
+        search.narrow(tolerance.admits(mode_error(scheme, search.middle(), zeta, added)));
+    return search.passes() / up_to_frequency;
 }
 
 }  // namespace taut

@@ -28,6 +28,7 @@ struct Candidate {
     LinearSolver solver = LinearSolver::direct;  ///< of an implicit scheme
     double solver_tolerance = 1e-3;              ///< of conjugate gradients
     int newton_iterations = 1;                   ///< of implicit Euler
+    StiffnessDamping<double> damping{};          ///< ExplicitOptions::damping of an explicit scheme
 };
 
 /// The scheme, and the solver where there is one; without the step.
@@ -48,18 +49,19 @@ void with_stepper(const System& system, const Candidate& candidate, Action&& act
     const auto tune = [&](Gradients& solver) {
         solver.setTolerance(static_cast<Scalar>(candidate.solver_tolerance));
     };
+    const ExplicitOptions own{1, candidate.damping};
     const bool direct = candidate.solver == LinearSolver::direct;
     switch (candidate.scheme) {
         case Scheme::explicit_euler: {
-            ExplicitEuler<System> stepper(system);
+            ExplicitEuler<System> stepper(system, own);
             return action(stepper);
         }
         case Scheme::symplectic_euler: {
-            SymplecticEuler<System> stepper(system);
+            SymplecticEuler<System> stepper(system, own);
             return action(stepper);
         }
         case Scheme::velocity_verlet: {
-            VelocityVerlet<System> stepper(system);
+            VelocityVerlet<System> stepper(system, own);
             return action(stepper);
         }
         case Scheme::implicit_euler: {

@@ -39,15 +39,17 @@ struct Plan {
 
 /// The usable step of one candidate, h = min(safe h, accurate h) [T25], as an even part of the
 /// frame.
-/// @param safe  s, the largest proved step of its scheme, > 0; infinity if every step is
+/// The candidate's own damping counts among the errors.
+/// @param safe  s, > 0; infinity if every step is
 /// @param zeta  the damping ratio, in [0, 1), of the scene's own mode at Goal::up_to_frequency
 inline Plan plan_for(Candidate candidate, double safe, const Goal& goal, double zeta = 0) {
     require_positive("plan_for", "Goal::frame", goal.frame);
     if (!(safe > 0)) fail("plan_for: safe is ", safe, "; it must be > 0");
     const double infinity = std::numeric_limits<double>::infinity();
-    const double accurate =
-        goal.accuracy ? accurate_step(candidate.scheme, *goal.accuracy, goal.up_to_frequency, zeta)
-                      : infinity;
+    const double added = is_implicit(candidate.scheme) ? 0 : candidate.damping.projected;
+    const double accurate = goal.accuracy ? accurate_step(candidate.scheme, *goal.accuracy,
+                                                          goal.up_to_frequency, zeta, added)
+                                          : infinity;
     Plan plan;
     const double usable = std::min(safe, accurate);
     if (usable < goal.frame)
@@ -59,7 +61,7 @@ inline Plan plan_for(Candidate candidate, double safe, const Goal& goal, double 
     candidate.h = goal.frame / count;
     plan.candidate = candidate;
     if (goal.accuracy) {
-        plan.error = mode_error(candidate.scheme, candidate.h * goal.up_to_frequency, zeta);
+        plan.error = mode_error(candidate.scheme, candidate.h * goal.up_to_frequency, zeta, added);
     }
     return plan;
 }
@@ -88,7 +90,7 @@ inline std::string describe(const Plan& plan) {
 }
 constexpr const char* reason(StepBound bound) {
     switch (bound) {
-        case StepBound::stability: return "its largest proved step";
+        case StepBound::stability: return "its largest safe step";
         case StepBound::accuracy: return "its largest accurate step";
         case StepBound::frame: return "the whole frame in one step";
     }

@@ -154,8 +154,8 @@ private:
         return path;
     }
     void find_modes() {
-        const auto pencil = SpringPencil<Dim>::at_pose(
-            system_, Points<double, Dim>(start_.x.template cast<double>()));
+        const auto pencil =
+            SpringPencil<Dim>::at_pose(system_, start_.x.template cast<TangentReal<Scalar>>());
         if (pencil.size() == 0 || !pencil.stiffness_semidefinite()) return;
         const auto linear = system_.linearize(start_);
         linear_.emplace(linear.mass(), linear.damping(), linear.stiffness());

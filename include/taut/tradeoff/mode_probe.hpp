@@ -59,7 +59,7 @@ template <class Scalar, int Dim, class... Laws>
 std::vector<Mode> lowest_modes(const SpringSystem<Scalar, Dim, Laws...>& system,
                                const State<Scalar, Dim>& state, Index count) {
     const auto pencil =
-        SpringPencil<Dim>::at_pose(system, Points<double, Dim>(state.x.template cast<double>()));
+        SpringPencil<Dim>::at_pose(system, state.x.template cast<TangentReal<Scalar>>());
     std::vector<Mode> modes;
     const Eigen::MatrixXd shapes = detail::low_modes(pencil);
     Eigen::VectorXd y;
@@ -84,6 +84,15 @@ std::optional<ModeError> measured_mode_error(const LinearSystem<Scalar>& system,
                                              const Candidate& candidate, Index most_steps = 4000) {
     constexpr Index samples = 26;
     constexpr Index settling = 40;  // the second multiplier of BDF2 shrinks by 3 and more a step
+    if (candidate.damping.projected > 0) {  // a linear system's steps have none of their own
+        Candidate damped = candidate;
+        damped.damping.projected = 0;
+        const auto alpha = static_cast<Scalar>(candidate.damping.projected * candidate.h);
+        return measured_mode_error(
+            LinearSystem<Scalar>(system.mass(), system.damping() + alpha * system.stiffness(),
+                                 system.stiffness()),
+            mode, damped, most_steps);
+    }
     const auto h = static_cast<Scalar>(candidate.h);
     const double z = mode.omega * static_cast<double>(h);
     const Index stride = std::clamp<Index>(static_cast<Index>(0.5 / z), 1,

@@ -12,14 +12,16 @@
 
 namespace taut {
 
-/// What recommend() compares: symplectic Euler at its any-pose step and implicit Euler with both
-/// solvers; BDF2 with both where accuracy is asked for, and not where stability is all that counts,
-/// for one of its linearised steps may gain energy.
+/// What recommend() compares: symplectic Euler by the recipe and implicit Euler with both solvers;
+/// BDF2 with both where accuracy is asked for, and not where stability is all that counts, for one
+/// of its linearised steps may gain energy.
 inline std::vector<Candidate> recommended_candidates(const Goal& goal) {
     // What is left of a linear solve must not blur the mode errors that the goal admits.
     const double tolerance = goal.accuracy ? 1e-6 : 1e-3;
     std::vector<Candidate> candidates;
-    candidates.push_back({Scheme::symplectic_euler});
+    Candidate symplectic;
+    symplectic.damping = recipe.damping;
+    candidates.push_back(symplectic);
     for (const Scheme scheme : {Scheme::implicit_euler, Scheme::bdf2}) {
         if (scheme == Scheme::bdf2 && !goal.accuracy) continue;
         for (const auto solver : {LinearSolver::conjugate_gradient, LinearSolver::direct}) {
@@ -29,28 +31,31 @@ inline std::vector<Candidate> recommended_candidates(const Goal& goal) {
     return candidates;
 }
 
-/// Explicit or implicit? The plans that reach a goal, without their costs: explicit steps at 0.95
-/// of any_pose_limit, so that they hold while the scene moves [T23], implicit ones as large as the
-/// frame, and none above its accurate_step [T25]. The damping that accuracy is predicted with is
+/// Explicit or implicit? The plans that reach a goal, without their costs: explicit steps at
+/// recipe.safety of any_pose_limit [T23], which with recipe.damping kept the energy of the scenes
+/// tried: measured, not proved; implicit ones, linearised stable at any pose, as large as the
+/// frame; and none above its accurate_step [T25]. The damping that accuracy is predicted with is
 /// the scene's Rayleigh damping; dampers on springs are not in it.
 template <class Scalar, int Dim, class... Laws>
 std::vector<Plan> feasible_plans(const SpringSystem<Scalar, Dim, Laws...>& system, const Goal& goal,
                                  const std::vector<Candidate>& candidates) {
-    constexpr double margin = 0.95;
     double zeta = 0;
     if (goal.accuracy) {
         require_positive("recommend", "Goal::up_to_frequency", goal.up_to_frequency);
         // An overdamped mode has no period; what errs least is asked of it instead.
         zeta = std::min(0.95, damping_ratio(system.rayleigh(), goal.up_to_frequency));
     }
-    const double moving = margin * static_cast<double>(any_pose_limit(system).certified);
+    const auto limit = static_cast<double>(any_pose_limit(system).certified);
     std::vector<Plan> plans;
     for (const Candidate& candidate : candidates) {
         switch (candidate.scheme) {
             case Scheme::explicit_euler: continue;  // nothing is certified of it at every pose
             case Scheme::symplectic_euler:
             case Scheme::velocity_verlet:
-                if (moving > 0) plans.push_back(plan_for(candidate, moving, goal, zeta));
+                if (limit > 0) {
+                    const double share = share_of_limit(recipe.safety, candidate.damping);
+                    plans.push_back(plan_for(candidate, share * limit, goal, zeta));
+                }
                 break;
             case Scheme::implicit_euler:
             case Scheme::bdf2:

@@ -6,17 +6,11 @@
 #include <type_traits>
 
 #include "../../model/spring_system.hpp"
+#include "../explicit_options.hpp"
 #include "plane_steps.hpp"
 #include "step_loop.hpp"
 
 namespace taut {
-
-/// Of the explicit steppers.
-struct ExplicitOptions {
-    /// For the springs of a SpringSystem, with OpenMP (-fopenmp) only. The result has the same bits
-    /// for any number; scenes below some thousands of particles are stepped by one.
-    int threads = 1;
-};
 
 namespace detail {
 
@@ -27,26 +21,34 @@ public:
     using Scalar = typename System::Scalar;
     using State = typename System::State;
 
-    explicit ExplicitSteps(const ExplicitOptions& options) : threads_(options.threads) {
-        if (threads_ < 1) fail("ExplicitOptions: threads is ", threads_, "; it must be >= 1");
+    explicit ExplicitSteps(const ExplicitOptions& options) : options_(options) {
+        if (options.threads < 1)
+            fail("ExplicitOptions: threads is ", options.threads, "; it must be >= 1");
+        require_step_damping<System>(options.damping);
     }
+    const StiffnessDamping<double>& damping() const { return options_.damping; }
 
     /// @param update  update(x, v, a, h): x and v, of one step, by the acceleration a = M⁻¹f(x, v);
     ///                arrays or Lanes
     template <class AnyState, class Update>
     Report run(const System& system, AnyState& state, Scalar h, Index count, const Update& update) {
+        [[maybe_unused]] const auto added = options_.damping.times(static_cast<double>(h));
         if constexpr (is_spring_system_v<System>) {
             if (!system.has_external_force()) {
                 const Report report = StepLoop<State>::check(system, state, h);
                 if (!report) return report;
-                if (planes_.run(system, state, h, count, threads_, update)) {
+                if (planes_.run(system, state, h, count, options_.threads, added, update)) {
                     return {Status::ok, static_cast<int>(std::max<Index>(count, 0))};
                 }
                 // Not finite: the steps below find out which step and which particle.
             }
         }
         return loop_.run(system, state, h, count, [&](State& own) -> Report {
-            system.force(own, f_);
+            if constexpr (is_spring_system_v<System>) {
+                system.force(own, f_, added);
+            } else {
+                system.force(own, f_);
+            }
             update(own.x.array(), own.v.array(),
                    f_.array().rowwise() * system.inverse_mass().transpose().array(), h);
             return {};
@@ -56,7 +58,7 @@ public:
 private:
     struct None {};
 
-    int threads_;
+    ExplicitOptions options_;
     std::conditional_t<is_spring_system_v<System>, PlaneSteps<System>, None> planes_;
     StepLoop<State> loop_;
     decltype(State::x) f_;  // force, Dim × n, N

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "../../core/detail/bisection.hpp"
 #include "../../core/status.hpp"
 #include "step_equation.hpp"
+#include "step_judge.hpp"
 #include "step_objective.hpp"
 
 namespace taut::detail {
@@ -32,12 +34,12 @@ public:
     }
 
 private:
-    double residual() const { return objective_.residual(u_, g_); }
     template <class Filter>
     bool line_search(const System& system, const StepEquation<System>& equation, Scalar& value,
-                     Filter&& filter);
+                     Scalar rounding, Filter&& filter);
 
     StepObjective<System> objective_;
+    StepJudge<System> judge_;
     Points<Scalar, Dim> u_, g_;    // iterate, m, and its gradient, kg·m
     Points<Scalar, Dim> u1_, g1_;  // a trial
     Points<Scalar, Dim> x_;        // positions of the iterate, m
@@ -50,26 +52,25 @@ private:
 template <class System>
 template <class Filter>
 bool Newton<System>::line_search(const System& system, const StepEquation<System>& equation,
-                                 Scalar& value, Filter&& filter) {
+                                 Scalar& value, Scalar rounding, Filter&& filter) {
     const Scalar slope = -b_.dot(du_);
-    Scalar lower = 0, upper = 0;  // φ still falls at `lower`, no longer at `upper` if > 0
-    Scalar t = 1;
-    for (int trial = 0; trial < 40; ++trial) {
+    // A whole move that is not taken has gone too far: φ falls at 0 and no longer at 1.
+    Bisection<Scalar> search(0, 1, 0, 39);
+    for (Scalar t = 1; search.open(); t = search.middle()) {
         u1_ = u_;
         equation.scatter(t, du_, u1_);
         const Scalar next = objective_.evaluate(system, u1_, g1_);
         filter(g1_);
         equation.gather(g1_, b_);
         const Scalar bent = b_.dot(du_);
-        const bool below = objective_.not_above(next, value);
+        const bool below = objective_.not_above(next, value + rounding);
         if (below && bent < -slope / 2 && (bent > slope / 2 || t == 1)) {
             u_.swap(u1_);
             g_.swap(g1_);
             value = next;
             return true;
         }
-        (below && bent < 0 ? lower : upper) = t;
-        t = (lower + upper) / 2;
+        if (t < 1) search.narrow(below && bent < 0);
     }
     return false;
 }
@@ -80,7 +81,7 @@ Report Newton<System>::step(const System& system, State& state, const VectorX<Sc
                             const Options& options, StepEquation<System>& equation, Solve&& solve,
                             Filter&& filter) {
     objective_.begin(system, state, h, filter);
-    objective_.weigh_energy(system, state);
+    judge_.begin(system, state, h, objective_);
     u_ = h * state.v;
     equation.scatter(h, dv, u_);
     Scalar value = objective_.evaluate(system, u_, g_);
@@ -98,11 +99,11 @@ Report Newton<System>::step(const System& system, State& state, const VectorX<Sc
     Report report;
     report.solves = 1;
     bool stuck = false;
-    const auto open = [&] {
-        return !(residual() <= options.tolerance) &&
-               !(objective_.force_residual(g_) <= objective_.rounding(system));
+    const auto judge = [&] {
+        return judge_.judge(system, objective_, u_, g_, options.tolerance, filter);
     };
-    while (report.solves < options.newton_iterations && !stuck && open()) {
+    auto verdict = judge();
+    while (report.solves < options.newton_iterations && !stuck && !verdict.solved) {
         ++report.solves;
         x_ = state.x + u_;
         equation.gather(g_, b_);
@@ -120,10 +121,11 @@ Report Newton<System>::step(const System& system, State& state, const VectorX<Sc
             report.status = solve(b_, du_);
         }
         if (!report) return report;
-        stuck = !line_search(system, equation, value, filter);
+        stuck = !line_search(system, equation, value, verdict.rounding, filter);
+        if (!stuck) verdict = judge();
     }
-    report.residual = residual();
-    if (open()) {
+    report.residual = verdict.residual;
+    if (!verdict.solved) {
         report.status = Status::not_converged;
         return report;
     }

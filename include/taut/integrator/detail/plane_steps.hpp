@@ -23,11 +23,12 @@ public:
     static constexpr int Dim = System::Dim;
 
     /// Takes `count` steps of h. Without external forces only.
+    /// @param added   damping beside the system's
     /// @param update  update(x, v, a, h): one coordinate of x and v by the acceleration a, in Lanes
     /// @returns whether the new state is finite; else `state` is not touched
     template <class AnyState, class Update>
     bool run(const System& system, AnyState& state, Scalar h, Index count, int threads,
-             const Update& update);
+             const StiffnessDamping<double>& added, const Update& update);
 
 private:
     using Pack = Lanes<Scalar>;
@@ -45,7 +46,7 @@ private:
     static constexpr Index scratch_stride = block_size + block_size / 16;
 
     template <class AnyState>
-    void load(const System& system, const AnyState& state);
+    void load(const System& system, const AnyState& state, const StiffnessDamping<double>& added);
     bool finite() const;
     template <class Update>
     void steps(Scalar h, Index count, int threads, const Update& update);
@@ -65,15 +66,17 @@ private:
     VectorX<Scalar> inverse_mass_;  // 1/kg, 0 if pinned
     VectorX<Scalar> scratch_;       // forces on one block for each thread, N; 0 between blocks
     Eigen::Matrix<Scalar, Dim, 1> gravity_;
-    RayleighDamping rayleigh_;
+    Scalar drag_ = 0;  // d0, 1/s
+    StiffnessDamping<Scalar> damping_;
     bool pins_ = false;
 };
 
 template <class System>
 template <class AnyState, class Update>
 bool PlaneSteps<System>::run(const System& system, AnyState& state, Scalar h, Index count,
-                             int threads, const Update& update) {
-    load(system, state);
+                             int threads, const StiffnessDamping<double>& added,
+                             const Update& update) {
+    load(system, state, added);
     for (Index done = 0; done < count;) {
         const Index next = std::min(steps_between_checks, count - done);
         steps(h, next, threads, update);
@@ -88,12 +91,14 @@ bool PlaneSteps<System>::run(const System& system, AnyState& state, Scalar h, In
 
 template <class System>
 template <class AnyState>
-void PlaneSteps<System>::load(const System& system, const AnyState& state) {
+void PlaneSteps<System>::load(const System& system, const AnyState& state,
+                              const StiffnessDamping<double>& added) {
     gravity_ = system.gravity();
-    rayleigh_ = system.rayleigh();
+    drag_ = static_cast<Scalar>(system.rayleigh().mass_proportional);
+    damping_ = (system.stiffness_damping() + added).template cast<Scalar>();
     plan_.update(system);
     const Index planes = Dim * plan_.stride();
-    const bool moving = plan_.damped() || rayleigh_.stiffness_proportional > 0;
+    const bool moving = plan_.damped() || bool(damping_);
     memory_.resize((moving ? 4 : 3) * planes);
     inverse_mass_.resize(plan_.stride());
     // What whole registers touch beyond the last particle takes part in the steps: from rest.
@@ -129,7 +134,7 @@ bool PlaneSteps<System>::finite() const {
 template <class System>
 template <class Update>
 void PlaneSteps<System>::steps(Scalar h, Index count, int threads, const Update& update) {
-    const bool drag = rayleigh_.mass_proportional > 0;
+    const bool drag = drag_ > 0;
     if (pins_ && drag) steps<true, true>(h, count, threads, update);
     if (pins_ && !drag) steps<true, false>(h, count, threads, update);
     if (!pins_ && drag) steps<false, true>(h, count, threads, update);
@@ -180,7 +185,7 @@ void PlaneSteps<System>::step_block(const Fields& fields, int block, Scalar h, S
     const Field end_force = force(1);
     BlockSweep<Scalar> sweep{{fields.x.first, fields.x.stride},
                              {fields.v.first, fields.v.stride},
-                             static_cast<Scalar>(rayleigh_.stiffness_proportional),
+                             damping_,
                              block,
                              0,
                              begin_force,
@@ -203,7 +208,7 @@ void PlaneSteps<System>::move(const Fields& fields, Index first, Index count, Sc
                               const Update& update) const {
     const Pack step(h);
     const Pack zero(Scalar(0));
-    [[maybe_unused]] const Pack d0(static_cast<Scalar>(rayleigh_.mass_proportional));
+    [[maybe_unused]] const Pack d0(drag_);
     for (int d = 0; d < Dim; ++d) {
         const Pack gravity(gravity_[d]);
         const Scalar* inverse_masses = inverse_mass_.data() + first;

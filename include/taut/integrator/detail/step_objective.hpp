@@ -32,8 +32,6 @@ public:
     void begin(const System& system, const State& state, Scalar h) {
         begin(system, state, h, [](Moves&) {});
     }
-    /// After begin(), for energy_residual().
-    void weigh_energy(const System& system, const State& state);
     /// w, Dim × n, m, and hv for pinned particles.
     const Moves& inertial() const { return w_; }
     /// ‖∇φ‖ relative to that of the inertial move or to ‖Mw‖.
@@ -41,19 +39,10 @@ public:
         const double norm = g.template cast<double>().norm();  // a float's square may overflow
         return norm == 0 ? 0 : norm / scale_;                  // NaN stays
     }
-    /// The energy that a move u leaves open [T24], |v⁺ᵀr| = |uᵀ∇φ|/h², relative to kinetic and
-    /// elastic energy at the start and the work of gravity and external force along u.
-    double energy_residual(const Moves& u, const Moves& g) const;
-    /// The larger one of both.
-    double residual(const Moves& u, const Moves& g) const {
-        const double force = force_residual(g);
-        const double energy = energy_residual(u, g);
-        return force >= energy ? force : energy;  // NaN if the energy's is
-    }
-    /// @param g  ← ∇φ(u), Dim × n, kg·m, zero for pinned particles   @returns φ(u), kg·m²
-    Scalar evaluate(const System& system, const Moves& u, Moves& g);
-    /// What the rounding of positions makes of residual().
-    double rounding(const System& system) const;
+    /// @param g     ← ∇φ(u), Dim × n, kg·m
+    /// @param pins  whether pinned particles get what springs and dampers do to them, and not zero
+    /// @returns φ(u), kg·m²
+    Scalar evaluate(const System& system, const Moves& u, Moves& g, bool pins = false);
     /// Whether `next` is no larger than `value` but for the rounding of such sums.
     static bool not_above(Scalar next, Scalar value) {
         return next <= value + 64 * std::numeric_limits<Scalar>::epsilon() * std::abs(value);
@@ -74,8 +63,6 @@ private:
     Moves x_;                      // x + u of the last evaluation
     Moves w_;                      // the inertial move
     Moves f_;                      // external force, N; then ∇φ(w)
-    Moves load_;                   // gravity and external force, h² times, kg·m
-    double energy_ = 0;            // kinetic and elastic at the start, h² times, kg·m²
     std::vector<Damper> dampers_;  // of D without its mass-proportional part
     double scale_ = 0;             // what ‖∇φ‖ is relative to, kg·m
 };
@@ -102,44 +89,17 @@ void StepObjective<System>::begin(const System& system, const State& state, Scal
 }
 
 template <class System>
-void StepObjective<System>::weigh_energy(const System& system, const State& state) {
-    energy_ = 0;
-    load_ = w_ - h_ * state.v;
-    for (Index i = 0; i < system.size(); ++i) {
-        load_.col(i) *= system.mass(i);  // 0 if pinned
-        if (system.is_pinned(i)) continue;
-        energy_ += 0.5 * static_cast<double>(system.mass(i)) *
-                   state.v.col(i).template cast<double>().squaredNorm();
-    }
-    system.for_each_set([&](const auto& set) {
-        using Law = typename std::decay_t<decltype(set)>::Law;
-        for (std::size_t s = 0; s < set.a.size(); ++s) {
-            const Scalar l = (start_.col(set.b[s]) - start_.col(set.a[s])).norm();
-            energy_ += static_cast<double>(Law::energy(set.parameters[s], set.rest_length[s], l));
-        }
-    });
-    energy_ *= static_cast<double>(h_) * static_cast<double>(h_);
-}
-
-template <class System>
-double StepObjective<System>::energy_residual(const Moves& u, const Moves& g) const {
-    const auto moves = u.template cast<double>();
-    const double open = std::abs(moves.cwiseProduct(g.template cast<double>()).sum());
-    const double work = std::abs(moves.cwiseProduct(load_.template cast<double>()).sum());
-    return open == 0 ? 0 : open / (energy_ + work);
-}
-
-template <class System>
 void StepObjective<System>::set_dampers(const System& system, const State& state) {
     dampers_.clear();
-    const auto alpha = static_cast<Scalar>(system.rayleigh().stiffness_proportional);
-    bool damped = alpha > 0;
+    const auto by = system.stiffness_damping().template cast<Scalar>();
+    bool damped(by);
     system.for_each_set([&](const auto& set) { damped = damped || !set.damping.empty(); });
     if (!damped) return;
     system.for_each_tangent(state.x, [&](const SpringTangent<Scalar, Dim>& raw) {
         const auto t = raw.projected();
-        const Scalar axial = h_ * (alpha * t.axial + t.damping);
-        const Scalar transverse = h_ * alpha * t.transverse;
+        const Scalar graph = by.graph * t.bound;
+        const Scalar axial = h_ * (by.projected * t.axial + t.damping + graph);
+        const Scalar transverse = h_ * (by.projected * t.transverse + graph);
         if (axial > 0 || transverse > 0) {
             dampers_.push_back(
                 {static_cast<int>(t.a), static_cast<int>(t.b), axial, transverse, t.d});
@@ -148,19 +108,8 @@ void StepObjective<System>::set_dampers(const System& system, const State& state
 }
 
 template <class System>
-double StepObjective<System>::rounding(const System& system) const {
-    Scalar squares = 0;
-    system.for_each_tangent(x_, [&](const SpringTangent<Scalar, Dim>& t) {
-        const Scalar stiffness = h_ * h_ * t.bound + h_ * t.damping;
-        squares += 2 * stiffness * stiffness;
-    });
-    for (Index i = 0; i < system.size(); ++i) squares += system.mass(i) * system.mass(i);
-    return static_cast<double>(8 * std::numeric_limits<Scalar>::epsilon() * std::sqrt(squares) *
-                               x_.cwiseAbs().maxCoeff() / scale_);
-}
-
-template <class System>
-auto StepObjective<System>::evaluate(const System& system, const Moves& u, Moves& g) -> Scalar {
+auto StepObjective<System>::evaluate(const System& system, const Moves& u, Moves& g, bool pins)
+    -> Scalar {
     x_ = start_ + u;
     g.setZero(Dim, u.cols());
     const Scalar h2 = h_ * h_;
@@ -191,7 +140,7 @@ auto StepObjective<System>::evaluate(const System& system, const Moves& u, Moves
     const Scalar drag = h_ * static_cast<Scalar>(system.rayleigh().mass_proportional);
     for (Index i = 0; i < system.size(); ++i) {
         if (system.is_pinned(i)) {
-            g.col(i).setZero();
+            if (!pins) g.col(i).setZero();
             continue;
         }
         const Vector from_inertial = u.col(i) - w_.col(i);

@@ -31,12 +31,15 @@ struct Planes {
     Planes at(Index i) const { return {first + i, stride}; }
 };
 
+/// What damping in proportion to stiffness a sweep computes; `projected` includes `graph`.
+enum class Proportional { none, graph, projected };
+
 /// What a sweep over the springs of one block reads and writes.
 template <class Scalar>
 struct BlockSweep {
     Planes<const Scalar> x;  // m, of all particles
     Planes<const Scalar> v;  // m/s
-    Scalar alpha;            // Rayleigh's factor of K⁺, s
+    StiffnessDamping<Scalar> damping;
     int block;
     int tile;  // of all tiles
     /// Forces on the block's particles, N; where springs begin and where they end. Apart, because
@@ -63,9 +66,9 @@ public:
 
     bool damped() const { return damped_; }
     /// Adds the forces of the sweep's tile on the particles of its block.
-    template <bool Rayleigh>
+    template <Proportional Kind>
     void add_forces(const BlockSweep<Scalar>& sweep) const {
-        damped_ ? add_forces<true, Rayleigh>(sweep) : add_forces<false, Rayleigh>(sweep);
+        damped_ ? add_forces<true, Kind>(sweep) : add_forces<false, Kind>(sweep);
     }
 
 private:
@@ -121,15 +124,15 @@ private:
     Springs add_list(const Set& set, Springs next, Springs end);
     void add_rest(const Set& set, const std::vector<NumberedSpring>& rest, int tiles);
 
-    template <bool Dampers, bool Rayleigh>
+    template <bool Dampers, Proportional Kind>
     void add_forces(const BlockSweep<Scalar>& sweep) const;
-    template <bool Dampers, bool Rayleigh>
+    template <bool Dampers, Proportional Kind>
     void add_segment(const BlockSweep<Scalar>& sweep, const Segment& segment) const;
-    template <bool Dampers, bool Rayleigh>
+    template <bool Dampers, Proportional Kind>
     void add_list(const BlockSweep<Scalar>& sweep, const List& list) const;
-    template <bool Dampers, bool Rayleigh>
-    EIGEN_ALWAYS_INLINE Pull pull(const Cursor& springs, Scalar alpha, const Pack& l2,
-                                  const Pack& s) const;
+    template <bool Dampers, Proportional Kind>
+    EIGEN_ALWAYS_INLINE Pull pull(const Cursor& springs, const StiffnessDamping<Scalar>& by,
+                                  const Pack& l2, const Pack& s) const;
 
     std::vector<Run> runs_;
     std::vector<Segment> segments_;         // tile by tile
@@ -238,21 +241,22 @@ auto SpringPlan<Scalar, Dim, Law>::add_list(const Set& set, Springs next, Spring
 }
 
 template <class Scalar, int Dim, class Law>
-template <bool Dampers, bool Rayleigh>
+template <bool Dampers, Proportional Kind>
 void SpringPlan<Scalar, Dim, Law>::add_forces(const BlockSweep<Scalar>& sweep) const {
     const auto tile = static_cast<std::size_t>(sweep.tile);
     for (std::size_t s = tile == 0 ? 0 : segment_end_[tile - 1]; s < segment_end_[tile]; ++s) {
-        add_segment<Dampers, Rayleigh>(sweep, segments_[s]);
+        add_segment<Dampers, Kind>(sweep, segments_[s]);
     }
     for (std::size_t s = tile == 0 ? 0 : list_end_[tile - 1]; s < list_end_[tile]; ++s) {
-        add_list<Dampers, Rayleigh>(sweep, lists_[s]);
+        add_list<Dampers, Kind>(sweep, lists_[s]);
     }
 }
 
 /// The force on the end a of each spring is A·dx + B·dv; l2 = dx·dx, s = dx·dv.
 template <class Scalar, int Dim, class Law>
-template <bool Dampers, bool Rayleigh>
-EIGEN_ALWAYS_INLINE auto SpringPlan<Scalar, Dim, Law>::pull(const Cursor& springs, Scalar alpha,
+template <bool Dampers, Proportional Kind>
+EIGEN_ALWAYS_INLINE auto SpringPlan<Scalar, Dim, Law>::pull(const Cursor& springs,
+                                                            const StiffnessDamping<Scalar>& by,
                                                             const Pack& l2, const Pack& s) const
     -> Pull {
     // Kept from zero, a spring of no length has no direction, and so no force.
@@ -263,25 +267,29 @@ EIGEN_ALWAYS_INLINE auto SpringPlan<Scalar, Dim, Law>::pull(const Cursor& spring
         [](const auto& p, auto L, auto length) { return Law::tension(p, L, length); }, l);
     const Pack tension_over_l = tension * over_l;
     const Pack zero(Scalar(0));
-    if constexpr (!Dampers && !Rayleigh) return {springs.unless_gap(tension_over_l), zero};
+    if constexpr (!Dampers && Kind == Proportional::none)
+        return {springs.unless_gap(tension_over_l), zero};
     Pack A = tension_over_l;
     Pack B = zero;
-    const Pack stretching = s * over_l * over_l;
+    Pack bound = zero;
+    if constexpr (Kind != Proportional::none) {
+        bound = springs.evaluate([](const auto& p, auto L) { return Law::stiffness_bound(p, L); });
+        B = Pack(by.graph) * bound;
+    }
+    [[maybe_unused]] const Pack stretching = s * over_l * over_l;
     if constexpr (Dampers) A += springs.damping() * stretching;
-    if constexpr (Rayleigh) {
+    if constexpr (Kind == Proportional::projected) {
         const Pack slope = springs.evaluate(
             [](const auto& p, auto L, auto length) { return Law::tension_slope(p, L, length); }, l);
-        const Pack bound =
-            springs.evaluate([](const auto& p, auto L) { return Law::stiffness_bound(p, L); });
         const Pack transverse = where_less(zero, l2, max(tension_over_l, zero), bound);
-        B = Pack(alpha) * transverse;
-        A += Pack(alpha) * (max(slope, zero) - transverse) * stretching;
+        B += Pack(by.projected) * transverse;
+        A += Pack(by.projected) * (max(slope, zero) - transverse) * stretching;
     }
     return {springs.unless_gap(A), springs.unless_gap(B)};
 }
 
 template <class Scalar, int Dim, class Law>
-template <bool Dampers, bool Rayleigh>
+template <bool Dampers, Proportional Kind>
 void SpringPlan<Scalar, Dim, Law>::add_segment(const BlockSweep<Scalar>& sweep,
                                                const Segment& segment) const {
     const Run& run = runs_[segment.run];
@@ -298,16 +306,16 @@ void SpringPlan<Scalar, Dim, Law>::add_segment(const BlockSweep<Scalar>& sweep,
         Vectors dx, dv;
         for_each_axis<Dim>([&](int d) {
             dx[d] = Pack::load(at.x_end[d] + i) - Pack::load(at.x_begin[d] + i);
-            if constexpr (Dampers || Rayleigh) {
+            if constexpr (Dampers || Kind != Proportional::none) {
                 dv[d] = Pack::load(at.v_end[d] + i) - Pack::load(at.v_begin[d] + i);
             }
         });
         Pack s(Scalar(0));
-        if constexpr (Dampers || Rayleigh) s = dot(dx, dv);
-        const Pull pull_on_a = pull<Dampers, Rayleigh>(springs, sweep.alpha, dot(dx, dx), s);
+        if constexpr (Dampers || Kind == Proportional::projected) s = dot(dx, dv);
+        const Pull pull_on_a = pull<Dampers, Kind>(springs, sweep.damping, dot(dx, dx), s);
         for_each_axis<Dim>([&](int d) {
             Pack force = pull_on_a.A * dx[d];
-            if constexpr (Rayleigh) force += pull_on_a.B * dv[d];
+            if constexpr (Kind != Proportional::none) force += pull_on_a.B * dv[d];
             Scalar* begin_force = at.begin_force[d] + i;
             Scalar* end_force = at.end_force[d] + i;
             (Pack::load(begin_force) + force).store(begin_force);
@@ -317,10 +325,10 @@ void SpringPlan<Scalar, Dim, Law>::add_segment(const BlockSweep<Scalar>& sweep,
 }
 
 template <class Scalar, int Dim, class Law>
-template <bool Dampers, bool Rayleigh>
+template <bool Dampers, Proportional Kind>
 void SpringPlan<Scalar, Dim, Law>::add_list(const BlockSweep<Scalar>& sweep,
                                             const List& list) const {
-    constexpr bool velocities = Dampers || Rayleigh;
+    constexpr bool velocities = Dampers || Kind != Proportional::none;
     constexpr int chunk = 64;  // springs between the differences and the forces
     static_assert(chunk % most_lanes == 0);
     alignas(64) Point x[most_touched];
@@ -353,14 +361,14 @@ void SpringPlan<Scalar, Dim, Law>::add_list(const BlockSweep<Scalar>& sweep,
             }
         }
         for (int s = 0; s < count; s += width, springs.next()) {
-            const Pull pull_on_a = pull<Dampers, Rayleigh>(springs, sweep.alpha, Pack::load(l2 + s),
-                                                           Pack::load(dx_dv + s));
+            const Pull pull_on_a = pull<Dampers, Kind>(springs, sweep.damping, Pack::load(l2 + s),
+                                                       Pack::load(dx_dv + s));
             pull_on_a.A.store(l2 + s);
             pull_on_a.B.store(dx_dv + s);
         }
         for (int s = 0; s < count; ++s) {
             Point force = l2[s] * dx[s];
-            if constexpr (Rayleigh) force += dx_dv[s] * dv[s];
+            if constexpr (Kind != Proportional::none) force += dx_dv[s] * dv[s];
             f[ends[s].a] += force;
             f[ends[s].b] -= force;
         }

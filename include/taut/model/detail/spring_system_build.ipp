@@ -32,7 +32,8 @@ Index SpringSystem<Scalar, Dim, Laws...>::add_spring(
     require_particle("add_spring", "b", b);
     // The same expression as SpringSet::tangent, so that the spring is unstressed to the last bit.
     const Vector d = position_[b] - position_[a];
-    return add_spring(Spring<Scalar, Law>{a, b, parameters, d.norm(), damping});
+    const Scalar length = d.isZero(0) ? Scalar(0) : spring_length(d);
+    return add_spring(Spring<Scalar, Law>{a, b, parameters, length, damping});
 }
 
 template <class Scalar, int Dim, class... Laws>
@@ -52,6 +53,9 @@ Index SpringSystem<Scalar, Dim, Laws...>::add_spring(const Spring<Scalar, Law>& 
     require_non_negative(where, "rest_length", spring.rest_length);
     require_non_negative(where, "damping", spring.damping);
     spring.parameters.require_valid(where);
+#ifndef NDEBUG
+    detail::check_law<Law>(spring.parameters, spring.rest_length);
+#endif
     auto& set = std::get<SpringSet<Scalar, Law>>(sets_);
     set.add(spring);
     ++revision_;
@@ -139,6 +143,13 @@ void SpringSystem<Scalar, Dim, Laws...>::set_rayleigh(const RayleighDamping& ray
     require_non_negative("SpringSystem::set_rayleigh", "stiffness_proportional",
                          rayleigh.stiffness_proportional);
     rayleigh_ = rayleigh;
+    ++revision_;
+}
+
+template <class Scalar, int Dim, class... Laws>
+void SpringSystem<Scalar, Dim, Laws...>::set_graph_damping(double alpha) {
+    require_non_negative("SpringSystem::set_graph_damping", "alpha", alpha);
+    graph_damping_ = alpha;
     ++revision_;
 }
 

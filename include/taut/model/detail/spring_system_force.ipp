@@ -22,44 +22,25 @@ void SpringSystem<Scalar, Dim, Laws...>::for_each_tangent(const Points<Real, Dim
 }
 
 template <class Scalar, int Dim, class... Laws>
-template <bool Dampers, bool Rayleigh, class Set>
+template <bool Dampers, bool Proportional, class Set>
 void SpringSystem<Scalar, Dim, Laws...>::add_spring_forces(const Set& set, const State& state,
+                                                           const StiffnessDamping<Scalar>& by,
                                                            Force& f) const {
-    using Law = typename Set::Law;
-    [[maybe_unused]] const Scalar alpha = static_cast<Scalar>(rayleigh_.stiffness_proportional);
     for (std::size_t s = 0; s < set.a.size(); ++s) {
         const int a = set.a[s];
         const int b = set.b[s];
         const Vector dx = state.x.col(b) - state.x.col(a);
-        const Scalar l = dx.norm();
-        Vector pull = Vector::Zero();  // on a; the opposite acts on b
-        if (l > 0) {
-            const Scalar over_l = Law::tension(set.parameters[s], set.rest_length[s], l) / l;
-            pull = over_l * dx;
-            if constexpr (Dampers || Rayleigh) {
-                const Vector d = dx / l;
-                const Vector dv = state.v.col(b) - state.v.col(a);
-                const Scalar stretching = d.dot(dv);
-                if constexpr (Dampers) pull += set.damping[s] * stretching * d;
-                if constexpr (Rayleigh) {
-                    const Scalar slope =
-                        Law::tension_slope(set.parameters[s], set.rest_length[s], l);
-                    const Scalar axial = slope > 0 ? slope : Scalar(0);
-                    const Scalar transverse = over_l > 0 ? over_l : Scalar(0);
-                    pull += alpha * (transverse * dv + (axial - transverse) * stretching * d);
-                }
-            }
-        } else if constexpr (Rayleigh) {
-            const Scalar bound = Law::stiffness_bound(set.parameters[s], set.rest_length[s]);
-            pull = alpha * bound * (state.v.col(b) - state.v.col(a));
-        }
+        Vector dv = Vector::Zero();
+        if constexpr (Dampers || Proportional) dv = state.v.col(b) - state.v.col(a);
+        const Vector pull = set.template pull<Dampers, Proportional>(s, dx, dv, by);
         f.col(a) += pull;
         f.col(b) -= pull;
     }
 }
 
 template <class Scalar, int Dim, class... Laws>
-void SpringSystem<Scalar, Dim, Laws...>::force(const State& state, Force& f) const {
+void SpringSystem<Scalar, Dim, Laws...>::force(const State& state, Force& f,
+                                               const StiffnessDamping<double>& added) const {
     require_state("force", state);
     const Eigen::Map<const VectorX<Scalar>> mass(mass_.data(), size());
     f.resize(Dim, size());
@@ -68,13 +49,14 @@ void SpringSystem<Scalar, Dim, Laws...>::force(const State& state, Force& f) con
         const Scalar d0 = static_cast<Scalar>(rayleigh_.mass_proportional);
         f.array() -= state.v.array().rowwise() * (d0 * mass.transpose().array());
     }
-    const bool rayleigh = rayleigh_.stiffness_proportional > 0;
+    const auto by = (stiffness_damping() + added).template cast<Scalar>();
+    const bool proportional(by);
     for_each_set([&](const auto& set) {
         const bool dampers = !set.damping.empty();
-        if (dampers && rayleigh) add_spring_forces<true, true>(set, state, f);
-        if (dampers && !rayleigh) add_spring_forces<true, false>(set, state, f);
-        if (!dampers && rayleigh) add_spring_forces<false, true>(set, state, f);
-        if (!dampers && !rayleigh) add_spring_forces<false, false>(set, state, f);
+        if (dampers && proportional) add_spring_forces<true, true>(set, state, by, f);
+        if (dampers && !proportional) add_spring_forces<true, false>(set, state, by, f);
+        if (!dampers && proportional) add_spring_forces<false, true>(set, state, by, f);
+        if (!dampers && !proportional) add_spring_forces<false, false>(set, state, by, f);
     });
     if (external_force_) external_force_(state, f);
 }

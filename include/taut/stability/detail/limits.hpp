@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../../core/detail/bisection.hpp"
 #include "../dense.hpp"
 #include "../lanczos.hpp"
 #include "../mode.hpp"
@@ -135,6 +136,50 @@ inline bool certifies_explicit(const Pencil& pencil, double h) {
            pencil.upper_bound({0, -h * h, 2 * h, false}) < 4;
 }
 
+/// The limit of explicit Euler on one mode [T9], from below and from above.
+struct ModeLimit {
+    double lower = 0;
+    double upper = infinity;
+};
+
+/// @param k, d  1/s², 1/s, each as computed. Near critical damping, d² = 4k, the limit moves by the
+///              root of what their rounding moves d² − 4k by: 1e-8.
+inline ModeLimit explicit_mode_limit(double k, double d) {
+    constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+    const double softer = k - rounding * std::abs(k);
+    const double stiffer = k + rounding * std::abs(k);
+    const double less = d - rounding * std::abs(d);
+    const double more = d + rounding * std::abs(d);
+    const auto overdamped = [](double k_mode, double d_mode) {
+        return d_mode >= 2 * std::sqrt(std::max(k_mode, 0.0));
+    };
+    // It rises with k and falls with d on one side of critical damping, the other way round on the
+    // other, so that corners decide; in between it is largest where d² = 4k, 4/d.
+    const double one = critical_step(Method::explicit_euler, stiffer, less);
+    const double other = critical_step(Method::explicit_euler, softer, more);
+    const bool across = overdamped(stiffer, less) != overdamped(softer, more);
+    return {std::min(one, other), across ? 4 / less : std::max(one, other)};
+}
+
+/// The largest limit of explicit Euler that a mode with k in [low, high], 1/s², can have. The modes
+/// that are stable at one step are an interval of k (section 4), so the limit has one peak: at
+/// critical damping, √k = d0/(1 + √(1 − αd0)), as far as d0 > 0.
+inline double largest_explicit_limit(const RayleighDamping& rayleigh, double low, double high) {
+    const auto [d0, alpha] = rayleigh;
+    if (d0 == 0 && low <= 0 && high >= 0) return infinity;  // it may be a zero mode
+    double largest = std::max(explicit_mode_limit(low, d0 + alpha * low).upper,
+                              explicit_mode_limit(high, d0 + alpha * high).upper);
+    if (d0 > 0 && alpha * d0 < 1) {
+        const double root = d0 / (1 + std::sqrt(1 - alpha * d0));
+        if (root * root > low && root * root < high) {
+            // 1 − αd0 rounds as well.
+            const double from = 1 - alpha * d0 + 4 * std::numeric_limits<double>::epsilon();
+            largest = std::max(largest, 2 * (1 + std::sqrt(from)) / d0);
+        }
+    }
+    return largest;
+}
+
 /// The largest step that proved bounds k on k_max and d on the largest eigenvalue of D' certify for
 /// explicit Euler, or else the bound at each step tried; 0: none.
 inline double certified_explicit(const Pencil& pencil, double k, double d) {
@@ -142,22 +187,19 @@ inline double certified_explicit(const Pencil& pencil, double k, double d) {
     const auto [d0, alpha] = pencil.rayleigh();
     if (pencil.is_rayleigh() && pencil.stiffness_semidefinite()) {
         // k may be anything in (0, k_max]: as k → 0 the limit is 2/d0, or α when d0 = 0 [T9],
-        // [T13].
-        const double at_zero = d0 > 0 ? 2 / d0 : alpha;
-        return k > 0 ? std::min(at_zero, critical_step(Method::explicit_euler, k, d0 + alpha * k))
-                     : critical_step(Method::explicit_euler, 0, d0);
+        // [T13]. Where rounding leaves springs slightly compressed, by κ: 4 − 2hd0 − h²κ ≥ 0 [T17].
+        if (!(k > 0)) return critical_step(Method::explicit_euler, 0, d0);
+        const double compression =
+            pencil.projects() ? std::max(0.0, pencil.upper_bound({0, -1, 0, false})) : 0;
+        const double at_zero = critical_step(Method::symplectic_euler, compression, d0);
+        return std::min(
+            {at_zero, d0 > 0 ? infinity : alpha, explicit_mode_limit(k, d0 + alpha * k).lower});
     }
-    // The stable steps are an interval (0, h_max) [T18]: bisect on a logarithmic scale, downwards
-    // from the limit that K alone sets for any commuting damping [T12].
-    double high = k > 0 ? 2 / std::sqrt(k) : 4 / d;
-    double low = high * 1e-12;
-    if (!certifies_explicit(pencil, low)) return 0;
-    while (certifies_explicit(pencil, high)) high *= 2;
-    while (high > low * (1 + 1e-4)) {
-        const double middle = std::sqrt(low * high);
-        (certifies_explicit(pencil, middle) ? low : high) = middle;
-    }
-    return low;
+    // The stable steps are an interval (0, h_max) [T18]. Where damping is weak it ends near the
+    // limit that K alone sets for any commuting damping [T12].
+    const auto certifies = [&](double h) { return certifies_explicit(pencil, h); };
+    if (!certifies(std::numeric_limits<double>::min())) return 0;
+    return last_that_passes(k > 0 ? 2 / std::sqrt(k) : 4 / d, 1e-4, certifies);
 }
 
 /// uᵀ(4M − 2hD + h²K)u ≤ 0 proves a multiplier ≤ −1 of explicit Euler, for any symmetric D and K.
@@ -165,7 +207,8 @@ inline double refuted_by_damping(const Pencil& pencil, const Eigen::VectorXd& u)
     const auto [k_enclosed, d_enclosed] = quotients(pencil, u, false);
     const double k = k_enclosed.upper();
     const double d = std::max(0.0, d_enclosed.lower());
-    return d > 0 && d * d >= 4 * k ? 4 / (d + std::sqrt(d * d - 4 * k)) : infinity;
+    const double root = discriminant_root(d, -k);
+    return d > 0 && root >= 0 ? 2 / (d / 2 + root / 2) : infinity;
 }
 
 /// @param commutes  whether M, D and the stepper's K share their eigenvectors
@@ -177,17 +220,12 @@ double refuted_explicit(const Pencil& pencil, const RitzPair& stiffest, bool com
     if (!commutes) return h;
     // Every Rayleigh quotient of K' lies in [k_min, k_max], and where [T8] fails at one of these it
     // fails at an end of the spectrum [T13].
-    const RayleighDamping rayleigh = pencil.rayleigh();
-    const auto limit_at = [&](double k) {
-        return critical_step(Method::explicit_euler, k,
-                             rayleigh.mass_proportional + rayleigh.stiffness_proportional * k);
-    };
     const auto refuted_by = [&](const RitzPair& mode) {
         const Enclosed k = quotients(pencil, mode.vector, false).k;
-        return std::max(limit_at(k.lower()), limit_at(k.upper()));
+        return largest_explicit_limit(pencil.rayleigh(), k.lower(), k.upper());
     };
     h = std::min(h, refuted_by(stiffest));
-    if (rayleigh.mass_proportional > 0) {
+    if (pencil.rayleigh().mass_proportional > 0) {
         h = std::min(h, refuted_by(largest_ritz_pair(pencil, {0, -1, 0, false})));
     }
     return h;

@@ -129,27 +129,29 @@ void narrow_explicit(const Pencil& pencil, Factorisations<Cholesky>& effort, dou
     const auto second = [&](double h) {
         return prove(prover, pencil, {4, h * h, -2 * h, false}).proved;
     };
-    // The largest h with D − hK⁺ ⪰ −δM, δ tiny beside hK⁺, by bisection: each test may fail early.
-    double low = bracket.certified;
-    double top = std::min(high, bracket.refuted);
+    // The largest h with D − hK⁺ ⪰ −δM, δ tiny beside hK⁺.
     double shown = 0;
-    for (int repeat = 0;
-         repeat < 60 && top > (low > 0 ? low : top * 1e-12) * (1 + effort.tightness); ++repeat) {
-        const double h = low > 0 ? std::sqrt(low * top) : top / 16;
+    const auto proves = [&](double h) {
         const double tiny = 1e-9 * h * k;
         const bool strict = prove(prover, pencil, {0, -h, 1}).proved;
         const bool weak = strict || prove(prover, pencil, {tiny, -h, 1}).proved;
-        if (weak && second(h)) {
-            low = h;
-            shown = strict ? 0 : tiny;
-            if (strict) bracket.certified = h;
-        } else {
-            top = h;
-            if (low == 0 && h < 1e-12 * high) break;
-        }
+        if (!weak || !second(h)) return false;
+        shown = strict ? 0 : tiny;
+        if (strict) bracket.certified = h;
+        return true;
+    };
+    // Far below the limit the rounding of D hides so small a δ: a first proof is sought from above.
+    double top = std::min(high, bracket.refuted);
+    double low = bracket.certified;
+    for (int repeat = 0; low == 0 && repeat < 10; ++repeat) {
+        const double h = top / 16;
+        (proves(h) ? low : top) = h;
     }
-    if (low > bracket.certified) {
-        up_to = low;
+    if (low == 0) return;
+    Bisection<double> search(low, top, effort.tightness);
+    while (search.open()) search.narrow(proves(search.middle()));
+    if (search.passes() > bracket.certified) {
+        up_to = search.passes();
         delta = shown;
     }
 }

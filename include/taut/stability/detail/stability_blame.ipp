@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "../../core/detail/bisection.hpp"
 
 namespace taut {
 namespace detail {
@@ -18,19 +21,8 @@ std::vector<Share> largest_shares(std::vector<Share> shares, Index count) {
     return shares;
 }
 
-inline constexpr double smallest_scale = 1e-12;
-inline constexpr double largest_scale = 1e12;
-
-/// The point, within 1e-9 relative, up to which `holds` is true for scales that grow from `from`
-/// towards `to`; `from` itself must hold.
-template <class Holds>
-double last_scale(double from, double to, Holds&& holds) {
-    while (std::abs(std::log(to / from)) > 1e-9) {
-        const double middle = std::sqrt(from * to);
-        (holds(middle) ? from : to) = middle;
-    }
-    return from;
-}
+/// How well the scales of max_stiffness_scale and min_mass_scale are found, relative.
+inline constexpr double scale_tolerance = 1e-9;
 
 }  // namespace detail
 
@@ -74,9 +66,7 @@ double Stability<Scalar, Cholesky>::max_stiffness_scale(Method method, double h)
     if (size() == 0) return detail::infinity;
     if (!pencil_->damping_semidefinite()) return 0;
     const auto holds = [&](double scale) { return certified_when_scaled(method, scale, 1) >= h; };
-    if (holds(detail::largest_scale)) return detail::infinity;
-    if (!holds(detail::smallest_scale)) return 0;
-    return detail::last_scale(detail::smallest_scale, detail::largest_scale, holds);
+    return detail::last_that_passes(1.0, detail::scale_tolerance, holds);
 }
 
 template <class Scalar, class Cholesky>
@@ -84,10 +74,17 @@ double Stability<Scalar, Cholesky>::min_mass_scale(Method method, double h) cons
     require_positive("Stability::min_mass_scale", "h", h);
     if (size() == 0) return 0;
     if (!pencil_->damping_semidefinite()) return detail::infinity;
-    const auto holds = [&](double scale) { return certified_when_scaled(method, 1, scale) >= h; };
-    if (holds(detail::smallest_scale)) return 0;
-    if (!holds(detail::largest_scale)) return detail::infinity;
-    return detail::last_scale(detail::largest_scale, detail::smallest_scale, holds);
+    // As far as double holds the masses, and d0·M, as normal numbers.
+    const Eigen::VectorXd& mass = pencil_->mass();
+    const double d0 = pencil_->rayleigh().mass_proportional;
+    const double least = std::numeric_limits<double>::min() / mass.minCoeff();
+    const double most =
+        std::numeric_limits<double>::max() / 8 / mass.maxCoeff() / std::max(1.0, d0);
+    const auto holds = [&](double lighter) {
+        const double scale = std::clamp(1 / lighter, std::min(least, 1.0), std::max(most, 1.0));
+        return certified_when_scaled(method, 1, scale) >= h;
+    };
+    return 1 / detail::last_that_passes(1.0, detail::scale_tolerance, holds);
 }
 
 template <class Scalar, class Cholesky>

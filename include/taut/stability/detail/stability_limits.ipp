@@ -21,7 +21,8 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::bracket(Method method, Effort eff
         case Method::implicit_euler: answer = implicit_limit(); break;
     }
     // An explicit step that is certified is so by D − hK ≻ 0, which needs no D ⪰ 0 beside it.
-    if (method != Method::explicit_euler || !(answer.certified > 0)) admit_negative_damping(answer);
+    if (method != Method::explicit_euler || !(answer.certified > 0))
+        admit_negative_damping(method, answer);
     add_growth(answer, effort);
     return answer;
 }
@@ -32,7 +33,9 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::explicit_limit(Effort& effort) co
     const Pencil& pencil = *pencil_;
     const double k = pencil.upper_bound({0, 1, 0});
     const double d = pencil.upper_bound({0, 0, 1});
-    if (!(k > 0) && !(d > 0)) {
+    // A negative K or D of bare matrices is not nothing.
+    if (!(k > 0) && !(d > 0) && pencil.upper_bound({0, -1, 0, false}) <= 0 &&
+        pencil.upper_bound({0, 0, -1}) <= 0) {
         return limit(detail::infinity, detail::infinity, Cause::nothing_to_limit);
     }
     if (!std::isfinite(k) || !std::isfinite(d)) {
@@ -113,33 +116,39 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::implicit_limit() const {
         return limit(detail::infinity, detail::infinity, Cause::unconditional);
     }
     if (!std::isfinite(kappa)) return limit(0, detail::infinity, Cause::overflow);
-    // Bare matrices: the step matrix stays definite while 1 − h²κ > 0, and turns singular where a
-    // vector says so [T21].
+    // Bare matrices, D ⪰ −δM: the step matrix stays definite while 1 − hδ − h²κ > 0, and turns
+    // singular where a vector says so [T21].
+    const double delta = pencil.damping_semidefinite() ? 0 : pencil.deficit({0, 0, 1});
+    const auto definite_up_to = [delta](double most) {
+        return critical_step(Method::symplectic_euler, most, delta) / 2;
+    };
     const RitzPair softest = largest_ritz_pair(pencil, {0, -1, 0});
     const auto [k, d] = detail::quotients(pencil, softest.vector, true);
     if (k.upper() < 0) {
-        return limit(1 / std::sqrt(kappa),
+        return limit(definite_up_to(kappa),
                      critical_step(Method::implicit_euler, k.upper(), std::max(0.0, d.upper())),
                      Cause::stiffness);
     }
-    return limit(1 / std::sqrt(pencil.deficit({0, 1, 0})), detail::infinity, Cause::stiffness);
+    return limit(definite_up_to(pencil.deficit({0, 1, 0})), detail::infinity, Cause::stiffness);
 }
 
-/// D ⪰ −δM is enough for a limit whose multipliers stay below 1 + hδ [T17]: an answer of
-/// another name.
+/// D ⪰ −δM is enough for a limit whose multipliers stay below 1 + hδ [T17]: an answer of another
+/// name. Those of implicit Euler reach 1/(1 − hδ), which is below e^(2hδ) while hδ ≤ ½.
 template <class Scalar, class Cholesky>
-void Stability<Scalar, Cholesky>::admit_negative_damping(StepLimit<Scalar>& limit) const {
+void Stability<Scalar, Cholesky>::admit_negative_damping(Method method,
+                                                         StepLimit<Scalar>& limit) const {
     const Pencil& pencil = *pencil_;
     if (pencil.damping_semidefinite()) return;
+    const double twice = method == Method::implicit_euler ? 2 : 1;
     const double delta = pencil.deficit({0, 0, 1});
     if (delta == 0) return;
     // A δ that is no rounding is negative damping, which feeds energy in at every step.
     const bool rounding = delta <= 1e-6 * std::max(0.0, pencil.upper_bound({0, 0, 1}));
     if (rounding && !(limit.certified > 0)) return;
     if (rounding) {
-        limit.certified_up_to =
-            std::min(limit.certified, detail::round_down<Scalar>(1 / std::max(delta, 1e-300)));
-        limit.admitted_growth = delta;
+        const double most = 1 / std::max(twice * delta, 1e-300);
+        limit.certified_up_to = std::min(limit.certified, detail::round_down<Scalar>(most));
+        limit.admitted_growth = twice * delta;
     } else {
         limit.refuted = std::numeric_limits<Scalar>::infinity();
     }

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <type_traits>
+#include <utility>
+
+#include "../../core/concepts.hpp"
+#include "../../core/method.hpp"
+
+namespace taut::detail {
+
+template <class Stepper>
+struct stepped_system;
+template <template <class...> class Stepper, class System, class... Policies>
+struct stepped_system<Stepper<System, Policies...>> {
+    using type = System;
+};
+
+template <class Stepper>
+using method_of = decltype(Stepper::method);
+template <class Stepper>
+using damping_of = decltype(std::declval<const Stepper&>().damping());
+template <class Stepper>
+using constraint_forces_of = decltype(std::declval<const Stepper&>().constraint_forces());
+
+struct NoResponse {
+    template <class State>
+    void operator()(State&) const {}
+};
+
+/// The work that a response claims, J; none if it returns nothing.
+template <class Respond, class State>
+double claimed_work(Respond& respond, State& state) {
+    if constexpr (std::is_void_v<decltype(respond(state))>) {
+        respond(state);
+        return 0;
+    } else {
+        return static_cast<double>(respond(state));
+    }
+}
+
+/// What the guard takes a stepper for; one without a `method` counts as implicit.
+template <class Stepper>
+constexpr Method guarded_method() {
+    if constexpr (is_detected_v<method_of, Stepper>) {
+        return Stepper::method;
+    } else {
+        return Method::implicit_euler;
+    }
+}
+
+}  // namespace taut::detail

@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "../../core/types.hpp"
+#include "../../model/damping.hpp"
+
+namespace taut::detail {
+
+/// The force of spring s of `set` on its end a, N, with its damper and damping in proportion to its
+/// stiffness; the opposite acts on b.
+/// @param dx  x_b − x_a, m   @param dv  v_b − v_a, m/s
+template <class Set, class Vector>
+Vector damped_pull(const Set& set, std::size_t s, const Vector& dx, const Vector& dv,
+                   const StiffnessDamping<double>& by) {
+    const auto factors = by.template cast<typename Vector::Scalar>();
+    return set.damping.empty() ? set.template pull<false, true>(s, dx, dv, factors)
+                               : set.template pull<true, true>(s, dx, dv, factors);
+}
+
+/// The pins that move, and what springs do to them: only springs with a pinned end are visited.
+template <class System>
+class PinWork {
+public:
+    using State = typename System::State;
+
+    /// Whether a pinned particle has a velocity.
+    bool moves(const System& system, const State& state) {
+        update(system);
+        return std::any_of(pins_.begin(), pins_.end(),
+                           [&](Index i) { return !state.v.col(i).isZero(0); });
+    }
+    /// v·f over the pinned particles, f of springs, W.
+    double spring_power(const System& system, const State& state) {
+        return power(system, state,
+                     [](const auto& set, std::size_t s, const auto& dx, const auto& dv) {
+                         return set.template pull<false, false>(s, dx, dv, {});
+                     });
+    }
+    /// The same with f of springs and of all that damps them, W.
+    /// @param by  in proportion to stiffness, the system's own included
+    double damped_power(const System& system, const State& state,
+                        const StiffnessDamping<double>& by) {
+        return power(system, state,
+                     [&](const auto& set, std::size_t s, const auto& dx, const auto& dv) {
+                         return damped_pull(set, s, dx, dv, by);
+                     });
+    }
+
+private:
+    using Vector = typename System::Vector;
+
+    template <class Pull>
+    double power(const System& system, const State& state, Pull&& pull) {
+        update(system);
+        double sum = 0;
+        std::size_t which = 0;
+        system.for_each_set([&](const auto& set) {
+            for (const std::size_t s : springs_[which++]) {
+                const int a = set.a[s];
+                const int b = set.b[s];
+                const Vector dx = state.x.col(b) - state.x.col(a);
+                const Vector dv = state.v.col(b) - state.v.col(a);
+                Vector v = Vector::Zero();
+                if (system.is_pinned(a)) v += state.v.col(a);
+                if (system.is_pinned(b)) v -= state.v.col(b);
+                sum += static_cast<double>(pull(set, s, dx, dv).dot(v));
+            }
+        });
+        return sum;
+    }
+    void update(const System& system) {
+        if (known_ && revision_ == system.topology_revision()) return;
+        known_ = true;
+        revision_ = system.topology_revision();
+        pins_.clear();
+        for (Index i = 0; i < system.size(); ++i) {
+            if (system.is_pinned(i)) pins_.push_back(i);
+        }
+        springs_.clear();
+        system.for_each_set([&](const auto& set) {
+            auto& list = springs_.emplace_back();
+            if (pins_.empty()) return;
+            for (std::size_t s = 0; s < set.a.size(); ++s) {
+                if (system.is_pinned(set.a[s]) || system.is_pinned(set.b[s])) list.push_back(s);
+            }
+        });
+    }
+
+    std::vector<Index> pins_;
+    std::vector<std::vector<std::size_t>> springs_;  // of each law, those with a pinned end
+    std::uint64_t revision_ = 0;
+    bool known_ = false;
+};
+
+}  // namespace taut::detail
