@@ -6,7 +6,7 @@
 // load.
 //
 //     survival_table [map | recipe | mass | loss] [MESH.obj] [--runs N] [--steps N] [--seed N]
-//                    [--share H] [--alpha A] [--scene TEXT] [--law TEXT] [--csv FILE]
+//                    [--share H] [--ahead A] [--scene TEXT] [--law TEXT] [--csv FILE]
 //
 // `map` walks over shares and dampings; `recipe` takes one of each, many times, and exits with 1 if
 // a run fails; `mass` is a finer map of one mass alone; `loss` says what the recipe takes out of an
@@ -38,8 +38,8 @@ struct Options {
     int runs = 0;     // 0: of the job
     Index steps = 0;  // 0: of the job
     std::uint64_t seed = 1;
-    double share = 0.5;   // h / limit
-    double alpha = 0.25;  // α / h
+    double share = taut::recipe.safety;              // h / limit
+    double ahead = taut::recipe.damping.look_ahead;  // share of h
 };
 
 Options parse(int argc, char** argv) {
@@ -64,8 +64,8 @@ Options parse(int argc, char** argv) {
             options.seed = std::strtoull(value, nullptr, 10);
         } else if (word == "--share") {
             options.share = std::atof(value);
-        } else if (word == "--alpha") {
-            options.alpha = std::atof(value);
+        } else if (word == "--ahead") {
+            options.ahead = std::atof(value);
         } else if (word == "--scene") {
             options.scene = value;
         } else if (word == "--law") {
@@ -201,12 +201,14 @@ std::vector<Setting> map_settings() {
     };
     const Damping none;
     add(Method::symplectic_euler, none);
-    for (const double alpha : {0.05, 0.1, 0.25, 0.5}) {
-        add(Method::symplectic_euler, {DampingKind::rayleigh, alpha});
+    for (const double ahead : {0.1, 0.25, 0.4, 0.5}) {
+        add(Method::symplectic_euler, {DampingKind::look_ahead, ahead});
     }
+    add(Method::symplectic_euler, {DampingKind::rayleigh, 0.25});
+    add(Method::symplectic_euler, {DampingKind::graph, 1});
     add(Method::velocity_verlet, none);
-    add(Method::velocity_verlet, {DampingKind::rayleigh, 0.25});
-    add(Method::explicit_euler, {DampingKind::rayleigh, 1.5});
+    add(Method::velocity_verlet, {DampingKind::look_ahead, 0.4});
+    add(Method::explicit_euler, {DampingKind::look_ahead, 1.5});
     return settings;
 }
 
@@ -271,17 +273,17 @@ void write_csv(const Sweep& sweep, const std::string& path) {
 
 template <class Law>
 void print_mass(const Options& options) {
-    const double alphas[] = {0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5};
-    std::printf("\n### %s\n\n| h / limit \\ α / h |", Law::name);
-    for (const double alpha : alphas) std::printf(" %g |", alpha);
+    const double shares[] = {0, 0.05, 0.1, 0.2, 0.25, 0.3, 0.35, 0.4, 0.5};
+    std::printf("\n### %s\n\n| h / limit \\ look ahead / h |", Law::name);
+    for (const double ahead : shares) std::printf(" %g |", ahead);
     std::printf("\n|---|");
-    for (std::size_t i = 0; i < std::size(alphas); ++i) std::printf("---|");
+    for (std::size_t i = 0; i < std::size(shares); ++i) std::printf("---|");
     std::printf("\n");
     for (const double share : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95}) {
         std::printf("| %g |", share);
-        for (const double alpha : alphas) {
-            const auto kind = alpha > 0 ? DampingKind::rayleigh : DampingKind::none;
-            const Setting setting{Method::symplectic_euler, share, {kind, alpha}};
+        for (const double ahead : shares) {
+            const auto kind = ahead > 0 ? DampingKind::look_ahead : DampingKind::none;
+            const Setting setting{Method::symplectic_euler, share, {kind, ahead}};
             if (!setting.is_linearly_stable()) {
                 std::printf(" – |");
                 continue;
@@ -313,8 +315,8 @@ void print_recipe_line(const char* scene, const char* law, const Tally& tally) {
 
 /// @returns whether no run failed
 bool print_recipe(const Options& options) {
-    const auto kind = options.alpha > 0 ? DampingKind::rayleigh : DampingKind::none;
-    const Setting setting{Method::symplectic_euler, options.share, {kind, options.alpha}};
+    const auto kind = options.ahead > 0 ? DampingKind::look_ahead : DampingKind::none;
+    const Setting setting{Method::symplectic_euler, options.share, {kind, options.ahead}};
     std::printf(
         "## The recipe: symplectic Euler at %g of the any-pose limit, %s, %ld steps a run\n\n"
         "Swung: was above its start by more than 1 %% of the largest kinetic energy seen at some "

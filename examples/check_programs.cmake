@@ -141,12 +141,12 @@ expect(drape "${cloth} --output frames --step 1e-12" 1 "--step: ")
 expect(drape "${cloth} --output frames --method explicit" 1 "--integrator explicit: .*damping")
 expect(drape "${cloth} --output frames --duration 0.1 --quiet" 0
     "own damping: alpha = 0[.][0-9]+ h\n.*simulated.*largest kinetic energy")
-expect(drape "${cloth} --output frames --duration 0.1 --quiet --step-damping 0.2 --guard" 0
+expect(drape "${cloth} --output frames --duration 0.1 --quiet --look-ahead 0.2 --guard" 0
     "own damping: alpha = 0[.]2 h\n")
-expect(drape "${cloth} --output frames --duration 0.1 --quiet --step-damping 0" 0
+expect(drape "${cloth} --output frames --duration 0.1 --quiet --look-ahead 0" 0
     "frames of [0-9.]+ s\n0[.]1 s simulated")
-expect(drape "${cloth} --step-damping 0.1 --integrator implicit" 1 "--step-damping: .*implicit")
-expect(drape "${cloth} --step-damping -1" 105 "--step-damping")
+expect(drape "${cloth} --look-ahead 0.1 --integrator implicit" 1 "--look-ahead: .*implicit")
+expect(drape "${cloth} --look-ahead -1" 105 "--look-ahead")
 expect(drape "${cloth} --output frames --format stl" 105 "--format")
 # A header, 12 bytes for each of 16 particles, 17 for each of 9 quads.
 expect(drape "${cloth} --output frames --duration 0.1 --quiet --format ply" 0 "frames/frame_[*].ply")

@@ -304,7 +304,7 @@ struct Rise {
     double above = 0, step = 0;
 };
 
-Rise energy_rise(const Threads& net, double h, const taut::StiffnessDamping<double>& damping) {
+Rise energy_rise(const Threads& net, double h, const taut::StepDamping& damping) {
     auto state = net.initial_state();
     taut::SymplecticEuler stepper(net, {1, damping});
     const double start = net.energy(state);

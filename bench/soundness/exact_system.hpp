@@ -137,8 +137,8 @@ Exact exact_at_pose(const System& system, const Pose& x, const Side& side) {
     }
     Exact e(Dim * count);
     e.springs = true;
-    e.d0 = system.rayleigh().mass_proportional;
-    e.alpha = system.rayleigh().stiffness_proportional;
+    e.d0 = taut::held_as<Scalar>(system.rayleigh().mass_proportional);
+    e.alpha = taut::held_as<Scalar>(system.rayleigh().stiffness_proportional);
     for (Index i = 0; i < system.size(); ++i) {
         for (int k = 0; first[i] >= 0 && k < Dim; ++k) e.mass[first[i] + k] = system.mass(i);
     }
@@ -159,7 +159,7 @@ Exact exact_at_pose(const System& system, const Pose& x, const Side& side) {
             const Real most = law_bound(Law{}, p, L);
             const std::vector<Real> none(Dim);
             add_block(e.bound, a, b, none, 0, most, most);
-            const Real graph = most * system.graph_damping();
+            const Real graph = most * taut::held_as<Scalar>(system.graph_damping());
             if (graph > 0) add_block(e.dampers, a, b, none, 0, graph, graph);
             if (square < std::numeric_limits<Scalar>::min()) {
                 // The ends coincide [T3]: no axis, and no damper along it.
@@ -197,13 +197,14 @@ Exact exact_at_pose(const System& system, const Pose& x, const Side& side) {
 /// The graph Laplacians [T23], n × n: K⁺ = K = L_k.
 template <class System>
 Exact exact_laplacians(const System& system) {
+    using Scalar = typename System::Scalar;
     std::vector<int> row;
     int count = 0;
     for (Index i = 0; i < system.size(); ++i) row.push_back(system.is_pinned(i) ? -1 : count++);
     Exact e(count);
     e.springs = true;
-    e.d0 = system.rayleigh().mass_proportional;
-    e.alpha = system.rayleigh().stiffness_proportional;
+    e.d0 = taut::held_as<Scalar>(system.rayleigh().mass_proportional);
+    e.alpha = taut::held_as<Scalar>(system.rayleigh().stiffness_proportional);
     for (Index i = 0; i < system.size(); ++i) {
         if (row[i] >= 0) e.mass[row[i]] = system.mass(i);
     }
@@ -216,7 +217,7 @@ Exact exact_laplacians(const System& system) {
                 law_bound(Law{}, set.parameters[s].template cast<Real>(), Real(set.rest_length[s]));
             const std::vector<Real> axis(1, Real(1));
             for (Rounded* A : {&e.K, &e.K_plus, &e.bound}) add_block(*A, a, b, axis, most, 0, most);
-            const Real c = set.damping_of(s) + most * system.graph_damping();
+            const Real c = set.damping_of(s) + most * taut::held_as<Scalar>(system.graph_damping());
             if (c > 0) add_block(e.dampers, a, b, axis, c, 0, c);
         }
     });

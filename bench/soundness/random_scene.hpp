@@ -43,8 +43,9 @@ public:
     bool one_in(Index n) { return below(n) == 0; }
     /// All bits of a double, in [low, high).
     double uniform(double low, double high) {
-        const double unit = random_.uniform(0, 1) + 0x1p-24 * random_.uniform(0, 1) +
-                            0x1p-48 * random_.uniform(0, 1);
+        double unit = random_.uniform(0, 1);
+        unit += 0x1p-24 * random_.uniform(0, 1);
+        unit += 0x1p-48 * random_.uniform(0, 1);
         return low + (high - low) * std::min(unit, 1 - 0x1p-53);
     }
     /// Around 2^centre, by the range.
@@ -127,7 +128,8 @@ Scene<System> random_scene(Draw& draw) {
     std::vector<Vector> places;
     for (Index i = 0; i < free + pinned; ++i) {
         places.push_back(i > 0 && draw.one_in(20) ? places.back() : place());
-        system.add_particle(draw.one_in(4) ? place() : places.back(), draw.around<Scalar>(masses));
+        const auto mass = draw.around<Scalar>(masses);
+        system.add_particle(draw.one_in(4) ? place() : places.back(), mass);
         if (i >= free) system.pin(i);
     }
     scene.state = system.initial_state();

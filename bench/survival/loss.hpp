@@ -22,8 +22,7 @@ struct Motion {
 
 inline Motion move(Net<3> net, Net<3>::State state, double share, const Damping& damping) {
     const double h = share * taut::any_pose_limit(net).certified;
-    damping.set(net, h);
-    taut::SymplecticEuler<Net<3>> stepper(net);
+    taut::SymplecticEuler<Net<3>> stepper(net, {1, damping.own()});
     Motion motion;
     motion.energy[0] = net.energy(state);
     for (std::size_t second = 1; second < motion.energy.size(); ++second) {
@@ -56,8 +55,8 @@ inline void print_loss(const char* name, const Net<3>& net, const Net<3>::State&
     };
     line(0.05, {});
     line(0.5, {});
-    for (const double alpha : {0.05, 0.1, 0.25}) line(0.5, {DampingKind::rayleigh, alpha});
-    line(0.7, {DampingKind::rayleigh, 0.1});
+    for (const double ahead : {0.05, 0.1, 0.25, 0.4}) line(0.5, {DampingKind::look_ahead, ahead});
+    line(0.5, {DampingKind::graph, 1});
 }
 
 /// Hookean cloths that nothing disturbs: one that falls, and one that swings about its rest.

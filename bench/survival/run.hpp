@@ -12,26 +12,33 @@
 
 namespace bench::survival {
 
-enum class DampingKind { none, rayleigh };
+enum class DampingKind { none, look_ahead, rayleigh, graph };
 
 /// What damps, in shares of the step.
 struct Damping {
     DampingKind kind = DampingKind::none;
-    double share = 0;  // α/h
+    double share = 0;  // of the step: α/h, or how far springs look ahead
 
     std::string name() const {
-        if (kind == DampingKind::none) return "no damping";
-        char text[48];
-        if (share < 1) {
-            std::snprintf(text, sizeof text, "α = h/%g on K⁺", 1 / share);
-        } else {
-            std::snprintf(text, sizeof text, "α = %gh on K⁺", share);
+        const auto print = [&](const char* before, const char* after) {
+            char text[64];
+            std::snprintf(text, sizeof text, "%s%gh%s", before, share, after);
+            return std::string(text);
+        };
+        switch (kind) {
+            case DampingKind::look_ahead: return print("springs look ", " ahead");
+            case DampingKind::rayleigh: return print("α = ", " on K⁺");
+            case DampingKind::graph: return print("α = ", " on L_k");
+            default: return "no damping";
         }
-        return text;
     }
     template <class System>
     void set(System& system, double h) const {
         if (kind == DampingKind::rayleigh) system.set_rayleigh({0, share * h});
+    }
+    taut::StepDamping own() const {
+        return {kind == DampingKind::look_ahead ? share : 0,
+                kind == DampingKind::graph ? share : 0};
     }
 };
 
@@ -119,8 +126,9 @@ private:
 };
 
 template <class Stepper, class System>
-Run run_with(const System& system, typename System::State state, double h, Index steps) {
-    Stepper stepper(system);
+Run run_with(const System& system, typename System::State state, const taut::StepDamping& damping,
+             double h, Index steps) {
+    Stepper stepper(system, taut::ExplicitOptions{1, damping});
     Watch<System> watch(system, state);
     for (Index done = 0; done < steps; done += Watch<System>::every) {
         const bool moved = bool(stepper.step(state, h, Watch<System>::every));
@@ -135,12 +143,13 @@ Run run(System system, const typename System::State& start, const Setting& setti
         Index steps) {
     const double h = setting.share * limit;
     setting.damping.set(system, h);
+    const auto own = setting.damping.own();
     switch (setting.method) {
         case taut::Method::velocity_verlet:
-            return run_with<taut::VelocityVerlet<System>>(system, start, h, steps);
+            return run_with<taut::VelocityVerlet<System>>(system, start, own, h, steps);
         case taut::Method::explicit_euler:
-            return run_with<taut::ExplicitEuler<System>>(system, start, h, steps);
-        default: return run_with<taut::SymplecticEuler<System>>(system, start, h, steps);
+            return run_with<taut::ExplicitEuler<System>>(system, start, own, h, steps);
+        default: return run_with<taut::SymplecticEuler<System>>(system, start, own, h, steps);
     }
 }
 

@@ -213,8 +213,8 @@ inline void print_promises(const Findings& found) {
             energy.alpha.lower, share, alpha.lower, alpha.upper, alpha.lower * energy.rotation);
     }
     std::printf(
-        "  recipe:    %.4g of any pose, alpha = %.4g h of the steps' own: measured, not proved\n",
-        taut::recipe.safety, taut::recipe.damping.projected);
+        "  recipe:    %.4g of any pose, springs looking %.4g h ahead: measured, not proved\n",
+        taut::recipe.safety, taut::recipe.damping.look_ahead);
 }
 
 /// A sentence for every cause that a user can do something about.

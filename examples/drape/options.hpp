@@ -16,7 +16,7 @@ struct Options {
     std::optional<double> bending;  // k_b, N·m²
     std::string integrator = "symplectic";
     bool guard = false;
-    std::optional<double> step_damping;  // α/h of the steps' own; the recipe's, if open
+    std::optional<double> look_ahead;  // share of the step; the recipe's, if open
     double step = 0;                     // s; 0: the integrator's own
     double duration = 2;                 // s
     double frame_rate = 30;
@@ -36,10 +36,9 @@ struct Options {
     }
     /// Whether its steps have damping of their own, which the recipe asks for.
     bool damps() const { return integrator == "symplectic" || integrator == "verlet"; }
-    taut::StiffnessDamping<double> own_damping() const {
+    taut::StepDamping own_damping() const {
         if (!damps()) return {};
-        return step_damping ? taut::StiffnessDamping<double>{*step_damping, 0}
-                            : taut::recipe.damping;
+        return look_ahead ? taut::StepDamping{*look_ahead, 0} : taut::recipe.damping;
     }
     void add_to(CLI::App& app);
     /// Throws naming the options that do not go together.
@@ -84,9 +83,10 @@ inline void Options::add_motion(CLI::App& app) {
                    "projective: a frame; "
                    "with --collide at most 1/240 s)")
         ->check(example::positive());
-    app.add_option("--step-damping", step_damping,
-                   "alpha/h, the damping that symplectic and verlet steps add to the scene's own, "
-                   "which stays as it is (default: the recipe's; 0: none)")
+    app.add_option("--look-ahead", look_ahead,
+                   "share of the step by which symplectic and verlet steps let springs look ahead: "
+                   "damping beside the scene's own, which stays as it is (default: the recipe's; "
+                   "0: none)")
         ->check(example::non_negative());
     app.add_option("--duration", duration, "simulated time, s")
         ->check(example::positive())
@@ -143,8 +143,8 @@ inline void Options::check() const {
     if (radius && collide != "sphere") {
         throw std::runtime_error("--radius: it belongs to --collide sphere, not to " + collide);
     }
-    if (step_damping && !damps()) {
-        throw std::runtime_error("--step-damping: symplectic and verlet steps take it, not " +
+    if (look_ahead && !damps()) {
+        throw std::runtime_error("--look-ahead: symplectic and verlet steps take it, not " +
                                  integrator);
     }
     if (guard && integrator == "explicit") {

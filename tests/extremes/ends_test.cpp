@@ -75,8 +75,7 @@ TEMPLATE_TEST_CASE("ends: damping whose square vanishes or overflows", "[extreme
     const double most = std::is_same_v<Scalar, float> ? 1e36 : 1e300;
     Random random(1600 + Dim);
     for (int repeat = 0; repeat < 60; ++repeat) {
-        const double d0 =
-            static_cast<double>(static_cast<Scalar>(log_uniform(random, 1 / most, most)));
+        const double d0 = taut::held_as<Scalar>(log_uniform(random, 1 / most, most));
         INFO("d0 = " << d0);
         auto system = two_particles<Scalar, Dim>(axis<Scalar, Dim>(1), Scalar(0.5));
         if (repeat % 2 == 0) system.add_spring(0, 1, 0);
@@ -248,7 +247,7 @@ TEMPLATE_TEST_CASE("ends: explicit Euler at a kink holds on the slack side, too"
         }
         const Real d =
             static_cast<Real>(c) +
-            static_cast<Real>(static_cast<TestType>(system.rayleigh().mass_proportional));
+            static_cast<Real>(taut::held_as<TestType>(system.rayleigh().mass_proportional));
         const Real slack = limit_of(Method::explicit_euler, 0, d);
         const Real taut = limit_of(Method::explicit_euler, static_cast<Real>(k), d);
         const Stability<TestType> stability(system, state);
@@ -277,7 +276,7 @@ TEMPLATE_TEST_CASE("ends: a stepper's own 1/m and d0 stay within the certified s
         system.add_spring(0, 1, k);
         system.set_rayleigh({d0, 0});
         const Real held_k = static_cast<Real>(k) * static_cast<Real>(system.inverse_mass()[1]);
-        const Real held_d = static_cast<Real>(static_cast<TestType>(d0));
+        const Real held_d = static_cast<Real>(taut::held_as<TestType>(d0));
         const Real truth = limit_of(Method::symplectic_euler, held_k, held_d);
         const Stability<TestType> stability(system, system.initial_state());
         for (const double tightness : {0.0, 1e-6}) {

@@ -232,7 +232,7 @@ TEMPLATE_TEST_CASE("blame: scales are those of one mode, however far from 1", "[
     using Scalar = typename TestType::Scalar;
     constexpr int Dim = TestType::Dim;
     constexpr bool is_double = std::is_same_v<Scalar, double>;
-    const auto held = [](double value) { return static_cast<double>(static_cast<Scalar>(value)); };
+    const auto held = [](double value) { return taut::held_as<Scalar>(value); };
     Random random(1302);
     for (int repeat = 0; repeat < 120; ++repeat) {
         const auto k = static_cast<Scalar>(log_uniform(random, 1e-4, 1e6));

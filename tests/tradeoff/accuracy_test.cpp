@@ -36,7 +36,7 @@ template <class System>
 std::optional<taut::ModeError> measured(const System& system, double omega, double zeta, double h,
                                         Scheme scheme, double added) {
     Candidate candidate{scheme, h};
-    candidate.damping.projected = added;
+    candidate.damping.look_ahead = added;
     const auto rest = system.initial_state();
     Eigen::VectorXd swing(40);
     taut::with_stepper(system, candidate, [&](auto& stepper) {
@@ -157,11 +157,11 @@ TEMPLATE_TEST_CASE("accuracy: predicted against measured on every mode of a chai
                 for (const auto solver : {LinearSolver::direct, LinearSolver::conjugate_gradient}) {
                     if (!is_implicit(scheme) && solver != LinearSolver::direct) continue;
                     Candidate candidate{scheme, h, solver, 1e-6};
-                    candidate.damping.projected = takes_damping(scheme) && z > 0.1 ? 0.1 : 0;
+                    candidate.damping.look_ahead = takes_damping(scheme) && z > 0.1 ? 0.1 : 0;
                     const auto seen = taut::measured_mode_error(linear, mode, candidate);
                     REQUIRE(seen);
                     const auto predicted =
-                        mode_error(scheme, z, mode.zeta, candidate.damping.projected);
+                        mode_error(scheme, z, mode.zeta, candidate.damping.look_ahead);
                     CHECK_THAT(seen->artificial_damping,
                                WithinAbs(predicted.artificial_damping,
                                          0.1 * std::abs(predicted.artificial_damping) + blur));

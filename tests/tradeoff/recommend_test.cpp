@@ -52,9 +52,9 @@ TEST_CASE("feasible_plans: explicit steps are by the recipe, all are accurate", 
                 CHECK_THAT(h * static_cast<double>(plan.substeps), WithinRel(goal.frame, 1e-12));
                 if (!is_implicit(plan.candidate.scheme))
                     CHECK(h <= taut::recipe.safety * limit.certified);
-                const double added = plan.candidate.damping.projected;
+                const double added = plan.candidate.damping.look_ahead;
                 CHECK(added ==
-                      (is_implicit(plan.candidate.scheme) ? 0 : taut::recipe.damping.projected));
+                      (is_implicit(plan.candidate.scheme) ? 0 : taut::recipe.damping.look_ahead));
                 CHECK(goal.accuracy->admits(
                     taut::mode_error(plan.candidate.scheme, h * frequency, 0, added)));
             }
@@ -70,7 +70,7 @@ TEST_CASE("feasible_plans: the scene's damping counts", "[tradeoff]") {
     scene.set_rayleigh({4, 0});  // a damping ratio of 0.1 at 20 rad/s
     for (const auto& plan : taut::feasible_plans(scene, goal, taut::recommended_candidates(goal))) {
         const auto expected = taut::mode_error(plan.candidate.scheme, plan.candidate.h * 20, 0.1,
-                                               plan.candidate.damping.projected);
+                                               plan.candidate.damping.look_ahead);
         CHECK(plan.error.artificial_damping == expected.artificial_damping);
         CHECK(plan.error.period_error == expected.period_error);
         CHECK(goal.accuracy->admits(plan.error));

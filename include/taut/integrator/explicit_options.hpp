@@ -13,8 +13,8 @@ namespace taut {
 /// does. This share of the step, and this whisper of damping, kept the energy of every scene tried:
 /// measured, not proved. energy_limit is proved, at the same step, but slows rotation.
 struct Recipe {
-    double safety = 0.5;                        ///< share of any_pose_limit
-    StiffnessDamping<double> damping{0.25, 0};  ///< for ExplicitOptions: shares of the step
+    double safety = 0.5;          ///< share of any_pose_limit
+    StepDamping damping{0.4, 0};  ///< for ExplicitOptions
 };
 inline constexpr Recipe recipe;
 
@@ -23,16 +23,15 @@ struct ExplicitOptions {
     /// For the springs of a SpringSystem, with OpenMP (-fopenmp) only. The result has the same bits
     /// for any number; scenes below some thousands of particles are stepped by one.
     int threads = 1;
-    /// The stepper's own damping of a SpringSystem beside the system's, as shares of the step:
-    /// α/h of K⁺ and of L_k. The linear limits of symplectic Euler and velocity Verlet do not count
-    /// it: with a share of a in all, step at most 1/(1 + 2a) of them [T23]. What energy_limit asks
-    /// for is {0, α/h}, and nothing on K⁺ beside it.
-    StiffnessDamping<double> damping{};
+    /// Of a SpringSystem's springs. The linear limits of symplectic Euler and velocity Verlet do
+    /// not count it: with a share of a in all, step at most 1/(1 + 2a) of them [T23]. What
+    /// energy_limit asks for is {0, α/h}.
+    StepDamping damping{};
 };
 
 /// The share of a linear limit, which does not count a stepper's own damping, that `safety` leaves
 /// of it: at most 1/(1 + 2a) with a of own damping, by its step [T23].
-inline double share_of_limit(double safety, const StiffnessDamping<double>& own) {
+inline double share_of_limit(double safety, const StepDamping& own) {
     return std::min(safety, 1 / (1 + 2 * own.total()));
 }
 
@@ -40,8 +39,8 @@ namespace detail {
 
 /// Fails unless a stepper of System can add such a damping of its own.
 template <class System>
-void require_step_damping(const StiffnessDamping<double>& damping) {
-    require_non_negative("ExplicitOptions", "damping.projected", damping.projected);
+void require_step_damping(const StepDamping& damping) {
+    require_non_negative("ExplicitOptions", "damping.look_ahead", damping.look_ahead);
     require_non_negative("ExplicitOptions", "damping.graph", damping.graph);
     if (damping && !is_spring_system_v<System>)
         fail("ExplicitOptions: damping is for the springs of a SpringSystem");

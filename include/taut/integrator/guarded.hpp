@@ -60,7 +60,7 @@ public:
     struct Options {
         /// The stepper's own damping, as shares of a substep, unless its options are given:
         /// explicit steppers only. The scene's stays as it is.
-        StiffnessDamping<double> damping = recipe.damping;
+        StepDamping damping = recipe.damping;
         /// Of the any-pose limit, in (0, 1]; at most 1/(1 + 2a) is used, with a of own damping. At
         /// a half a linear spring under symplectic Euler swings threefold in energy, at 0.95
         /// thirty-nine times, and tension-only cloth gains energy.
@@ -120,7 +120,7 @@ private:
                view.v == viewed_.v.template cast<Stored>();
     }
     /// The stepper's own, as shares of its step.
-    StiffnessDamping<double> damping() const {
+    StepDamping damping() const {
         if constexpr (detail::is_detected_v<detail::damping_of, Stepper>) {
             return stepper_.damping();
         } else {
@@ -135,7 +135,8 @@ private:
     const Points<Scalar, System::Dim>* constraint_forces() const;
     detail::EnergyTerms terms() const;
     detail::EnergyBooks books(const State& state) {
-        return detail::energy_books(*system_, state, method, meter_.pins(), forces_, damping());
+        return detail::energy_books(*system_, state, method, meter_.pins(), forces_,
+                                    damping().linearized());
     }
     Status prepare(const State& state, Scalar frame, Scalar largest, GuardedReport<Scalar>& report);
     template <class Respond>

@@ -35,7 +35,7 @@ public:
     }
 
     /// The stepper's own damping, as shares of the step.
-    const StiffnessDamping<double>& damping() const { return steps_.damping(); }
+    const StepDamping& damping() const { return steps_.damping(); }
 
 private:
     struct Update {

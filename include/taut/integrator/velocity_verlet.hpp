@@ -55,7 +55,7 @@ public:
     }
 
     /// The stepper's own damping, as shares of the step.
-    const StiffnessDamping<double>& damping() const { return damping_; }
+    const StepDamping& damping() const { return damping_; }
 
 private:
     void force(const State& state, [[maybe_unused]] Scalar h) {
@@ -70,7 +70,7 @@ private:
     }
 
     const System* system_;
-    StiffnessDamping<double> damping_;
+    StepDamping damping_;
     Scalar last_h_ = 0;  // of f_
     detail::StepLoop<State> loop_;
     decltype(State::x) f_;           // force at the end of the last step, Dim × n, N

@@ -33,4 +33,21 @@ struct StiffnessDamping {
     }
 };
 
+/// What an explicit stepper adds to a system's damping, as shares of its step h.
+struct StepDamping {
+    /// Springs pull as if their ends had moved on by this share of h·v: damping of α = look_ahead·h
+    /// on K [T37], which spares rotation and costs nothing.
+    double look_ahead = 0;
+    double graph = 0;  ///< α/h of the graph Laplacian L_k [T34], which slows all relative motion
+
+    /// Whether there is any.
+    explicit operator bool() const { return look_ahead > 0 || graph > 0; }
+    /// What bounds both together, as a share of h on L_k [T37].
+    double total() const { return look_ahead + graph; }
+    /// At steps of h: both in s.
+    StepDamping times(double h) const { return {h * look_ahead, h * graph}; }
+    /// The same to first order in the velocities, but for compressed springs, whose K is not K⁺.
+    StiffnessDamping<double> linearized() const { return {look_ahead, graph}; }
+};
+
 }  // namespace taut

@@ -154,8 +154,8 @@ public:
     /// The positions given to add_particle, at rest.
     State initial_state() const;
     /// f ← total force on every particle, N, Dim × n; on a pinned one, what its pin has to bear.
-    /// @param added  a stepper's own damping, beside the system's
-    void force(const State& state, Force& f, const StiffnessDamping<double>& added = {}) const;
+    /// @param added  a stepper's own damping beside the system's, StepDamping::times(h)
+    void force(const State& state, Force& f, const StepDamping& added = {}) const;
     /// Whether one was set that is not empty.
     bool has_external_force() const { return static_cast<bool>(external_force_); }
     /// f ← the external force alone, N, Dim × n.
@@ -203,7 +203,7 @@ private:
     SpringSet<Scalar, Law>& set_with(const char* function, Index s);
     template <bool Dampers, bool Proportional, class Set>
     void add_spring_forces(const Set& set, const State& state, const StiffnessDamping<Scalar>& by,
-                           Force& f) const;
+                           Scalar ahead, Force& f) const;
 
     std::vector<Vector> position_;      // where add_particle put each particle, m
     std::vector<Scalar> mass_;          // kg, of pinned particles too

@@ -37,8 +37,8 @@ struct EnergyLimit : StepLimit<Scalar> {
                          ///< own α is not in it
 
     /// The α, s, with which a step of h, s, never raises the energy. The system's graph damping, or
-    /// the stepper's, or both together must be one of them. A stepper's own share of K⁺ is not in
-    /// `dampers`: leave ExplicitOptions::damping.projected at 0. It is for a constant h.
+    /// the stepper's, or both together must be one of them. Steps that look ahead are others than
+    /// [T34]'s: leave ExplicitOptions::damping.look_ahead at 0. It is for a constant h.
     GraphDampingRange alpha(double h) const;
 };
 

@@ -138,12 +138,9 @@ template <int Dim>
 template <class System>
 void SpringPencil<Dim>::set_particles(const System& system) {
     using Scalar = typename System::Scalar;
-    const auto held = [](double factor) {
-        return static_cast<double>(static_cast<Scalar>(factor));
-    };
-    rayleigh_ = {held(system.rayleigh().mass_proportional),
-                 held(system.rayleigh().stiffness_proportional)};
-    graph_damping_ = held(system.graph_damping());
+    rayleigh_ = {held_as<Scalar>(system.rayleigh().mass_proportional),
+                 held_as<Scalar>(system.rayleigh().stiffness_proportional)};
+    graph_damping_ = held_as<Scalar>(system.graph_damping());
     free_.assign(static_cast<std::size_t>(system.size()), -1);
     int count = 0;
     for (Index i = 0; i < system.size(); ++i) {

@@ -69,7 +69,7 @@ inline void require_added(Scheme scheme, double added) {
 /// −z²/24, −z²/24, z²/3 and z²/3 (theory, section 12). With ζ > 0 all but BDF2, of order 2, err
 /// like z.
 /// @param z  hω, rad, > 0   @param zeta  the mode's own damping ratio, in [0, 1)
-/// @param added  α/h of ExplicitOptions::damping.projected, ≥ 0, which damps by added·z/2 more: an
+/// @param added  α/h of ExplicitOptions::damping.look_ahead, ≥ 0, which damps by added·z/2 more: an
 ///               error. Of symplectic Euler and velocity Verlet; others have none
 inline ModeError mode_error(Scheme scheme, double z, double zeta = 0, double added = 0) {
     detail::require_mode("mode_error", z, zeta);

@@ -28,7 +28,7 @@ struct Candidate {
     LinearSolver solver = LinearSolver::direct;  ///< of an implicit scheme
     double solver_tolerance = 1e-3;              ///< of conjugate gradients
     int newton_iterations = 1;                   ///< of implicit Euler
-    StiffnessDamping<double> damping{};          ///< ExplicitOptions::damping of an explicit scheme
+    StepDamping damping{};                       ///< ExplicitOptions::damping of an explicit scheme
 };
 
 /// The scheme, and the solver where there is one; without the step.

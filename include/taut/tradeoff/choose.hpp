@@ -46,7 +46,7 @@ inline Plan plan_for(Candidate candidate, double safe, const Goal& goal, double 
     require_positive("plan_for", "Goal::frame", goal.frame);
     if (!(safe > 0)) fail("plan_for: safe is ", safe, "; it must be > 0");
     const double infinity = std::numeric_limits<double>::infinity();
-    const double added = is_implicit(candidate.scheme) ? 0 : candidate.damping.projected;
+    const double added = is_implicit(candidate.scheme) ? 0 : candidate.damping.look_ahead;
     const double accurate = goal.accuracy ? accurate_step(candidate.scheme, *goal.accuracy,
                                                           goal.up_to_frequency, zeta, added)
                                           : infinity;

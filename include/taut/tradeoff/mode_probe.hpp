@@ -84,10 +84,10 @@ std::optional<ModeError> measured_mode_error(const LinearSystem<Scalar>& system,
                                              const Candidate& candidate, Index most_steps = 4000) {
     constexpr Index samples = 26;
     constexpr Index settling = 40;  // the second multiplier of BDF2 shrinks by 3 and more a step
-    if (candidate.damping.projected > 0) {  // a linear system's steps have none of their own
+    if (candidate.damping.look_ahead > 0) {  // a linear system's steps have none of their own
         Candidate damped = candidate;
-        damped.damping.projected = 0;
-        const auto alpha = static_cast<Scalar>(candidate.damping.projected * candidate.h);
+        damped.damping.look_ahead = 0;
+        const auto alpha = static_cast<Scalar>(candidate.damping.look_ahead * candidate.h);
         return measured_mode_error(
             LinearSystem<Scalar>(system.mass(), system.damping() + alpha * system.stiffness(),
                                  system.stiffness()),

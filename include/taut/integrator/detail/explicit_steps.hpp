@@ -26,7 +26,7 @@ public:
             fail("ExplicitOptions: threads is ", options.threads, "; it must be >= 1");
         require_step_damping<System>(options.damping);
     }
-    const StiffnessDamping<double>& damping() const { return options_.damping; }
+    const StepDamping& damping() const { return options_.damping; }
 
     /// @param update  update(x, v, a, h): x and v, of one step, by the acceleration a = M⁻¹f(x, v);
     ///                arrays or Lanes

@@ -12,17 +12,6 @@
 
 namespace taut::detail {
 
-/// The force of spring s of `set` on its end a, N, with its damper and damping in proportion to its
-/// stiffness; the opposite acts on b.
-/// @param dx  x_b − x_a, m   @param dv  v_b − v_a, m/s
-template <class Set, class Vector>
-Vector damped_pull(const Set& set, std::size_t s, const Vector& dx, const Vector& dv,
-                   const StiffnessDamping<double>& by) {
-    const auto factors = by.template cast<typename Vector::Scalar>();
-    return set.damping.empty() ? set.template pull<false, true>(s, dx, dv, factors)
-                               : set.template pull<true, true>(s, dx, dv, factors);
-}
-
 /// The pins that move, and what springs do to them: only springs with a pinned end are visited.
 template <class System>
 class PinWork {
@@ -43,12 +32,17 @@ public:
                      });
     }
     /// The same with f of springs and of all that damps them, W.
-    /// @param by  in proportion to stiffness, the system's own included
-    double damped_power(const System& system, const State& state,
-                        const StiffnessDamping<double>& by) {
+    /// @param added  a stepper's own, StepDamping::times(h)
+    double damped_power(const System& system, const State& state, const StepDamping& added) {
+        const auto by = (system.stiffness_damping() + StiffnessDamping<double>{0, added.graph})
+                            .template cast<typename System::Scalar>();
+        const auto ahead = static_cast<typename System::Scalar>(added.look_ahead);
         return power(system, state,
-                     [&](const auto& set, std::size_t s, const auto& dx, const auto& dv) {
-                         return damped_pull(set, s, dx, dv, by);
+                     [&](const auto& set, std::size_t s, const Vector& dx, const Vector& dv) {
+                         const Vector then = dx + ahead * dv;
+                         return set.damping.empty()
+                                    ? set.template pull<false, true>(s, then, dv, by)
+                                    : set.template pull<true, true>(s, then, dv, by);
                      });
     }
 

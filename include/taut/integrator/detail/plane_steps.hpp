@@ -23,21 +23,24 @@ public:
     static constexpr int Dim = System::Dim;
 
     /// Takes `count` steps of h. Without external forces only.
-    /// @param added   damping beside the system's
+    /// @param added   damping beside the system's, StepDamping::times(h)
     /// @param update  update(x, v, a, h): one coordinate of x and v by the acceleration a, in Lanes
     /// @returns whether the new state is finite; else `state` is not touched
     template <class AnyState, class Update>
     bool run(const System& system, AnyState& state, Scalar h, Index count, int threads,
-             const StiffnessDamping<double>& added, const Update& update);
+             const StepDamping& added, const Update& update);
 
 private:
     using Pack = Lanes<Scalar>;
     using Field = Planes<Scalar>;
+    /// What springs read changes place from step to step; the rest is stepped where it is.
     struct Fields {
-        Field x, new_x;
-        Field v, new_v;  // one and the same where no spring asks for velocities
+        Field x, new_x;      // one and the same where springs look ahead
+        Field seen, new_seen;  // where springs see the particles: x, or x + ahead·v
+        Field v, new_v;      // one and the same where no spring asks for velocities
         void swap() {
             std::swap(x, new_x);
+            std::swap(seen, new_seen);
             std::swap(v, new_v);
         }
     };
@@ -46,7 +49,7 @@ private:
     static constexpr Index scratch_stride = block_size + block_size / 16;
 
     template <class AnyState>
-    void load(const System& system, const AnyState& state, const StiffnessDamping<double>& added);
+    void load(const System& system, const AnyState& state, const StepDamping& added);
     bool finite() const;
     template <class Update>
     void steps(Scalar h, Index count, int threads, const Update& update);
@@ -68,14 +71,14 @@ private:
     Eigen::Matrix<Scalar, Dim, 1> gravity_;
     Scalar drag_ = 0;  // d0, 1/s
     StiffnessDamping<Scalar> damping_;
+    Scalar ahead_ = 0;  // s, by which springs see x ahead
     bool pins_ = false;
 };
 
 template <class System>
 template <class AnyState, class Update>
 bool PlaneSteps<System>::run(const System& system, AnyState& state, Scalar h, Index count,
-                             int threads, const StiffnessDamping<double>& added,
-                             const Update& update) {
+                             int threads, const StepDamping& added, const Update& update) {
     load(system, state, added);
     for (Index done = 0; done < count;) {
         const Index next = std::min(steps_between_checks, count - done);
@@ -92,14 +95,17 @@ bool PlaneSteps<System>::run(const System& system, AnyState& state, Scalar h, In
 template <class System>
 template <class AnyState>
 void PlaneSteps<System>::load(const System& system, const AnyState& state,
-                              const StiffnessDamping<double>& added) {
+                              const StepDamping& added) {
     gravity_ = system.gravity();
     drag_ = static_cast<Scalar>(system.rayleigh().mass_proportional);
-    damping_ = (system.stiffness_damping() + added).template cast<Scalar>();
+    damping_ = (system.stiffness_damping() + StiffnessDamping<double>{0, added.graph})
+                   .template cast<Scalar>();
+    ahead_ = static_cast<Scalar>(added.look_ahead);
     plan_.update(system);
     const Index planes = Dim * plan_.stride();
+    const bool looks_ahead = ahead_ > 0;
     const bool moving = plan_.damped() || bool(damping_);
-    memory_.resize((moving ? 4 : 3) * planes);
+    memory_.resize((3 + (moving ? 1 : 0) + (looks_ahead ? 1 : 0)) * planes);
     inverse_mass_.resize(plan_.stride());
     // What whole registers touch beyond the last particle takes part in the steps: from rest.
     const Index beyond = plan_.stride() - plan_.size();
@@ -110,9 +116,19 @@ void PlaneSteps<System>::load(const System& system, const AnyState& state,
     const auto field = [&](Index which) {
         return Field{memory_.data() + which * planes, plan_.stride()};
     };
-    fields_ = {field(0), field(1), field(2), field(moving ? 3 : 2)};
+    const Field seen = field(0);
+    const Field x = looks_ahead ? field(3) : seen;
+    fields_ = {x,        looks_ahead ? x : field(1),
+               seen,     field(1),
+               field(2), field(moving ? (looks_ahead ? 4 : 3) : 2)};
     plan_.to_planes(state.x, fields_.x);
     plan_.to_planes(state.v, fields_.v);
+    if (looks_ahead) {
+        const auto whole = [&](const Field& where) {
+            return Eigen::Map<VectorX<Scalar>>(where.first, planes);
+        };
+        whole(seen) = whole(x) + ahead_ * whole(fields_.v);
+    }
     plan_.to_planes(system.inverse_mass().transpose(), {inverse_mass_.data(), plan_.stride()});
     pins_ = (inverse_mass_.head(plan_.size()).array() == Scalar(0)).any();
 }
@@ -183,7 +199,7 @@ void PlaneSteps<System>::step_block(const Fields& fields, int block, Scalar h, S
     };
     const Field begin_force = force(0);
     const Field end_force = force(1);
-    BlockSweep<Scalar> sweep{{fields.x.first, fields.x.stride},
+    BlockSweep<Scalar> sweep{{fields.seen.first, fields.seen.stride},
                              {fields.v.first, fields.v.stride},
                              damping_,
                              block,
@@ -208,6 +224,8 @@ void PlaneSteps<System>::move(const Fields& fields, Index first, Index count, Sc
                               const Update& update) const {
     const Pack step(h);
     const Pack zero(Scalar(0));
+    const Pack ahead(ahead_);
+    const bool looks_ahead = ahead_ > 0;
     [[maybe_unused]] const Pack d0(drag_);
     for (int d = 0; d < Dim; ++d) {
         const Pack gravity(gravity_[d]);
@@ -216,6 +234,7 @@ void PlaneSteps<System>::move(const Fields& fields, Index first, Index count, Sc
         const Scalar* vs = fields.v[d] + first;
         Scalar* new_xs = fields.new_x[d] + first;
         Scalar* new_vs = fields.new_v[d] + first;
+        Scalar* new_seen = fields.new_seen[d] + first;
         Scalar* begin_forces = begin_force[d];
         Scalar* end_forces = end_force[d];
         for (Index i = 0; i < count; i += Pack::size) {
@@ -231,6 +250,7 @@ void PlaneSteps<System>::move(const Fields& fields, Index first, Index count, Sc
             update(x, v, free_fall + inverse_mass * f, step);
             x.store(new_xs + i);
             v.store(new_vs + i);
+            if (looks_ahead) (x + ahead * v).store(new_seen + i);
         }
     }
 }

@@ -24,9 +24,8 @@ public:
     /// Forgets what was measured; steps of `method` and h, s, follow.
     /// @param resolved  h²κ and hδ up to which a force of stiffness κ and damping δ, per mass,
     ///                  counts as resolved
-    /// @param added     the stepper's own damping
-    void start(Method method, double h, double resolved,
-               const StiffnessDamping<double>& added = {}) {
+    /// @param added     the stepper's own damping, StepDamping::times(h)
+    void start(Method method, double h, double resolved, const StepDamping& added = {}) {
         method_ = method;
         h_ = h;
         resolved_ = resolved;
@@ -88,7 +87,7 @@ private:
     using Vector = Eigen::Matrix<double, System::Dim, 1>;
 
     double damped_pin_power(const System& system, const State& state) {
-        return pins_.damped_power(system, state, system.stiffness_damping() + added_);
+        return pins_.damped_power(system, state, added_);
     }
     void add_external(const System& system, const State& state) {
         end_ = state;
@@ -163,7 +162,7 @@ private:
     State probe_;
     Force probe_force_;
     double pin_power_ = 0;  // on the pins at the step's start, W
-    StiffnessDamping<double> added_;
+    StepDamping added_;
     Method method_ = Method::implicit_euler;
     double h_ = 0;  // s
     double resolved_ = 0;

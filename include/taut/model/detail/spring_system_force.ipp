@@ -25,13 +25,12 @@ template <class Scalar, int Dim, class... Laws>
 template <bool Dampers, bool Proportional, class Set>
 void SpringSystem<Scalar, Dim, Laws...>::add_spring_forces(const Set& set, const State& state,
                                                            const StiffnessDamping<Scalar>& by,
-                                                           Force& f) const {
+                                                           Scalar ahead, Force& f) const {
     for (std::size_t s = 0; s < set.a.size(); ++s) {
         const int a = set.a[s];
         const int b = set.b[s];
-        const Vector dx = state.x.col(b) - state.x.col(a);
-        Vector dv = Vector::Zero();
-        if constexpr (Dampers || Proportional) dv = state.v.col(b) - state.v.col(a);
+        const Vector dv = state.v.col(b) - state.v.col(a);
+        const Vector dx = ahead * dv + (state.x.col(b) - state.x.col(a));
         const Vector pull = set.template pull<Dampers, Proportional>(s, dx, dv, by);
         f.col(a) += pull;
         f.col(b) -= pull;
@@ -40,7 +39,7 @@ void SpringSystem<Scalar, Dim, Laws...>::add_spring_forces(const Set& set, const
 
 template <class Scalar, int Dim, class... Laws>
 void SpringSystem<Scalar, Dim, Laws...>::force(const State& state, Force& f,
-                                               const StiffnessDamping<double>& added) const {
+                                               const StepDamping& added) const {
     require_state("force", state);
     const Eigen::Map<const VectorX<Scalar>> mass(mass_.data(), size());
     f.resize(Dim, size());
@@ -49,14 +48,16 @@ void SpringSystem<Scalar, Dim, Laws...>::force(const State& state, Force& f,
         const Scalar d0 = static_cast<Scalar>(rayleigh_.mass_proportional);
         f.array() -= state.v.array().rowwise() * (d0 * mass.transpose().array());
     }
-    const auto by = (stiffness_damping() + added).template cast<Scalar>();
+    const auto by =
+        (stiffness_damping() + StiffnessDamping<double>{0, added.graph}).template cast<Scalar>();
+    const auto ahead = static_cast<Scalar>(added.look_ahead);
     const bool proportional(by);
     for_each_set([&](const auto& set) {
         const bool dampers = !set.damping.empty();
-        if (dampers && proportional) add_spring_forces<true, true>(set, state, by, f);
-        if (dampers && !proportional) add_spring_forces<true, false>(set, state, by, f);
-        if (!dampers && proportional) add_spring_forces<false, true>(set, state, by, f);
-        if (!dampers && !proportional) add_spring_forces<false, false>(set, state, by, f);
+        if (dampers && proportional) add_spring_forces<true, true>(set, state, by, ahead, f);
+        if (dampers && !proportional) add_spring_forces<true, false>(set, state, by, ahead, f);
+        if (!dampers && proportional) add_spring_forces<false, true>(set, state, by, ahead, f);
+        if (!dampers && !proportional) add_spring_forces<false, false>(set, state, by, ahead, f);
     });
     if (external_force_) external_force_(state, f);
 }
