@@ -36,8 +36,8 @@ namespace taut {
 ///
 /// What `ok` promises: let E = T + V be the kinetic energy of free particles and the elastic
 /// energy, E_then that of any earlier accepted frame, W all work since (gravity's included, up to
-/// what half a substep does), and S the largest E of late. By default C = 3.5, w = 2.4 for
-/// symplectic Euler, C = 2.3, w = 2 for velocity Verlet, C = w = 1 for implicit steps [T36],
+/// what half a substep does), and S the largest E of late. By default C = 3.9, w = 2.6 for
+/// symplectic Euler, C = 2.4, w = 2 for velocity Verlet, C = w = 1 for implicit steps [T36],
 ///
 ///     E ≤ C·E_then + w·(W + energy_slack·S + energy_drift·∫S dt + rounding).
 ///
