@@ -17,8 +17,8 @@ struct Options {
     std::string integrator = "symplectic";
     bool guard = false;
     std::optional<double> look_ahead;  // share of the step; the recipe's, if open
-    double step = 0;                     // s; 0: the integrator's own
-    double duration = 2;                 // s
+    double step = 0;                   // s; 0: the integrator's own
+    double duration = 2;               // s
     double frame_rate = 30;
     std::string collide;
     std::optional<double> radius;     // m

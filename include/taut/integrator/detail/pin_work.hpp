@@ -37,13 +37,12 @@ public:
         const auto by = (system.stiffness_damping() + StiffnessDamping<double>{0, added.graph})
                             .template cast<typename System::Scalar>();
         const auto ahead = static_cast<typename System::Scalar>(added.look_ahead);
-        return power(system, state,
-                     [&](const auto& set, std::size_t s, const Vector& dx, const Vector& dv) {
-                         const Vector then = dx + ahead * dv;
-                         return set.damping.empty()
-                                    ? set.template pull<false, true>(s, then, dv, by)
-                                    : set.template pull<true, true>(s, then, dv, by);
-                     });
+        return power(
+            system, state, [&](const auto& set, std::size_t s, const Vector& dx, const Vector& dv) {
+                const Vector then = dx + ahead * dv;
+                return set.damping.empty() ? set.template pull<false, true>(s, then, dv, by)
+                                           : set.template pull<true, true>(s, then, dv, by);
+            });
     }
 
 private:

@@ -35,9 +35,9 @@ private:
     using Field = Planes<Scalar>;
     /// What springs read changes place from step to step; the rest is stepped where it is.
     struct Fields {
-        Field x, new_x;      // one and the same where springs look ahead
+        Field x, new_x;        // one and the same where springs look ahead
         Field seen, new_seen;  // where springs see the particles: x, or x + ahead·v
-        Field v, new_v;      // one and the same where no spring asks for velocities
+        Field v, new_v;        // one and the same where no spring asks for velocities
         void swap() {
             std::swap(x, new_x);
             std::swap(seen, new_seen);
