@@ -79,7 +79,7 @@ void print_start(const Options& options, const example::Scene& scene, const Plan
                 options.guard ? "at most " : "", plan.h, static_cast<long long>(plan.steps),
                 plan.frames, plan.frame);
     const auto own = options.own_damping();
-    if (own) std::printf("the steps' own damping: alpha = %.4g h\n", own.projected);
+    if (own) std::printf("springs look %.4g h ahead\n", own.look_ahead);
 }
 
 /// The end of a sentence that says which step is too large.
