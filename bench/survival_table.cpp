@@ -334,7 +334,7 @@ bool print_recipe(const Options& options) {
     print_recipe_line("all", "all", all);
     std::printf("\n%d of %d runs failed (rose or blew up).", all.failed(), all.runs);
     if (all.failed() == 0) {
-        std::printf(" With 95 %% confidence fewer than %.2g %% of such runs do (3/N).",
+        std::printf(" With 95 %% confidence fewer than %.3g %% of such runs do (3/N).",
                     100 * 3.0 / all.runs);
     }
     std::printf("\n");

@@ -16,16 +16,16 @@
 namespace {
 
 template <template <class...> class Stepper, class System>
-bool same_bits(const System& system) {
+bool same_bits(const System& system, const taut::StepDamping& damping) {
     using Scalar = typename System::Scalar;
     auto expected = system.initial_state();
     expected.v.setRandom();
     const auto start = expected;
-    Stepper one(system);
+    Stepper one(system, {1, damping});
     if (!one.step(expected, Scalar(1e-5), 70)) return false;
     for (const int threads : {2, 3, 8}) {
         auto state = start;
-        Stepper many(system, {threads});
+        Stepper many(system, {threads, damping});
         if (!many.step(state, Scalar(1e-5), 70)) return false;
         if (state.x != expected.x || state.v != expected.v) {
             std::fprintf(stderr, "%d threads give other bits than one\n", threads);
@@ -68,11 +68,14 @@ std::uint64_t second_of_play() {
 template <class Scalar>
 bool same_bits() {
     auto cloth = taut::hanging_cloth<Scalar>({110, 90});
-    if (!same_bits<taut::SymplecticEuler>(cloth)) return false;
+    for (const taut::StepDamping& damping : {taut::StepDamping{}, taut::recipe.damping}) {
+        if (!same_bits<taut::SymplecticEuler>(cloth, damping)) return false;
+    }
     for (taut::Index i = 0; i < 4000; i += 3)
         cloth.add_spring(i, 9899 - i, Scalar(5), Scalar(0.01));
     cloth.set_rayleigh({0.1, 1e-6});
-    return same_bits<taut::SymplecticEuler>(cloth) && same_bits<taut::ExplicitEuler>(cloth);
+    return same_bits<taut::SymplecticEuler>(cloth, taut::recipe.damping) &&
+           same_bits<taut::SymplecticEuler>(cloth, {}) && same_bits<taut::ExplicitEuler>(cloth, {});
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <taut/integrator/explicit_euler.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/integrator/velocity_verlet.hpp>
+#include <taut/scene/cloth.hpp>
 #include <taut/stability/any_pose.hpp>
 
 #include "../support/catch.hpp"
@@ -141,6 +142,51 @@ TEMPLATE_TEST_CASE("look ahead: a count of steps has the bits of as many single 
         CHECK(together.x == apart.x);
         CHECK(together.v == apart.v);
     }
+}
+
+TEMPLATE_TEST_CASE("look ahead: the sweep over several blocks is the plain path", "[integrator]",
+                   float, double) {
+    using System = taut::SpringSystem<TestType, 3>;
+    Random random(1125);
+    for (const bool dampers : {false, true}) {
+        auto cloth = taut::hanging_cloth<TestType>({80, 64});
+        if (dampers) {
+            for (Index i = 0; i < 900; ++i)
+                cloth.add_spring(5 * i, 5119 - i, TestType(5), TestType(0.01));
+        }
+        auto outside = cloth;
+        outside.set_external_force([](const auto&, auto&) {});
+        auto swept = cloth.initial_state();
+        swept.v = random.template points<TestType, 3>(cloth.size(), -0.1, 0.1);
+        auto plain = swept;
+        const auto h = TestType(0.5) * taut::any_pose_limit(cloth).certified;
+        taut::SymplecticEuler<System> fast(cloth, {1, taut::recipe.damping});
+        taut::SymplecticEuler<System> slow(outside, {1, taut::recipe.damping});
+        REQUIRE(fast.step(swept, h, 25));
+        REQUIRE(slow.step(plain, h, 25));
+        CHECK(static_cast<double>((swept.x - plain.x).cwiseAbs().maxCoeff()) <=
+              100 * Tolerance<TestType>::rounding);
+    }
+}
+
+TEMPLATE_TEST_CASE("look ahead: velocity Verlet's force is that of its step", "[integrator]", float,
+                   double) {
+    using System = taut::SpringSystem<TestType, 3, Hookean>;
+    Random random(1127);
+    const auto system = random_system<TestType, 3, Hookean>(random);
+    const auto start = random_state(random, system);
+    const TestType h = TestType(1e-3);
+    taut::VelocityVerlet<System> used(system, {1, taut::recipe.damping});
+    auto state = start;
+    REQUIRE(used.step(state, 2 * h));
+    auto fresh_state = state;
+    for (const Index none : {0, 0}) REQUIRE(used.step(state, h, none));
+    REQUIRE(used.step(state, h, 3));
+    taut::VelocityVerlet<System> fresh(system, {1, taut::recipe.damping});
+    REQUIRE(fresh.step(fresh_state, h, 0));
+    REQUIRE(fresh.step(fresh_state, h, 3));
+    CHECK(state.x == fresh_state.x);
+    CHECK(state.v == fresh_state.v);
 }
 
 TEMPLATE_TEST_CASE("look ahead: on a linear scene it is Rayleigh damping of α = a·h",

@@ -18,10 +18,10 @@ struct Promise {
     using Scalar = typename Stepper::Scalar;
     static constexpr bool implicit = Stepper::method == taut::Method::implicit_euler;
     static constexpr double swing = implicit                                            ? 1
-                                    : Stepper::method == taut::Method::symplectic_euler ? 3.5
-                                                                                        : 2.3;
+                                    : Stepper::method == taut::Method::symplectic_euler ? 3.9
+                                                                                        : 2.4;
     static constexpr double yield = implicit                                            ? 1
-                                    : Stepper::method == taut::Method::symplectic_euler ? 2.4
+                                    : Stepper::method == taut::Method::symplectic_euler ? 2.6
                                                                                         : 2;
 
     double granted = std::numeric_limits<double>::infinity();

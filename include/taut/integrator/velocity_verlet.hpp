@@ -39,7 +39,6 @@ public:
     Report step(AnyState& state, Scalar h, Index count = 1) {
         // With damping of its own a force belongs to one step size.
         bool known = last_.is(*system_, state) && (!damping_ || h == last_h_);
-        last_h_ = h;
         const Report report = loop_.run(*system_, state, h, count, [&](State& own) -> Report {
             if (!known) force(own, h);
             known = true;
@@ -50,7 +49,11 @@ public:
             kick(own, h / 2);
             return {};
         });
-        report ? last_.keep(*system_, state) : last_.forget();
+        if (!report) last_.forget();
+        if (report && report.iterations > 0) {
+            last_.keep(*system_, state);
+            last_h_ = h;
+        }
         return report;
     }
 

@@ -29,8 +29,10 @@ void SpringSystem<Scalar, Dim, Laws...>::add_spring_forces(const Set& set, const
     for (std::size_t s = 0; s < set.a.size(); ++s) {
         const int a = set.a[s];
         const int b = set.b[s];
-        const Vector dv = state.v.col(b) - state.v.col(a);
-        const Vector dx = ahead * dv + (state.x.col(b) - state.x.col(a));
+        Vector dx = state.x.col(b) - state.x.col(a);
+        Vector dv = Vector::Zero();
+        if (Dampers || Proportional || ahead != 0) dv = state.v.col(b) - state.v.col(a);
+        if (ahead != 0) dx += ahead * dv;
         const Vector pull = set.template pull<Dampers, Proportional>(s, dx, dv, by);
         f.col(a) += pull;
         f.col(b) -= pull;
