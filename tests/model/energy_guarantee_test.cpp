@@ -266,7 +266,7 @@ Tally try_scenes(int count, const Draw& draw) {
 }  // namespace
 
 TEMPLATE_TEST_CASE("energy_guarantee: a converged implicit step keeps the promise of [T24]",
-                   "[model]", (Case<double, 1>), (Case<double, 2>), (Case<double, 3>),
+                   "[model][slow]", (Case<double, 1>), (Case<double, 2>), (Case<double, 3>),
                    (Case<float, 1>), (Case<float, 2>), (Case<float, 3>)) {
     using Scalar = typename TestType::Scalar;
     constexpr int Dim = TestType::Dim;

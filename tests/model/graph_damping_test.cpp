@@ -68,7 +68,7 @@ TEMPLATE_TEST_CASE(
 }
 
 TEMPLATE_TEST_CASE("graph_damping: linearize and the analysis see the matrix that the force has",
-                   "[model]", (Case<double, 1>), (Case<double, 2>), (Case<double, 3>)) {
+                   "[model][slow]", (Case<double, 1>), (Case<double, 2>), (Case<double, 3>)) {
     constexpr int Dim = TestType::Dim;
     Random random(350 + Dim);
     for (int repeat = 0; repeat < 30; ++repeat) {
