@@ -140,7 +140,7 @@ TEMPLATE_TEST_CASE("contact: from the middle of a sphere the way out is the last
     CHECK((state.v.col(0).array() == 0).all());
 }
 
-TEST_CASE("contact: a cloth falls on a sphere, hangs over it and comes to rest", "[scene]") {
+TEST_CASE("contact: a cloth falls on a sphere, hangs over it and comes to rest", "[scene][slow]") {
     taut::ClothOptions options;
     options.rows = options.columns = 17;
     options.pin_corners = false;

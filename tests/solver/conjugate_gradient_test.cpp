@@ -152,7 +152,7 @@ TEST_CASE("conjugate_gradient: the cap of iterations is reported and the state u
 }
 
 TEST_CASE("conjugate_gradient: a step follows Cholesky's within its tolerance, and starts warm",
-          "[solver]") {
+          "[solver][slow]") {
     const auto cloth = taut::hanging_cloth<double>({16, 16});
     using System = std::decay_t<decltype(cloth)>;
     using Stepper = ImplicitEuler<System, ConjugateGradient<double, 3>>;

@@ -65,7 +65,7 @@ ExactQuotients exact_quotients(const taut::SpringSystem<double, Dim>& system,
 }  // namespace
 
 TEMPLATE_TEST_CASE("limits: a vector refutes no step that exact arithmetic would not refute",
-                   "[stability]", (std::integral_constant<int, 1>),
+                   "[stability][slow]", (std::integral_constant<int, 1>),
                    (std::integral_constant<int, 2>), (std::integral_constant<int, 3>)) {
     constexpr int Dim = TestType::value;
     Random random(1600 + Dim);

@@ -49,7 +49,7 @@ taut::SpringSystem<double, 3> cloth_of(Index size) {
 }  // namespace
 
 TEMPLATE_TEST_CASE("spring_pencil: upper_bound is never below the largest eigenvalue",
-                   "[stability]", Dimension<1>, Dimension<2>, Dimension<3>) {
+                   "[stability][slow]", Dimension<1>, Dimension<2>, Dimension<3>) {
     for (const double decades : {0.5, 3.0, 6.0}) {
         WildOptions options;
         options.decades = decades;
