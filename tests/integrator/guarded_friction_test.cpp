@@ -81,7 +81,7 @@ void check_friction(double ground) {
 }  // namespace
 
 TEMPLATE_TEST_CASE("guarded: sound scenes with dry friction are not given up, sliding or at rest",
-                   "[integrator]", (Case<float, 2>), (Case<double, 1>), (Case<double, 3>)) {
+                   "[integrator][slow]", (Case<float, 2>), (Case<double, 1>), (Case<double, 3>)) {
     using System = taut::SpringSystem<typename TestType::Scalar, TestType::Dim>;
     for (const double ground : {0.0, 1.0}) {
         INFO("ground " << ground << " m/s");

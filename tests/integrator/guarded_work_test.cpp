@@ -103,7 +103,7 @@ TEST_CASE("guarded: the work of a push within a frame is in the books", "[integr
 }
 
 TEST_CASE("guarded: contacts within a frame are kept, and their energy is no alarm",
-          "[integrator]") {
+          "[integrator][slow]") {
     taut::ClothOptions options;
     options.rows = options.columns = 12;
     auto cloth = taut::hanging_cloth<double>(options);

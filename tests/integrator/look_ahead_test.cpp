@@ -144,8 +144,8 @@ TEMPLATE_TEST_CASE("look ahead: a count of steps has the bits of as many single 
     }
 }
 
-TEMPLATE_TEST_CASE("look ahead: the sweep over several blocks is the plain path", "[integrator]",
-                   float, double) {
+TEMPLATE_TEST_CASE("look ahead: the sweep over several blocks is the plain path",
+                   "[integrator][slow]", float, double) {
     using System = taut::SpringSystem<TestType, 3>;
     Random random(1125);
     for (const bool dampers : {false, true}) {
