@@ -43,9 +43,9 @@ bool safe(const Exact& e, double h) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("extremes: masses and stiffnesses over 27 decades in one system", "[extremes]",
-                   (std::integral_constant<int, 1>), (std::integral_constant<int, 2>),
-                   (std::integral_constant<int, 3>)) {
+TEMPLATE_TEST_CASE("extremes: masses and stiffnesses over 27 decades in one system",
+                   "[extremes][slow]", (std::integral_constant<int, 1>),
+                   (std::integral_constant<int, 2>), (std::integral_constant<int, 3>)) {
     constexpr int Dim = TestType::value;
     Random random(1500 + Dim);
     for (int repeat = 0; repeat < 60; ++repeat) {

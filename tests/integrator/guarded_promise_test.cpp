@@ -85,7 +85,7 @@ void check_swung_masses(double seconds) {
 }  // namespace
 
 TEMPLATE_TEST_CASE("guarded: no accepted frame breaks the promise where springs explode",
-                   "[integrator]", (Case<float, 1>), (Case<float, 2>), (Case<double, 2>),
+                   "[integrator][slow]", (Case<float, 1>), (Case<float, 2>), (Case<double, 2>),
                    (Case<double, 3>)) {
     using Scalar = typename TestType::Scalar;
     using Plain = taut::SpringSystem<Scalar, TestType::Dim>;
@@ -97,7 +97,7 @@ TEMPLATE_TEST_CASE("guarded: no accepted frame breaks the promise where springs 
 }
 
 TEST_CASE("guarded: edits between frames move the account by their energy, and renew no slack",
-          "[integrator]") {
+          "[integrator][slow]") {
     // The state is nudged, the spring changed and changed back: were the account opened anew, each
     // would forgive what the frame before had gained.
     using System = taut::SpringSystem<double, 2>;
@@ -176,7 +176,8 @@ TEMPLATE_TEST_CASE("guarded: a penalty floor gives back no more than fell on it"
     CHECK(bounced > 500);
 }
 
-TEST_CASE("guarded: a drag too strong for the step is stepped finer, or refused", "[integrator]") {
+TEST_CASE("guarded: a drag too strong for the step is stepped finer, or refused",
+          "[integrator][slow]") {
     using System = taut::SpringSystem<double, 3>;
     for (const double drag : {1.0, 100.0, 1e4}) {
         taut::ClothOptions options;
@@ -289,7 +290,7 @@ TEST_CASE("guarded: a scene that is reset after a violent time goes on", "[integ
     }
 }
 
-TEST_CASE("guarded: positions pushed out of an obstacle give no energy", "[integrator]") {
+TEST_CASE("guarded: positions pushed out of an obstacle give no energy", "[integrator][slow]") {
     using System = taut::SpringSystem<double, 3>;
     using Implicit = taut::ImplicitEuler<System>;
     Implicit::Options newton;

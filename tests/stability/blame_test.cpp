@@ -292,7 +292,7 @@ TEMPLATE_TEST_CASE("blame: scales are those of one mode, however far from 1", "[
 }
 
 TEST_CASE("blame: a scale that double does not hold is none, and none is ever too generous",
-          "[stability]") {
+          "[stability][slow]") {
     Random random(1303);
     for (int repeat = 0; repeat < 400; ++repeat) {
         const double k = log_uniform(random, 1e-150, 1e150);

@@ -36,7 +36,7 @@ taut::SpringSystem<double, 3> damped_cloth(Random& random, Index rows, Index col
 }  // namespace
 
 TEST_CASE("explicit_estimate: exact where Rayleigh damping gives the limit in closed form",
-          "[stability]") {
+          "[stability][slow]") {
     Random random(840);
     for (int repeat = 0; repeat < 6; ++repeat) {
         auto cloth = taut::hanging_cloth<double>({5 + random.below(4), 6});

@@ -53,7 +53,7 @@ void check_bound(const Matrix<Dim>& A) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("small_eigenvalue: a bound, and within 1e-6", "[stability]",
+TEMPLATE_TEST_CASE("small_eigenvalue: a bound, and within 1e-6", "[stability][slow]",
                    (std::integral_constant<int, 1>), (std::integral_constant<int, 2>),
                    (std::integral_constant<int, 3>)) {
     constexpr int Dim = TestType::value;
