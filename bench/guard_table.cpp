@@ -201,7 +201,18 @@ void ordinary(double seconds, double safety) {
 /// What works on the scene while it is timed.
 enum class Outside { nothing, force, pins, contacts };
 
-/// Frames by the bare stepper and by the guard, in turns, from the same state.
+/// A stepper without a guard, damped as the guard's own or not at all.
+template <class Stepper, class System>
+Stepper unguarded(const System& system, bool damped) {
+    if constexpr (std::is_constructible_v<Stepper, const System&, taut::ExplicitOptions>) {
+        return Stepper(system, {1, damped ? taut::recipe.damping : taut::StepDamping{}});
+    } else {
+        return Stepper(system);
+    }
+}
+
+/// Frames by the bare stepper, by one damped as the guard's own, and by the guard, in turns, from
+/// the same state.
 template <class Stepper>
 void cost_row(const char* name, Outside outside, Index size, int runs) {
     using Cloth = taut::SpringSystem<double, 3>;
@@ -216,38 +227,43 @@ void cost_row(const char* name, Outside outside, Index size, int runs) {
     const taut::HalfSpace<double, 3> floor({0, 0, -0.1}, {0, 0, 1});
     const auto respond = [&](auto& s) { (void)taut::resolve_contacts(cloth, floor, s); };
     taut::Guarded<Stepper> guard(cloth);
-    Stepper bare(cloth);
+    Stepper bare = unguarded<Stepper>(cloth, false);
+    Stepper damped = unguarded<Stepper>(cloth, true);
     const auto guarded_frame = [&] {
         return outside == Outside::contacts ? guard.advance(by_guard, frame, respond)
                                             : guard.advance(by_guard, frame);
     };
     const auto first = guarded_frame();
     auto by_bare = by_guard;
-    const auto bare_frame = [&] {
+    auto by_damped = by_guard;
+    const auto unguarded_frame = [&](Stepper& stepper, auto& state) {
         if (outside != Outside::contacts) {
-            return bool(bare.step(by_bare, first.h, first.substeps));
+            return bool(stepper.step(state, first.h, first.substeps));
         }
         bool ok = true;
         for (Index i = 0; ok && i < first.substeps; ++i) {
-            ok = bool(bare.step(by_bare, first.h));
-            respond(by_bare);
+            ok = bool(stepper.step(state, first.h));
+            respond(state);
         }
         return ok;
     };
-    Stopwatch guarded(bench::thread_time);
-    Stopwatch plain(bench::thread_time);
+    Stopwatch watches[3] = {Stopwatch(bench::thread_time), Stopwatch(bench::thread_time),
+                            Stopwatch(bench::thread_time)};
     bool ok = bool(first);
     for (int run = 0; run < runs; ++run) {
-        guarded.run([&] { ok = ok && bool(guarded_frame()); });
-        plain.run([&] { ok = ok && bare_frame(); });
+        watches[0].run([&] { ok = unguarded_frame(bare, by_bare) && ok; });
+        watches[1].run([&] { ok = unguarded_frame(damped, by_damped) && ok; });
+        watches[2].run([&] { ok = bool(guarded_frame()) && ok; });
     }
     if (!ok) std::printf("A STEP FAILED\n");
-    const Times a = plain.times();
-    const Times b = guarded.times();
-    std::printf("| %s | %ld × %ld | %ld | %.3f / %.3f | %.3f / %.3f | %+.1f %% / %+.1f %% |\n",
-                name, static_cast<long>(size), static_cast<long>(size),
-                static_cast<long>(first.substeps), a.least, a.median, b.least, b.median,
-                100 * (b.least / a.least - 1), 100 * (b.median / a.median - 1));
+    const Times plain = watches[0].times(), own = watches[1].times(), guarded = watches[2].times();
+    const auto more = [](double part, double whole) { return 100 * (part / whole - 1); };
+    std::printf(
+        "| %s | %ld × %ld | %ld | %.3f / %.3f | %+.1f %% / %+.1f %% | %+.1f %% / %+.1f %% |\n",
+        name, static_cast<long>(size), static_cast<long>(size), static_cast<long>(first.substeps),
+        plain.least, plain.median, more(own.least, plain.least), more(own.median, plain.median),
+        more(guarded.least, own.least), more(guarded.median, own.median));
+    std::fflush(stdout);
 }
 
 void costs() {
@@ -255,8 +271,8 @@ void costs() {
     using Symplectic = taut::SymplecticEuler<Cloth>;
     std::printf(
         "## The price: a frame of 1/60 s of the hanging cloth, processor time of the thread\n\n"
-        "| stepper, from outside | cloth | substeps | bare, ms | guarded, ms | cost: least, median "
-        "|\n"
+        "| stepper, from outside | cloth | substeps | bare, ms: least, median | damping, more | "
+        "guard, more again |\n"
         "|---|---|---|---|---|---|\n");
     for (const Index size : {16, 32, 64, 100}) {
         const auto runs = static_cast<int>(6400 / size);

@@ -79,7 +79,7 @@ TEMPLATE_TEST_CASE("mesh writers: Assimp reads the faces and positions that were
     const auto faces = faces_of_cloth(9, 7);
     taut::MeshEdges edges;
     cloth.for_each_spring([&](Index a, Index b) { edges.push_back({a, b}); });
-    TestType frames("taut_test_assimp_", faces, edges);
+    TestType frames(temporary_prefix() + "assimp_", faces, edges);
     REQUIRE(frames.write(state.x));
     const Read read = compare(file.path, state.x, faces);
     CHECK(read.faces == faces.size());

@@ -14,7 +14,7 @@ namespace taut_test::mesh_sequence_test {
 TEMPLATE_TEST_CASE("mesh_sequence: files are numbered, and a frame is tried again after a failure",
                    "[io]", taut::ObjSequence, taut::PlySequence) {
     const std::string extension = std::is_same_v<TestType, taut::ObjSequence> ? ".obj" : ".ply";
-    TestType frames("taut_test_sequence_", {{0, 1, 2}}, {{2, 0}});
+    TestType frames(temporary_prefix() + "sequence_", {{0, 1, 2}}, {{2, 0}});
     Random random(3);
     const auto x = random.points<float, 3>(3, -1, 1);
     const auto y = random.points<float, 3>(3, -1, 1);
@@ -32,7 +32,7 @@ TEMPLATE_TEST_CASE("mesh_sequence: files are numbered, and a frame is tried agai
     REQUIRE(frames.write(x));
     REQUIRE(frames.write(y));
     CHECK(frames.frames() == 3);
-    CHECK(frames.path(123456) == "taut_test_sequence_123456" + extension);
+    CHECK(frames.path(123456) == temporary_prefix() + "sequence_123456" + extension);
     CHECK(second.bytes() == first.bytes());
     CHECK_FALSE(third.bytes() == first.bytes());
 }
