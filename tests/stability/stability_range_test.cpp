@@ -50,4 +50,40 @@ TEMPLATE_TEST_CASE(
     CHECK(refused < 200);
 }
 
+TEMPLATE_TEST_CASE(
+    "stability: damping is analysed if the system's scalars hold it, or refused by name",
+    "[stability][bad_input]", float, double) {
+    constexpr double most = static_cast<double>(std::numeric_limits<TestType>::max());
+    Random random(30);
+    int refused = 0;
+    for (int i = 0; i < 200; ++i) {
+        const double size = std::exp2(random.uniform(-400, 400));
+        const Index which = random.below(3);
+        const double k = log_uniform(random, 1e-3, 1e3);
+        INFO("damping " << which << " is " << size);
+        const auto message = message_of([&] {
+            taut::SpringSystem<TestType, 2> system;
+            system.add_particle({0, 0}, 1);
+            system.add_particle({1, 0}, 1);
+            system.add_spring(0, 1, static_cast<TestType>(k));
+            system.pin(0);
+            if (which == 2)
+                system.set_graph_damping(size);
+            else
+                system.set_rayleigh({which == 0 ? size : 0, which == 1 ? size : 0});
+            const taut::Stability<TestType> stability(system, system.initial_state());
+            const auto largest = stability.stiffness_spectrum().k_max;
+            CHECK(largest.upper >= static_cast<double>(static_cast<TestType>(k)));
+            CHECK(largest.lower <= largest.upper);
+        });
+        CHECK((message == "") == (size <= most));
+        if (size > most) {
+            const char* const names[] = {"mass_proportional", "stiffness_proportional", "alpha"};
+            CHECK(missing(message, {names[which], "end at"}) == "");
+        }
+        refused += size > most;
+    }
+    CHECK((refused > 50) == (sizeof(TestType) == sizeof(float)));
+}
+
 }  // namespace taut_test::stability_range_test

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <string>
 #include <type_traits>
 
@@ -43,6 +44,16 @@ template <class Scalar>
 void require_non_negative(const char* function, const char* argument, Scalar value) {
     if (!(value >= Scalar(0)) || !std::isfinite(value)) {
         fail(function, ": ", argument, " is ", value, "; it must be finite and >= 0");
+    }
+}
+
+/// Fails unless `value` is finite, ≥ 0 and, rounded to Scalar, still finite.
+template <class Scalar>
+void require_held(const char* function, const char* argument, double value) {
+    require_non_negative(function, argument, value);
+    constexpr Scalar most = std::numeric_limits<Scalar>::max();
+    if (value > most) {
+        fail(function, ": ", argument, " is ", value, "; the system's numbers end at ", most);
     }
 }
 

@@ -98,11 +98,11 @@ public:
     void set_mass(Index i, Scalar mass);
     /// @param gravity  acceleration, m/s²
     void set_gravity(const Vector& gravity);
-    /// @param rayleigh  both factors finite and ≥ 0; acts through K⁺ [T28]
+    /// @param rayleigh  both factors ≥ 0 and finite in Scalar; acts through K⁺ [T28]
     void set_rayleigh(const RayleighDamping& rayleigh);
     /// Every spring also damps the whole relative velocity of its ends, by α times its stiffness
     /// bound: D = α(L_k ⊗ I) [T34]. energy_limit says at which α and h no energy can be gained.
-    /// It slows rotation, too. @param alpha  s, finite and ≥ 0
+    /// It slows rotation, too. @param alpha  s, ≥ 0 and finite in Scalar
     void set_graph_damping(double alpha);
     /// The analysis does not see this force's dependence on x and v.
     void set_external_force(ExternalForce force) {

@@ -138,17 +138,16 @@ void SpringSystem<Scalar, Dim, Laws...>::set_gravity(const Vector& gravity) {
 
 template <class Scalar, int Dim, class... Laws>
 void SpringSystem<Scalar, Dim, Laws...>::set_rayleigh(const RayleighDamping& rayleigh) {
-    require_non_negative("SpringSystem::set_rayleigh", "mass_proportional",
-                         rayleigh.mass_proportional);
-    require_non_negative("SpringSystem::set_rayleigh", "stiffness_proportional",
-                         rayleigh.stiffness_proportional);
+    constexpr const char* where = "SpringSystem::set_rayleigh";
+    require_held<Scalar>(where, "mass_proportional", rayleigh.mass_proportional);
+    require_held<Scalar>(where, "stiffness_proportional", rayleigh.stiffness_proportional);
     rayleigh_ = rayleigh;
     ++revision_;
 }
 
 template <class Scalar, int Dim, class... Laws>
 void SpringSystem<Scalar, Dim, Laws...>::set_graph_damping(double alpha) {
-    require_non_negative("SpringSystem::set_graph_damping", "alpha", alpha);
+    require_held<Scalar>("SpringSystem::set_graph_damping", "alpha", alpha);
     graph_damping_ = alpha;
     ++revision_;
 }
