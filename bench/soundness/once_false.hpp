@@ -32,7 +32,7 @@ inline constexpr std::initializer_list<std::uint32_t> once_false_linear = {
     // Implicit Euler with a D that is semi-definite but for rounding.
     1611, 1636, 11108,
     // Explicit Euler where K and D are negative; an endless bisection.
-    70478, 81893, 11455,
+    70478, 81893, 11455, 423438,
     // The ends of double.
     1751, 1752, 1769, 10665, 80650, 80894, 100260, 100677, 100901, 101362};
 

@@ -176,21 +176,23 @@ struct SpringSet {
             return by.projected * projected + by.graph * graph;
         }
     };
-    /// @param dx  x_b − x_a, m   @param dv  v_b − v_a, m/s
+    /// @param dx  x_b − x_a, m   @param dv  v_b − v_a, m/s   @param l  spring_length(dx)
+    /// @param over_l  T/l, N/m
     template <class Vector>
-    Braking braking(std::size_t s, const Vector& dx, const Vector& dv) const {
+    Braking braking(std::size_t s, const Vector& dx, const Vector& dv, Scalar l,
+                    Scalar over_l) const {
         Braking power;
-        const auto bound = static_cast<double>(Law::stiffness_bound(parameters[s], rest_length[s]));
         const auto dv2 = static_cast<double>(dv.squaredNorm());
-        power.graph = power.projected = bound * dv2;
+        power.graph =
+            static_cast<double>(Law::stiffness_bound(parameters[s], rest_length[s])) * dv2;
+        power.projected = power.graph;
         if (!(dx.squaredNorm() > 0)) return power;
-        const Scalar l = spring_length(dx);
-        const Scalar slope = Law::tension_slope(parameters[s], rest_length[s], l);
-        const Scalar over_l = Law::tension(parameters[s], rest_length[s], l) / l;
-        const auto stretching = static_cast<double>((dx / l).dot(dv));
+        const auto stretching = static_cast<double>(dx.dot(dv) / l);
         const double along = stretching * stretching;
+        const auto slope =
+            static_cast<double>(Law::tension_slope(parameters[s], rest_length[s], l));
         power.damper = static_cast<double>(damping_of(s)) * along;
-        power.projected = std::max(0.0, static_cast<double>(slope)) * along +
+        power.projected = std::max(0.0, slope) * along +
                           std::max(0.0, static_cast<double>(over_l)) * (dv2 - along);
         return power;
     }

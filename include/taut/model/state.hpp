@@ -31,7 +31,10 @@ struct State {
     /// Dim × n zeros.
     static Points<Scalar, Dim> zero(Index n) { return Points<Scalar, Dim>::Zero(Dim, n); }
     /// Whether every coordinate is, of x and v.
-    bool finite() const { return x.allFinite() && v.allFinite(); }
+    bool finite() const {
+        // x − x is 0, or NaN where x is not finite; and so is the sum, which takes whole registers.
+        return (x - x).sum() == Scalar(0) && (v - v).sum() == Scalar(0);
+    }
     /// Index of the first particle with a coordinate that is not finite, or -1.
     Index first_not_finite() const { return detail::first_not_finite(x, v); }
 };

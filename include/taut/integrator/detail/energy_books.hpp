@@ -73,6 +73,7 @@ void add_spring_books(const System& system, const State& state,
         using Law = typename std::decay_t<decltype(set)>::Law;
         const bool damped = proportional || !set.damping.empty();
         double elastic = 0, power = 0, force_sum = 0, stiffness_sum = 0;
+        double dissipation = 0, step_dissipation = 0;
         Scalar longest = 0;
         for (std::size_t s = 0; s < set.a.size(); ++s) {
             const int a = set.a[s];
@@ -87,12 +88,12 @@ void add_spring_books(const System& system, const State& state,
             force_sum += static_cast<double>(std::abs(T));
             stiffness_sum += static_cast<double>(Law::stiffness_bound(p, L));
             elastic += static_cast<double>(Law::energy(p, L, l));
-            if (damped) {
-                const auto braking = set.braking(s, dx, dv);
-                books.dissipation += braking.damper + braking.of(own);
-                books.step_dissipation += braking.of(share);
-            }
             const Scalar over_l = T / l;
+            if (damped) {
+                const auto braking = set.braking(s, dx, dv, l, over_l);
+                dissipation += braking.damper + braking.of(own);
+                step_dissipation += braking.of(share);
+            }
             power -= static_cast<double>(over_l * dx.dot(dv));
             if constexpr (Forces) {
                 f.col(a) += over_l * dx;
@@ -103,6 +104,8 @@ void add_spring_books(const System& system, const State& state,
         books.rounding += force_sum * grain + stiffness_sum * grain * grain;
         books.elastic += elastic;
         books.power += power;
+        books.dissipation += dissipation;
+        books.step_dissipation += step_dissipation;
     });
 }
 

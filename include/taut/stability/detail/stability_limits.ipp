@@ -20,8 +20,10 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::bracket(Method method, Effort eff
         case Method::velocity_verlet: answer = symplectic_limit(effort); break;
         case Method::implicit_euler: answer = implicit_limit(); break;
     }
-    // An explicit step that is certified is so by D − hK ≻ 0, which needs no D ⪰ 0 beside it.
-    if (method != Method::explicit_euler || !(answer.certified > 0))
+    // D − hK ≻ 0, by which an explicit step is certified, needs D ⪰ 0 beside it where K is
+    // indefinite: else it says nothing of smaller steps.
+    if (method != Method::explicit_euler || !(answer.certified > 0) ||
+        !pencil_->stiffness_semidefinite())
         admit_negative_damping(method, answer);
     add_growth(answer, effort);
     return answer;
@@ -144,12 +146,14 @@ void Stability<Scalar, Cholesky>::admit_negative_damping(Method method,
     if (delta == 0) return;
     // A δ that is no rounding is negative damping, which feeds energy in at every step.
     const bool rounding = delta <= 1e-6 * std::max(0.0, pencil.upper_bound({0, 0, 1}));
-    if (rounding && !(limit.certified > 0)) return;
-    if (rounding) {
+    if (rounding && limit.certified > 0) {
         const double most = 1 / std::max(twice * delta, 1e-300);
         limit.certified_up_to = std::min(limit.certified, detail::round_down<Scalar>(most));
-        limit.admitted_growth = twice * delta;
-    } else {
+    }
+    if (rounding && !(limit.certified_up_to > 0)) return;
+    limit.admitted_growth = rounding ? std::max(limit.admitted_growth, twice * delta) : 0;
+    if (!rounding) {
+        limit.certified_up_to = 0;
         limit.refuted = std::numeric_limits<Scalar>::infinity();
     }
     limit.certified = 0;
