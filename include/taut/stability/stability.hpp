@@ -156,7 +156,11 @@ private:
     template <class Effort>
     StepLimit<Scalar> symplectic_limit(Effort& effort) const;
     template <class Effort>
-    void add_growth(StepLimit<Scalar>& limit, Effort& effort) const;
+    void add_growth(Method method, StepLimit<Scalar>& limit, Effort& effort) const;
+    static bool claims(const StepLimit<Scalar>& limit) {
+        return limit.certified > 0 || limit.certified_up_to > 0;
+    }
+    static void admit(Method method, double rate, StepLimit<Scalar>& limit);
     void admit_negative_damping(Method method, StepLimit<Scalar>& limit) const;
     double certified_when_scaled(Method method, double stiffness, double mass) const;
     StepLimit<Scalar> implicit_limit() const;

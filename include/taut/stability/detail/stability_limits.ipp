@@ -20,12 +20,11 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::bracket(Method method, Effort eff
         case Method::velocity_verlet: answer = symplectic_limit(effort); break;
         case Method::implicit_euler: answer = implicit_limit(); break;
     }
-    // D − hK ≻ 0, by which an explicit step is certified, needs D ⪰ 0 beside it where K is
-    // indefinite: else it says nothing of smaller steps.
-    if (method != Method::explicit_euler || !(answer.certified > 0) ||
-        !pencil_->stiffness_semidefinite())
+    // An explicit step is claimed by D − hK ⪰ −δM, which needs no D ⪰ 0 beside it unless K is
+    // indefinite: there it says nothing of smaller steps.
+    if (method != Method::explicit_euler || !claims(answer) || !pencil_->stiffness_semidefinite())
         admit_negative_damping(method, answer);
-    add_growth(answer, effort);
+    add_growth(method, answer, effort);
     return answer;
 }
 
@@ -134,30 +133,35 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::implicit_limit() const {
     return limit(definite_up_to(pencil.deficit({0, 1, 0})), detail::infinity, Cause::stiffness);
 }
 
-/// D ⪰ −δM is enough for a limit whose multipliers stay below 1 + hδ [T17]: an answer of another
-/// name. Those of implicit Euler reach 1/(1 − hδ), which is below e^(2hδ) while hδ ≤ ½.
+/// What is semi-definite but for `rate`, 1/s, is enough for an answer of another name: multipliers
+/// stay below 1 + h·rate [T17], those of implicit Euler below 1/(1 − h·rate), which is less than
+/// e^(2h·rate) while h·rate ≤ ½. Rates add up where they meet in one vector.
+template <class Scalar, class Cholesky>
+void Stability<Scalar, Cholesky>::admit(Method method, double rate, StepLimit<Scalar>& limit) {
+    limit.admitted_growth += method == Method::implicit_euler ? 2 * rate : rate;
+    const double most = 1 / std::max(limit.admitted_growth, 1e-300);
+    limit.certified_up_to = std::min(std::max(limit.certified, limit.certified_up_to),
+                                     detail::round_down<Scalar>(most));
+    limit.certified = 0;
+    limit.cause = Cause::rounding;
+}
+
+/// D ⪰ −δM by rounding is admitted; a δ that is no rounding feeds energy in at every step.
 template <class Scalar, class Cholesky>
 void Stability<Scalar, Cholesky>::admit_negative_damping(Method method,
                                                          StepLimit<Scalar>& limit) const {
     const Pencil& pencil = *pencil_;
     if (pencil.damping_semidefinite()) return;
-    const double twice = method == Method::implicit_euler ? 2 : 1;
     const double delta = pencil.deficit({0, 0, 1});
     if (delta == 0) return;
-    // A δ that is no rounding is negative damping, which feeds energy in at every step.
-    const bool rounding = delta <= 1e-6 * std::max(0.0, pencil.upper_bound({0, 0, 1}));
-    if (rounding && limit.certified > 0) {
-        const double most = 1 / std::max(twice * delta, 1e-300);
-        limit.certified_up_to = std::min(limit.certified, detail::round_down<Scalar>(most));
+    if (delta <= 1e-6 * std::max(0.0, pencil.upper_bound({0, 0, 1}))) {
+        if (claims(limit)) admit(method, delta, limit);
+        return;
     }
-    if (rounding && !(limit.certified_up_to > 0)) return;
-    limit.admitted_growth = rounding ? std::max(limit.admitted_growth, twice * delta) : 0;
-    if (!rounding) {
-        limit.certified_up_to = 0;
-        limit.refuted = std::numeric_limits<Scalar>::infinity();
-    }
-    limit.certified = 0;
-    limit.cause = rounding ? Cause::rounding : Cause::damping_unproved;
+    limit.certified = limit.certified_up_to = 0;
+    limit.admitted_growth = 0;
+    limit.refuted = std::numeric_limits<Scalar>::infinity();
+    limit.cause = Cause::damping_unproved;
 }
 
 /// What the physics adds where K is not known to be positive semi-definite [T27]: √κ of the
@@ -165,7 +169,7 @@ void Stability<Scalar, Cholesky>::admit_negative_damping(Method method,
 /// excluded.
 template <class Scalar, class Cholesky>
 template <class Effort>
-void Stability<Scalar, Cholesky>::add_growth(StepLimit<Scalar>& limit,
+void Stability<Scalar, Cholesky>::add_growth(Method method, StepLimit<Scalar>& limit,
                                              [[maybe_unused]] Effort& effort) const {
     const Pencil& pencil = *pencil_;
     if (pencil.stiffness_semidefinite()) return;
@@ -185,7 +189,7 @@ void Stability<Scalar, Cholesky>::add_growth(StepLimit<Scalar>& limit,
         if (limit.certified > 0) limit.cause = Cause::buckling;
         return;
     }
-    if (limit.cause == Cause::undamped) return;
+    if (!claims(limit)) return;
     // Not refuted, not proved: K ⪰ −εM is what can be said.
     const Combination stiffness{0, 1, 0, false};
     double epsilon = pencil.deficit(stiffness);
@@ -194,11 +198,11 @@ void Stability<Scalar, Cholesky>::add_growth(StepLimit<Scalar>& limit,
             epsilon = std::min(epsilon, proved_deficit(effort.prover, pencil, stiffness, epsilon));
         }
     }
-    limit.admitted_growth = std::max(limit.admitted_growth, std::sqrt(epsilon));
-    if (pencil.projects()) return;
-    limit.certified_up_to = std::max(limit.certified, limit.certified_up_to);
-    limit.certified = 0;
-    limit.cause = Cause::rounding;
+    if (pencil.projects()) {
+        limit.admitted_growth = std::sqrt(epsilon);
+    } else {
+        admit(method, std::sqrt(epsilon), limit);
+    }
 }
 
 }  // namespace taut
