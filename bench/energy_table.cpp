@@ -81,10 +81,10 @@ int row(int networks, int steps) {
         system.set_graph_damping(1.05 * h);
         above += taut_test::rises<Stepper>(system, state, 1.05 * h, steps) > 0;
     }
-    const auto [risen, pulled] = pulled_beyond<Scalar, Dim>(networks);
+    const auto [gained, among] = pulled_beyond<Scalar, Dim>(networks);
     std::printf("| %s, %d-D | %d | %ld | %d | %d | %d of %d |\n",
                 sizeof(Scalar) == 4 ? "float" : "double", Dim, tried, rises, with_rise, above,
-                risen, pulled);
+                gained, among);
     std::fflush(stdout);
     return with_rise;
 }

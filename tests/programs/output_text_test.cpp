@@ -8,6 +8,7 @@
 
 #include "../../examples/common/output_text.hpp"
 #include "../support/catch.hpp"
+#include "../support/temporary_file.hpp"
 
 namespace taut_test::output_text_test {
 
@@ -23,7 +24,7 @@ struct Folder {
     Folder& operator=(const Folder&) = delete;
 
     std::string operator/(const char* name) const { return (path / name).string(); }
-    fs::path path = "taut_test_output_text";
+    fs::path path = temporary_prefix() + "output_text";
 };
 
 void put(const std::string& path, const std::string& text) { std::ofstream(path) << text; }
