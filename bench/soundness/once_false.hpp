@@ -25,7 +25,9 @@ inline constexpr std::initializer_list<std::uint32_t> once_false_springs = {
     // Rayleigh factors that float does not hold.
     303365, 306385, 309423, 311625,
     // Windows of explicit Euler at a kink, with d0 close to 2/h.
-    200266, 200569};
+    200266, 200569,
+    // Two equal slow growths of buckled modes that rounded to a complex pair.
+    552002};
 inline constexpr std::initializer_list<std::uint32_t> once_false_linear = {
     // Windows.
     1001, 1097, 1168, 1256, 1324, 1404,

@@ -81,6 +81,43 @@ TEST_CASE("dense: explicit_limit_above is never below the truth, over many decad
     CHECK(finite > 50);
 }
 
+TEST_CASE("dense: the slow growth of a buckled mode refutes no step", "[stability]") {
+    // Compressed springs from pins to masses of their own: along its axis each is a mode of the
+    // stiffness k, across it two of the same -T/l, from rates beside the stiffest down to rounding.
+    Random random(1021);
+    for (int repeat = 0; repeat < 200; ++repeat) {
+        taut::SpringSystem<double, 3, taut::Hookean> system;
+        const double d0 = random.uniform(1, 20);
+        const double alpha = random.uniform(0, 0.1);
+        system.set_rayleigh({d0, alpha});
+        Real truth = std::numeric_limits<double>::infinity();
+        const auto count = static_cast<int>(random.uniform(2, 8));
+        for (int i = 0; i < count; ++i) {
+            const double k = i == 0 ? 30 : 30 * std::pow(10, random.uniform(-13, 0));
+            const double l = random.uniform(0.2, 0.9);
+            const Eigen::Vector3d at(3.0 * i, 0, 0);
+            Eigen::Vector3d axis(random.uniform(-1, 1), random.uniform(-1, 1), 1);
+            const auto pin = system.add_particle(at, 1);
+            const auto mass = system.add_particle(at + l * axis.normalized(), 1);
+            system.pin(pin);
+            system.add_spring(taut::Spring<double, taut::Hookean>{pin, mass, {k}, 1.0});
+            const Real across = k * (1 - 1 / Real(l));
+            const Real push = (d0 + std::sqrt(Real(d0) * d0 - 4 * across)) / 2;
+            const Real d = d0 + alpha * Real(k);
+            const Real square = d * d - 4 * Real(k);
+            const Real along = square < 0 ? d / k : 2 / ((d + std::sqrt(square)) / 2);
+            truth = std::min({truth, 2 / push, along});
+        }
+        const auto pencil = taut::SpringPencil<3>::at_pose(system, system.initial_state().x);
+        const DenseAnalysis dense(pencil, false);
+        INFO("system " << repeat << ": " << dense.explicit_limit() << ", "
+                       << dense.explicit_limit_above() << ", truth " << truth);
+        CHECK(dense.explicit_limit_above() >= truth * (1 - 1e-12));
+        CHECK(dense.explicit_limit_above() < truth * (1 + 1e-3));
+        CHECK_THAT(dense.explicit_limit(), WithinRel(static_cast<double>(truth), 1e-6));
+    }
+}
+
 TEST_CASE("dense: eigenvalues, modes and zero modes", "[stability]") {
     for (const auto& c : stability_cases<double>(false)) {
         if (c.exact.size() == 0) continue;

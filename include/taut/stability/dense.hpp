@@ -110,13 +110,14 @@ auto DenseAnalysis<Real>::limits() const -> Limits {
     for (Index i = 0; i < C.rows(); ++i) {
         const std::complex<Real> lambda = solver.eigenvalues()[i];
         if (std::abs(lambda) <= rounding) continue;  // a zero mode's velocity
-        // The growth of a buckled system is not the step's [T27].
+        const Real error = rounding * V.col(i).norm() * W.row(i).norm();
+        // The growth of a buckled system is not the step's [T27]. It is real, but two that are
+        // nearly equal may round to a complex pair.
         if (buckled && lambda.real() > 0 &&
-            std::abs(lambda.imag()) <= Real(1e-6) * std::abs(lambda))
+            std::abs(lambda.imag()) <= std::max(error, Real(1e-6) * std::abs(lambda)))
             continue;
         const Real size = std::norm(lambda);
         limits.estimate = std::min(limits.estimate, std::max(Real(0), -2 * lambda.real() / size));
-        const Real error = rounding * V.col(i).norm() * W.row(i).norm();
         const Real least = std::abs(lambda) - error;
         if (!(least > std::abs(lambda) / 2)) continue;
         limits.above =
