@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "../core/error.hpp"
 #include "detail/arc.hpp"
@@ -60,8 +61,33 @@ struct Buckling {
         if (line >= -12 * beam_unit(p, L)) return p.onset;
         const auto bent = arc(L, l);
         if (line >= -4 * beam_unit(p, L) / bent.lever) return p.onset;
-        const Scalar cube = bent.lever * bent.lever * bent.lever;
-        return -8 * (beam_unit(p, L) / L) * bent.lever_w / cube;
+        return arc_slope(p, L, bent);
+    }
+    /// The least and the largest T′ between two lengths, N/m, on both sides of each kink.
+    template <class Scalar>
+    static std::pair<Scalar, Scalar> slope_range(const Parameters<Scalar>& p, Scalar L, Scalar low,
+                                                 Scalar high) {
+        const Scalar at_low = tension_slope(p, L, low);
+        std::pair<Scalar, Scalar> range = std::minmax(at_low, tension_slope(p, L, high));
+        const auto count = [&](Scalar slope) {
+            range = {std::min(range.first, slope), std::max(range.second, slope)};
+        };
+        if (low < L && L <= high) {
+            count(p.stiffness);
+            count(tension_slope(p, L, std::nextafter(L, Scalar(0))));
+        }
+        if (!beam_shows(p, L)) return range;
+        // Along the arc T′ falls as l grows, so that its ends and those of the interval decide.
+        const Scalar near = 64 * std::numeric_limits<Scalar>::epsilon() * L;
+        const auto [from, to] = arc_ends(p, L);
+        for (const Scalar w : {from, to}) {
+            const auto bent = detail::Arc<Scalar>::at(w);
+            const Scalar l = L * (1 - w * bent.sag);
+            if (l < low - near || l > high + near) continue;
+            count(arc_slope(p, L, bent));
+            count(p.onset);
+        }
+        return range;
     }
     /// Energy, J: 2k_b w/L + constant along the beam, w = (κL/2)², and that of the line beside it.
     template <class Scalar>
@@ -72,13 +98,10 @@ struct Buckling {
         };
         const Scalar delta = (L - l) / L;
         if (!beam_shows(p, L)) return line(delta);
-        using Arc = detail::Arc<Scalar>;
-        const Scalar c = p.onset / (4 * beam_unit(p, L) / L);
-        const Scalar from = crossing(c, 18 / c);
-        const Scalar to = c < Arc::touching ? crossing(c, Arc::touching) : Arc::touching;
+        const auto [from, to] = arc_ends(p, L);
         const Scalar w = arc(L, l).w;
         if (w <= from) return line(delta);
-        const auto shortening = [](Scalar at) { return at * Arc::at(at).sag; };
+        const auto shortening = [](Scalar at) { return at * detail::Arc<Scalar>::at(at).sag; };
         const Scalar bent =
             line(shortening(from)) + 2 * beam_unit(p, L) * L * (std::min(w, to) - from);
         return w <= to ? bent : bent + line(delta) - line(shortening(to));
@@ -107,6 +130,20 @@ private:
     template <class Scalar>
     static detail::Arc<Scalar> arc(Scalar L, Scalar l) {
         return detail::Arc<Scalar>::shortened((L - l) / L);
+    }
+    /// T′ along the beam, N/m.
+    template <class Scalar>
+    static Scalar arc_slope(const Parameters<Scalar>& p, Scalar L,
+                            const detail::Arc<Scalar>& bent) {
+        const Scalar cube = bent.lever * bent.lever * bent.lever;
+        return -8 * (beam_unit(p, L) / L) * bent.lever_w / cube;
+    }
+    /// The least and the largest w at which the beam is the law, where it shows.
+    template <class Scalar>
+    static std::pair<Scalar, Scalar> arc_ends(const Parameters<Scalar>& p, Scalar L) {
+        constexpr Scalar touching = detail::Arc<Scalar>::touching;
+        const Scalar c = p.onset / (4 * beam_unit(p, L) / L);
+        return {crossing(c, 18 / c), c < touching ? crossing(c, touching) : touching};
     }
     /// The w where line and beam push alike, c·w·A·B = 1, by Newton from a w outside of the roots:
     /// w·A·B is concave, so the iterates approach the nearer root from one side.

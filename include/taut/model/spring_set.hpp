@@ -10,6 +10,7 @@
 
 #include "../core/types.hpp"
 #include "damping.hpp"
+#include "detail/slope_range.hpp"
 
 namespace taut {
 
@@ -203,22 +204,16 @@ struct SpringSet {
     template <class Real, int Dim>
     std::pair<Real, Real> axial_range(std::size_t s, const Points<Real, Dim>& x,
                                       const SpringTangent<Real, Dim>& t) const {
-        std::pair<Real, Real> range{t.axial, t.axial};
-        if (t.d.isZero(0)) return range;
+        if (t.d.isZero(0)) return {t.axial, t.axial};
         const auto p = parameters[s].template cast<Real>();
         const Real L = static_cast<Real>(rest_length[s]);
         const Real l = (x.col(t.b) - x.col(t.a)).norm();
         const Real size = x.col(t.a).cwiseAbs().maxCoeff() + x.col(t.b).cwiseAbs().maxCoeff() + L;
         const Real reach = 8 * static_cast<Real>(std::numeric_limits<Scalar>::epsilon()) * size;
-        // Between two kinks within reach, as those of Buckling may be, a slope shows at L alone.
-        const Real below = std::nextafter(L, Real(0));
-        const bool at_rest = l - reach < below && L < l + reach;
-        for (const Real side : {l - reach, l + reach, at_rest ? below : l, at_rest ? L : l}) {
-            if (!(side > 0) || !std::isfinite(side)) continue;
-            const Real slope = Law::tension_slope(p, L, side);
-            range = {std::min(range.first, slope), std::max(range.second, slope)};
-        }
-        return range;
+        if (!std::isfinite(l + reach)) return {t.axial, t.axial};
+        const auto [least, most] =
+            detail::slope_range<Law>(p, L, std::max(l - reach, Real(0)), l + reach);
+        return {std::min(least, t.axial), std::max(most, t.axial)};
     }
 
 private:

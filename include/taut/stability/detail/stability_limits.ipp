@@ -199,7 +199,7 @@ void Stability<Scalar, Cholesky>::add_growth(Method method, StepLimit<Scalar>& l
         }
     }
     if (pencil.projects()) {
-        limit.admitted_growth = std::sqrt(epsilon);
+        limit.admitted_growth += std::sqrt(epsilon);
     } else {
         admit(method, std::sqrt(epsilon), limit);
     }
