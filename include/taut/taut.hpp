@@ -40,3 +40,7 @@
 #include "stability/stability.hpp"
 #include "tradeoff/measure.hpp"
 #include "tradeoff/recommend.hpp"
+
+#if defined(TAUT_COMPILED)
+#include "compiled.hpp"
+#endif

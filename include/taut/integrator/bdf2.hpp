@@ -57,16 +57,7 @@ public:
     /// is as it was before. The report's residual is that of the last linear solve, relative to its
     /// right-hand side.
     template <class AnyState>
-    Report step(AnyState& state, Scalar h, Index count = 1) {
-        if (!last_.is(*system_, state)) last_step_ = 0;
-        const Report report = loop_.run(*system_, state, h, count, [&](State& own) {
-            const Report advanced = advance(own, h);
-            last_step_ = h;
-            return advanced;
-        });
-        report ? last_.keep(*system_, state) : last_.forget();
-        return report;
-    }
+    Report step(AnyState& state, Scalar h, Index count = 1);
     /// change(solver): to set a tolerance, a cap of iterations.
     template <class Change>
     void configure(Change&& change) {
@@ -90,6 +81,19 @@ private:
     VectorX<Scalar> b_;              // N, N·s
     VectorX<Scalar> dv_;             // N, m/s
 };
+
+template <class System, class Solver>
+template <class AnyState>
+Report Bdf2<System, Solver>::step(AnyState& state, Scalar h, Index count) {
+    if (!last_.is(*system_, state)) last_step_ = 0;
+    const Report report = loop_.run(*system_, state, h, count, [&](State& own) {
+        const Report advanced = advance(own, h);
+        last_step_ = h;
+        return advanced;
+    });
+    report ? last_.keep(*system_, state) : last_.forget();
+    return report;
+}
 
 template <class System, class Solver>
 Report Bdf2<System, Solver>::advance(State& state, Scalar h) {

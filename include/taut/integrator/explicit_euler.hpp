@@ -30,9 +30,7 @@ public:
     /// Takes `count` steps of h, s, finite and > 0, of a State or StateView. On failure the state
     /// is as it was before.
     template <class AnyState>
-    Report step(AnyState& state, Scalar h, Index count = 1) {
-        return steps_.run(*system_, state, h, count, Update{});
-    }
+    Report step(AnyState& state, Scalar h, Index count = 1);
 
     /// The stepper's own damping, as shares of the step.
     const StepDamping& damping() const { return steps_.damping(); }
@@ -49,5 +47,11 @@ private:
     const System* system_;
     detail::ExplicitSteps<System> steps_;
 };
+
+template <class System>
+template <class AnyState>
+Report ExplicitEuler<System>::step(AnyState& state, Scalar h, Index count) {
+    return steps_.run(*system_, state, h, count, Update{});
+}
 
 }  // namespace taut

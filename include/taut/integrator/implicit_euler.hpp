@@ -107,13 +107,7 @@ public:
     /// relative to its right-hand side; with newton_iterations > 1 that of the nonlinear equation,
     /// as Options::tolerance has it.
     template <class AnyState>
-    Report step(AnyState& state, Scalar h, Index count = 1) {
-        if (!constraints_.held().empty()) {
-            const Index last = constraints_.held().rbegin()->first;
-            if (last >= system_->size()) return {Status::invalid_state, 0, 0, last};
-        }
-        return loop_.run(*system_, state, h, count, [&](State& own) { return advance(own, h); });
-    }
+    Report step(AnyState& state, Scalar h, Index count = 1);
     /// change(solver) for every solver that the stepper keeps: to set a tolerance, a cap of
     /// iterations.
     template <class Change>
@@ -154,6 +148,16 @@ private:
     VectorX<Scalar> dv_;          // N, m/s
     Points<Scalar, Dim> forces_;  // of the constraints, Dim × n, N
 };
+
+template <class System, class Solver>
+template <class AnyState>
+Report ImplicitEuler<System, Solver>::step(AnyState& state, Scalar h, Index count) {
+    if (!constraints_.held().empty()) {
+        const Index last = constraints_.held().rbegin()->first;
+        if (last >= system_->size()) return {Status::invalid_state, 0, 0, last};
+    }
+    return loop_.run(*system_, state, h, count, [&](State& own) { return advance(own, h); });
+}
 
 template <class System, class Solver>
 ImplicitEuler<System, Solver>::ImplicitEuler(const System& system, const Options& options)

@@ -36,26 +36,7 @@ public:
     /// Takes `count` steps of h, s, finite and > 0, of a State or StateView. On failure the state
     /// is as it was before.
     template <class AnyState>
-    Report step(AnyState& state, Scalar h, Index count = 1) {
-        // With damping of its own a force belongs to one step size.
-        bool known = last_.is(*system_, state) && (!damping_ || h == last_h_);
-        const Report report = loop_.run(*system_, state, h, count, [&](State& own) -> Report {
-            if (!known) force(own, h);
-            known = true;
-            kick(own, h / 2);
-            own.x += h * own.v;
-            own.time += h;
-            force(own, h);
-            kick(own, h / 2);
-            return {};
-        });
-        if (!report) last_.forget();
-        if (report && report.iterations > 0) {
-            last_.keep(*system_, state);
-            last_h_ = h;
-        }
-        return report;
-    }
+    Report step(AnyState& state, Scalar h, Index count = 1);
 
     /// The stepper's own damping, as shares of the step.
     const StepDamping& damping() const { return damping_; }
@@ -79,5 +60,28 @@ private:
     decltype(State::x) f_;           // force at the end of the last step, Dim × n, N
     detail::LastState<State> last_;  // what f_ belongs to
 };
+
+template <class System>
+template <class AnyState>
+Report VelocityVerlet<System>::step(AnyState& state, Scalar h, Index count) {
+    // With damping of its own a force belongs to one step size.
+    bool known = last_.is(*system_, state) && (!damping_ || h == last_h_);
+    const Report report = loop_.run(*system_, state, h, count, [&](State& own) -> Report {
+        if (!known) force(own, h);
+        known = true;
+        kick(own, h / 2);
+        own.x += h * own.v;
+        own.time += h;
+        force(own, h);
+        kick(own, h / 2);
+        return {};
+    });
+    if (!report) last_.forget();
+    if (report && report.iterations > 0) {
+        last_.keep(*system_, state);
+        last_h_ = h;
+    }
+    return report;
+}
 
 }  // namespace taut

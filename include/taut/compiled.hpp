@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "integrator/bdf2.hpp"
+#include "integrator/explicit_euler.hpp"
+#include "integrator/guarded.hpp"
+#include "integrator/implicit_euler.hpp"
+#include "integrator/projective_dynamics.hpp"
+#include "integrator/symplectic_euler.hpp"
+#include "integrator/velocity_verlet.hpp"
+#include "model/buckling.hpp"
+#include "model/tension_only.hpp"
+#include "scene/cloth.hpp"
+#include "solver/conjugate_gradient.hpp"
+#include "stability/any_pose.hpp"
+#include "stability/energy_limit.hpp"
+#include "stability/stability.hpp"
+
+// What the library Taut::Compiled holds: explicit instantiations for float and double, two and
+// three dimensions, springs by Hookean, by TensionOnly, and by Hookean with Buckling. Its users see
+// them declared by taut.hpp; every other law, scalar or solver is compiled with the program as
+// without it.
+//
+// KIND is `template` in the library's own sources, `extern template` elsewhere. A system's template
+// arguments come last: its scalar, its dimension, its laws.
+//
+// Library and program must agree about Eigen's alignment, which follows from flags as -mavx: a
+// program that does not agree lacks a symbol named compiled_with_alignment.
+
+#define TAUT_COMPILED_ANALYSIS(KIND, SCALAR)                                         \
+    KIND class MatrixPencil<SCALAR>;                                                 \
+    KIND class SpringSet<SCALAR, Hookean>;                                           \
+    KIND class SpringSet<SCALAR, TensionOnly>;                                       \
+    KIND class SpringSet<SCALAR, Buckling>;                                          \
+    KIND SpringSystem<SCALAR, 3> hanging_cloth<SCALAR>(const ClothOptions&);         \
+    KIND class Stability<SCALAR>;                                                    \
+    KIND StepLimit<SCALAR> Stability<SCALAR>::bracket(Method, detail::Bounds) const; \
+    KIND StepLimit<SCALAR> Stability<SCALAR>::bracket(                               \
+        Method, detail::Factorisations<EigenCholesky>) const;
+
+#define TAUT_COMPILED_PENCILS(KIND)                                                         \
+    KIND class SpringPencil<1>;                                                             \
+    KIND class SpringPencil<2>;                                                             \
+    KIND class SpringPencil<3>;                                                             \
+    KIND RitzPair largest_ritz_pair<double>(const Pencil&, const Combination&,              \
+                                            const LanczosOptions&, const Eigen::VectorXd&); \
+    KIND class DenseAnalysis<double>;
+
+#define TAUT_COMPILED_STEPPER(KIND, ...) \
+    KIND class __VA_ARGS__;              \
+    KIND Report __VA_ARGS__::step(State&, Scalar, Index);
+
+#define TAUT_COMPILED_SYSTEM(KIND, SCALAR, DIM, ...)                                            \
+    KIND class SpringSystem<__VA_ARGS__>;                                                       \
+    KIND SpringPencil<DIM> SpringPencil<DIM>::at_pose(const SpringSystem<__VA_ARGS__>&,         \
+                                                      const Points<TangentReal<SCALAR>, DIM>&); \
+    KIND SpringPencil<1> SpringPencil<1>::any_pose(const SpringSystem<__VA_ARGS__>&,            \
+                                                   SpringPencil<1>::Damping);                   \
+    KIND void Stability<SCALAR>::update(const SpringSystem<__VA_ARGS__>&,                       \
+                                        const State<SCALAR, DIM>&);                             \
+    KIND StepLimit<SCALAR> any_pose_limit(const SpringSystem<__VA_ARGS__>&);                    \
+    KIND StepLimit<SCALAR> any_pose_limit(const SpringSystem<__VA_ARGS__>&, double);            \
+    KIND EnergyLimit<SCALAR> energy_limit(const SpringSystem<__VA_ARGS__>&);                    \
+    KIND EnergyLimit<SCALAR> energy_limit(const SpringSystem<__VA_ARGS__>&, double);
+
+#define TAUT_COMPILED_EXPLICIT(KIND, SCALAR, DIM, ...)                      \
+    TAUT_COMPILED_STEPPER(KIND, SymplecticEuler<SpringSystem<__VA_ARGS__>>) \
+    TAUT_COMPILED_STEPPER(KIND, ExplicitEuler<SpringSystem<__VA_ARGS__>>)   \
+    TAUT_COMPILED_STEPPER(KIND, VelocityVerlet<SpringSystem<__VA_ARGS__>>)
+
+#define TAUT_COMPILED_IMPLICIT(KIND, SCALAR, DIM, ...)                                           \
+    TAUT_COMPILED_STEPPER(KIND, ImplicitEuler<SpringSystem<__VA_ARGS__>>)                        \
+    TAUT_COMPILED_STEPPER(                                                                       \
+        KIND, ImplicitEuler<SpringSystem<__VA_ARGS__>, ConjugateGradient<SCALAR, DIM>>)          \
+    TAUT_COMPILED_STEPPER(KIND, Bdf2<SpringSystem<__VA_ARGS__>>)                                 \
+    TAUT_COMPILED_STEPPER(KIND, Bdf2<SpringSystem<__VA_ARGS__>, ConjugateGradient<SCALAR, DIM>>) \
+    TAUT_COMPILED_STEPPER(KIND, ProjectiveDynamics<SpringSystem<__VA_ARGS__>>)
+
+#define TAUT_COMPILED_GUARD(KIND, STEPPER, SCALAR, ...)                                         \
+    KIND class Guarded<STEPPER<SpringSystem<__VA_ARGS__>>>;                                     \
+    KIND Guarded<STEPPER<SpringSystem<__VA_ARGS__>>>::Guarded(const SpringSystem<__VA_ARGS__>&, \
+                                                              const Options&);                  \
+    KIND GuardedReport<SCALAR> Guarded<STEPPER<SpringSystem<__VA_ARGS__>>>::advance(            \
+        State&, Scalar, detail::NoResponse&&);
+
+#define TAUT_COMPILED_GUARDS(KIND, SCALAR, DIM, ...)                \
+    TAUT_COMPILED_GUARD(KIND, SymplecticEuler, SCALAR, __VA_ARGS__) \
+    TAUT_COMPILED_GUARD(KIND, VelocityVerlet, SCALAR, __VA_ARGS__)  \
+    TAUT_COMPILED_GUARD(KIND, ImplicitEuler, SCALAR, __VA_ARGS__)   \
+    TAUT_COMPILED_GUARD(KIND, Bdf2, SCALAR, __VA_ARGS__)            \
+    TAUT_COMPILED_GUARD(KIND, ProjectiveDynamics, SCALAR, __VA_ARGS__)
+
+#define TAUT_COMPILED_EACH_LAW(PART, KIND, SCALAR, DIM) \
+    PART(KIND, SCALAR, DIM, SCALAR, DIM)                \
+    PART(KIND, SCALAR, DIM, SCALAR, DIM, TensionOnly)   \
+    PART(KIND, SCALAR, DIM, SCALAR, DIM, Hookean, Buckling)
+
+#define TAUT_COMPILED_EACH_SYSTEM(PART, KIND)     \
+    TAUT_COMPILED_EACH_LAW(PART, KIND, float, 2)  \
+    TAUT_COMPILED_EACH_LAW(PART, KIND, float, 3)  \
+    TAUT_COMPILED_EACH_LAW(PART, KIND, double, 2) \
+    TAUT_COMPILED_EACH_LAW(PART, KIND, double, 3)
+
+namespace taut {
+namespace detail {
+
+/// Defined by the library for the alignment that it was compiled with.
+template <int Bytes>
+int compiled_with_alignment();
+
+}  // namespace detail
+
+#if defined(TAUT_COMPILED)
+namespace detail {
+namespace {
+[[maybe_unused]] const int alignment_of_library = compiled_with_alignment<EIGEN_MAX_ALIGN_BYTES>();
+}  // namespace
+}  // namespace detail
+TAUT_COMPILED_PENCILS(extern template)
+TAUT_COMPILED_ANALYSIS(extern template, float)
+TAUT_COMPILED_ANALYSIS(extern template, double)
+TAUT_COMPILED_EACH_SYSTEM(TAUT_COMPILED_SYSTEM, extern template)
+TAUT_COMPILED_EACH_SYSTEM(TAUT_COMPILED_EXPLICIT, extern template)
+TAUT_COMPILED_EACH_SYSTEM(TAUT_COMPILED_IMPLICIT, extern template)
+TAUT_COMPILED_EACH_SYSTEM(TAUT_COMPILED_GUARDS, extern template)
+#endif
+
+}  // namespace taut
