@@ -58,7 +58,7 @@ private:
         if constexpr (Dim > 2) sum += a[2] * b[2];
         return sum;
     }
-    void add_run(const Set& set, const SortedSprings::Run& springs, Table& table,
+    void add_run(const Set& set, const SortedSprings::Run& run, Table& table,
                  std::vector<std::vector<Segment>>& segments);
     template <bool Dampers, Proportional Kind>
     void add_segment(const Table& table, const Tile<Scalar>& tile, const Segment& segment) const;
@@ -80,25 +80,25 @@ RunPlan<Scalar, Dim, Law>::RunPlan(const Set& set, const std::vector<SortedSprin
 }
 
 template <class Scalar, int Dim, class Law>
-void RunPlan<Scalar, Dim, Law>::add_run(const Set& set, const SortedSprings::Run& springs,
-                                        Table& table, std::vector<std::vector<Segment>>& segments) {
-    const int begin = springs.front().a / width * width;
-    const int end = (springs.back().a / width + 1) * width;
+void RunPlan<Scalar, Dim, Law>::add_run(const Set& set, const SortedSprings::Run& run, Table& table,
+                                        std::vector<std::vector<Segment>>& segments) {
+    const int begin = run.front().a / width * width;
+    const int end = (run.back().a / width + 1) * width;
     std::vector<int> index(static_cast<std::size_t>(end - begin));
-    std::size_t next = 0;
+    auto next = run.begin;
     for (int a = begin; a < end; ++a) {
-        const bool there = next < springs.size() && springs[next].a == a;
-        const int neighbour = springs[std::min(next, springs.size() - 1)].index;
+        const int neighbour = next == run.end ? run.back().index : next->index;
+        const bool there = next != run.end && next->a == a;
         index[static_cast<std::size_t>(a - begin)] = there ? neighbour : Table::gap(neighbour);
         if (there) ++next;
     }
-    const int run = static_cast<int>(runs_.size());
-    const int offset = springs.front().offset();
+    const int number = static_cast<int>(runs_.size());
+    const int offset = run.front().offset();
     runs_.push_back({begin, offset, table.add(set, index)});
     const auto append = [&](int tile, const Segment& segment) {
         if (tile >= static_cast<int>(segments.size())) return;  // gaps beyond the last place
         auto& of_tile = segments[tile];
-        if (!of_tile.empty() && of_tile.back().run == run &&
+        if (!of_tile.empty() && of_tile.back().run == number &&
             of_tile.back().writes_a == segment.writes_a &&
             of_tile.back().writes_b == segment.writes_b &&
             of_tile.back().first_a + of_tile.back().count == segment.first_a) {
@@ -111,13 +111,13 @@ void RunPlan<Scalar, Dim, Law>::add_run(const Set& set, const SortedSprings::Run
         const int block = a / block_size;
         const int first_block_of_b = (a + offset) / block_size;
         const int last_block_of_b = (a + offset + width - 1) / block_size;
-        append(a / tile_size, {run, a, width, true, block == first_block_of_b});
+        append(a / tile_size, {number, a, width, true, block == first_block_of_b});
         // Springs that come from an earlier block go with the first tile of this one.
         if (first_block_of_b != block) {
-            append(first_block_of_b * tiles_per_block, {run, a, width, false, true});
+            append(first_block_of_b * tiles_per_block, {number, a, width, false, true});
         }
         if (last_block_of_b != first_block_of_b) {
-            append(last_block_of_b * tiles_per_block, {run, a, width, false, true});
+            append(last_block_of_b * tiles_per_block, {number, a, width, false, true});
         }
     }
 }

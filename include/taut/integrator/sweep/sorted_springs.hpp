@@ -29,31 +29,39 @@ struct PlacedSpring {
 /// The springs of a set sorted into runs, and the scattered ones that fit none.
 class SortedSprings {
 public:
-    /// Springs of one offset and ascending a.
-    using Run = std::vector<PlacedSpring>;
+    /// Springs of one offset and ascending a, among the sorted ones.
+    struct Run {
+        std::vector<PlacedSpring>::const_iterator begin, end;
+        const PlacedSpring& front() const { return *begin; }
+        const PlacedSpring& back() const { return *(end - 1); }
+    };
 
     /// @param place_of  place_of(i): the place of particle i
     template <class Set, class PlaceOf>
     SortedSprings(const Set& set, const PlaceOf& place_of) {
-        std::vector<PlacedSpring> springs;
-        springs.reserve(set.a.size());
+        springs_.reserve(set.a.size());
         for (std::size_t s = 0; s < set.a.size(); ++s) {
             const int a = place_of(set.a[s]);
             const int b = place_of(set.b[s]);
-            springs.push_back({std::min(a, b), std::max(a, b), static_cast<int>(s)});
+            springs_.push_back({std::min(a, b), std::max(a, b), static_cast<int>(s)});
         }
-        std::sort(springs.begin(), springs.end());
-        for (auto first = springs.cbegin(); first != springs.cend();) {
-            auto last = first + 1;
-            while (last != springs.cend() && goes_on(*(last - 1), *last)) ++last;
-            if (last - first >= shortest_run && 2 * (last - first) > (last - 1)->a - first->a) {
-                runs_.emplace_back(first, last);
+        std::sort(springs_.begin(), springs_.end());
+        for (Run run{springs_.cbegin(), {}}; run.begin != springs_.cend(); run.begin = run.end) {
+            run.end = run.begin + 1;
+            while (run.end != springs_.cend() && goes_on(run.back(), *run.end)) ++run.end;
+            const auto count = run.end - run.begin;
+            if (count >= shortest_run && 2 * count > run.back().a - run.front().a) {
+                runs_.push_back(run);
             } else {
-                scattered_.insert(scattered_.end(), first, last);
+                scattered_.insert(scattered_.end(), run.begin, run.end);
             }
-            first = last;
         }
     }
+    // A copy's runs would be among the springs of the original.
+    SortedSprings(const SortedSprings&) = delete;
+    SortedSprings(SortedSprings&&) = default;
+    SortedSprings& operator=(SortedSprings&&) = default;
+
     const std::vector<Run>& runs() const { return runs_; }
     const std::vector<PlacedSpring>& scattered() const { return scattered_; }
 
@@ -63,6 +71,7 @@ private:
         return next.offset() == last.offset() && next.a > last.a && next.a <= last.a + most_lanes;
     }
 
+    std::vector<PlacedSpring> springs_;  // by offset, then by a
     std::vector<Run> runs_;
     std::vector<PlacedSpring> scattered_;
 };
