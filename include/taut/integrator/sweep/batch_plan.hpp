@@ -46,11 +46,10 @@ public:
 
     /// Adds the forces of the tile's batches.
     template <bool Dampers, Proportional Kind>
-    void add_forces(const Table& table, const Tile<Scalar>& tile) const {
-        const auto number = static_cast<std::size_t>(tile.number);
-        for (std::size_t s = number == 0 ? 0 : batch_end_[number - 1]; s < batch_end_[number];
-             ++s) {
-            add_batch<Dampers, Kind>(table, tile, batches_[s]);
+    void add_forces(const Table& table, const TileView<Scalar>& view) const {
+        const auto tile = static_cast<std::size_t>(view.tile);
+        for (std::size_t s = tile == 0 ? 0 : batch_end_[tile - 1]; s < batch_end_[tile]; ++s) {
+            add_batch<Dampers, Kind>(table, view, batches_[s]);
         }
     }
 
@@ -74,7 +73,7 @@ private:
     using Springs = std::vector<PlacedSpring>::const_iterator;
     Springs append_batch(const Set& set, Springs next, Springs end, Table& table);
     template <bool Dampers, Proportional Kind>
-    void add_batch(const Table& table, const Tile<Scalar>& tile, const Batch& batch) const;
+    void add_batch(const Table& table, const TileView<Scalar>& view, const Batch& batch) const;
 
     std::vector<Batch> batches_;          // tile by tile
     std::vector<std::size_t> batch_end_;  // of each tile
@@ -129,11 +128,11 @@ auto BatchPlan<Scalar, Dim, Law>::append_batch(const Set& set, Springs next, Spr
 
 template <class Scalar, int Dim, class Law>
 template <bool Dampers, Proportional Kind>
-void BatchPlan<Scalar, Dim, Law>::add_batch(const Table& table, const Tile<Scalar>& tile,
+void BatchPlan<Scalar, Dim, Law>::add_batch(const Table& table, const TileView<Scalar>& view,
                                             const Batch& batch) const {
     constexpr bool velocities = Dampers || Kind != Proportional::none;
-    constexpr int chunk = 64;  // springs between the differences and the forces
-    static_assert(chunk % most_lanes == 0);
+    constexpr int chunk = 64;  // springs; all that is known of them stays in the first cache
+    static_assert(chunk % max_width == 0);
     alignas(64) Vector x[most_gathered];
     alignas(64) Vector v[velocities ? most_gathered : 1];
     alignas(64) Vector f[most_gathered];
@@ -141,15 +140,15 @@ void BatchPlan<Scalar, Dim, Law>::add_batch(const Table& table, const Tile<Scala
     for (int g = 0; g < batch.gathered; ++g) {
         x[g].setZero();
         f[g].setZero();
-        for (int d = 0; d < Dim; ++d) x[g][d] = tile.x[d][places[g]];
+        for (int d = 0; d < Dim; ++d) x[g][d] = view.x[d][places[g]];
         if constexpr (velocities) {
             v[g].setZero();
-            for (int d = 0; d < Dim; ++d) v[g][d] = tile.v[d][places[g]];
+            for (int d = 0; d < Dim; ++d) v[g][d] = view.v[d][places[g]];
         }
     }
     alignas(64) Vector dx[chunk];
     alignas(64) Vector dv[velocities ? chunk : 1];
-    // The coefficients take the places of the products that they are made of.
+    // Coefficients overwrite the products that they are made of.
     alignas(64) Scalar l2[chunk] = {};
     alignas(64) Scalar dx_dv[chunk] = {};
     typename Table::Reader springs(table, batch.columns, 0);
@@ -164,11 +163,11 @@ void BatchPlan<Scalar, Dim, Law>::add_batch(const Table& table, const Tile<Scala
                 dx_dv[s] = (dx[s] * dv[s]).sum();
             }
         }
-        for (int s = 0; s < count; s += Register::lanes, springs.next()) {
-            const Coefficients<Scalar> by = coefficients<Law, Dampers, Kind>(
-                springs, tile.damping, Register::load(l2 + s), Register::load(dx_dv + s));
-            by.of_dx.store(l2 + s);
-            by.of_dv.store(dx_dv + s);
+        for (int s = 0; s < count; s += Register::width, springs.next()) {
+            const Coefficients<Scalar> coefficient = coefficients<Law, Dampers, Kind>(
+                springs, view.damping, Register::load(l2 + s), Register::load(dx_dv + s));
+            coefficient.of_dx.store(l2 + s);
+            coefficient.of_dv.store(dx_dv + s);
         }
         for (int s = 0; s < count; ++s) {
             Vector force = l2[s] * dx[s];
@@ -177,11 +176,11 @@ void BatchPlan<Scalar, Dim, Law>::add_batch(const Table& table, const Tile<Scala
             f[ends[s].b] -= force;
         }
     }
-    const int block_begin = tile.block * block_size;
+    const int block_begin = view.block * block_size;
     for (int g = 0; g < batch.gathered; ++g) {
         const int i = places[g] - block_begin;
         if (i < 0 || i >= block_size) continue;  // another block sees to it
-        for (int d = 0; d < Dim; ++d) tile.force_a[d][i] += f[g][d];
+        for (int d = 0; d < Dim; ++d) view.force_a[d][i] += f[g][d];
     }
 }
 

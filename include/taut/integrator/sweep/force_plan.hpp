@@ -54,15 +54,15 @@ public:
     }
 
     /// Adds the forces of the tile's springs, and of all their damping, on the places of its block.
-    void add_forces(const Tile<Scalar>& tile) const {
+    void add_forces(const TileView<Scalar>& view) const {
         std::apply(
             [&](const auto&... plan) {
                 const auto add = [&](auto kind) {
-                    (plan.template add_forces<decltype(kind)::value>(tile), ...);
+                    (plan.template add_forces<decltype(kind)::value>(view), ...);
                 };
-                if (tile.damping.projected > 0) {
+                if (view.damping.projected > 0) {
                     add(std::integral_constant<Proportional, Proportional::projected>{});
-                } else if (tile.damping.graph > 0) {
+                } else if (view.damping.graph > 0) {
                     add(std::integral_constant<Proportional, Proportional::graph>{});
                 } else {
                     add(std::integral_constant<Proportional, Proportional::none>{});
@@ -123,7 +123,7 @@ bool ForcePlan<System>::update(const System& system) {
     // No two planes of one vector begin at the same byte of a page: a store to one would hold up
     // loads of the other.
     const Index page = static_cast<Index>(4096 / sizeof(Scalar));
-    stride_ = (size_ + 2 * most_lanes + page - 1) / page * page + page / 8;
+    stride_ = (size_ + 2 * max_width + page - 1) / page * page + page / 8;
 
     auto springs = sort(system, [](int i) { return i; });
     std::size_t scattered = 0;

@@ -23,15 +23,15 @@ public:
     bool damped() const { return damped_; }
     /// Adds the forces of the tile's springs on the places of its block.
     template <Proportional Kind>
-    void add_forces(const Tile<Scalar>& tile) const {
-        damped_ ? add_forces<true, Kind>(tile) : add_forces<false, Kind>(tile);
+    void add_forces(const TileView<Scalar>& view) const {
+        damped_ ? add_forces<true, Kind>(view) : add_forces<false, Kind>(view);
     }
 
 private:
     template <bool Dampers, Proportional Kind>
-    void add_forces(const Tile<Scalar>& tile) const {
-        runs_.template add_forces<Dampers, Kind>(table_, tile);
-        batches_.template add_forces<Dampers, Kind>(table_, tile);
+    void add_forces(const TileView<Scalar>& view) const {
+        runs_.template add_forces<Dampers, Kind>(table_, view);
+        batches_.template add_forces<Dampers, Kind>(table_, view);
     }
 
     SpringTable<Scalar, Law> table_;  // before those that fill it

@@ -6,8 +6,8 @@
 
 namespace taut::detail::sweep {
 
-/// No register of Eigen's has more; arrays are padded by as many scalars.
-inline constexpr int most_lanes = 64 / sizeof(float);
+/// No register of Eigen's is wider, in scalars; arrays are padded by as many.
+inline constexpr int max_width = 64 / sizeof(float);
 
 template <class Packet>
 EIGEN_ALWAYS_INLINE Packet rsqrt_packet(const Packet& a) {
@@ -60,7 +60,7 @@ EIGEN_ALWAYS_INLINE __m512 select_less_packet(const __m512& a, const __m512& b, 
 template <class Scalar>
 struct VectorRegister {
     using Packet = typename Eigen::internal::packet_traits<Scalar>::type;
-    static constexpr int lanes = Eigen::internal::unpacket_traits<Packet>::size;
+    static constexpr int width = Eigen::internal::unpacket_traits<Packet>::size;
 
     Packet packet;
 

@@ -18,7 +18,7 @@ class RunPlan {
     using Set = SpringSet<Scalar, Law>;
     using Table = SpringTable<Scalar, Law>;
     using Register = VectorRegister<Scalar>;
-    static constexpr int width = Register::lanes;
+    static constexpr int width = Register::width;
 
 public:
     RunPlan() = default;
@@ -28,15 +28,15 @@ public:
 
     /// Adds the forces of the tile's segments.
     template <bool Dampers, Proportional Kind>
-    void add_forces(const Table& table, const Tile<Scalar>& tile) const {
-        const auto number = static_cast<std::size_t>(tile.number);
-        for (std::size_t s = number == 0 ? 0 : segment_end_[number - 1]; s < segment_end_[number];
-             ++s) {
-            add_segment<Dampers, Kind>(table, tile, segments_[s]);
+    void add_forces(const Table& table, const TileView<Scalar>& view) const {
+        const auto tile = static_cast<std::size_t>(view.tile);
+        for (std::size_t s = tile == 0 ? 0 : segment_end_[tile - 1]; s < segment_end_[tile]; ++s) {
+            add_segment<Dampers, Kind>(table, view, segments_[s]);
         }
     }
 
 private:
+    /// What a step needs to know of a run.
     struct Run {
         int first_a;  // of its first spring or gap
         int offset;   // b − a
@@ -61,7 +61,8 @@ private:
     void add_run(const Set& set, const SortedSprings::Run& run, Table& table,
                  std::vector<std::vector<Segment>>& segments);
     template <bool Dampers, Proportional Kind>
-    void add_segment(const Table& table, const Tile<Scalar>& tile, const Segment& segment) const;
+    void add_segment(const Table& table, const TileView<Scalar>& view,
+                     const Segment& segment) const;
 
     std::vector<Run> runs_;
     std::vector<Segment> segments_;         // tile by tile
@@ -124,20 +125,20 @@ void RunPlan<Scalar, Dim, Law>::add_run(const Set& set, const SortedSprings::Run
 
 template <class Scalar, int Dim, class Law>
 template <bool Dampers, Proportional Kind>
-void RunPlan<Scalar, Dim, Law>::add_segment(const Table& table, const Tile<Scalar>& tile,
+void RunPlan<Scalar, Dim, Law>::add_segment(const Table& table, const TileView<Scalar>& view,
                                             const Segment& segment) const {
     const Run& run = runs_[segment.run];
-    const int block_begin = tile.block * block_size;
+    const int block_begin = view.block * block_size;
     const int first_a = segment.first_a;
     const int first_b = first_a + run.offset;
-    const Planes<const Scalar> x_a = tile.x.at(first_a);
-    const Planes<const Scalar> x_b = tile.x.at(first_b);
-    const Planes<const Scalar> v_a = tile.v.at(first_a);
-    const Planes<const Scalar> v_b = tile.v.at(first_b);
+    const Planes<const Scalar> x_a = view.x.at(first_a);
+    const Planes<const Scalar> x_b = view.x.at(first_b);
+    const Planes<const Scalar> v_a = view.v.at(first_a);
+    const Planes<const Scalar> v_b = view.v.at(first_b);
     const Planes<Scalar> force_a =
-        segment.writes_a ? tile.force_a.at(first_a - block_begin) : tile.discard;
+        segment.writes_a ? view.force_a.at(first_a - block_begin) : view.discard;
     const Planes<Scalar> force_b =
-        segment.writes_b ? tile.force_b.at(first_b - block_begin) : tile.discard;
+        segment.writes_b ? view.force_b.at(first_b - block_begin) : view.discard;
     typename Table::Reader springs(table, run.columns,
                                    static_cast<std::size_t>(first_a - run.first_a));
     for (int i = 0; i < segment.count; i += width, springs.next()) {
@@ -150,11 +151,11 @@ void RunPlan<Scalar, Dim, Law>::add_segment(const Table& table, const Tile<Scala
         });
         Register dx_dv(Scalar(0));
         if constexpr (Dampers || Kind == Proportional::projected) dx_dv = dot(dx, dv);
-        const Coefficients<Scalar> by =
-            coefficients<Law, Dampers, Kind>(springs, tile.damping, dot(dx, dx), dx_dv);
+        const Coefficients<Scalar> coefficient =
+            coefficients<Law, Dampers, Kind>(springs, view.damping, dot(dx, dx), dx_dv);
         for_each_axis<Dim>([&](int d) {
-            Register force = by.of_dx * dx[d];
-            if constexpr (Kind != Proportional::none) force += by.of_dv * dv[d];
+            Register force = coefficient.of_dx * dx[d];
+            if constexpr (Kind != Proportional::none) force += coefficient.of_dv * dv[d];
             Scalar* on_a = force_a[d] + i;
             Scalar* on_b = force_b[d] + i;
             (Register::load(on_a) + force).store(on_a);

@@ -68,7 +68,7 @@ public:
 private:
     /// A run goes on over a short gap, such as that between the rows of a grid.
     static bool goes_on(const PlacedSpring& last, const PlacedSpring& next) {
-        return next.offset() == last.offset() && next.a > last.a && next.a <= last.a + most_lanes;
+        return next.offset() == last.offset() && next.a > last.a && next.a <= last.a + max_width;
     }
 
     std::vector<PlacedSpring> springs_;  // by offset, then by a

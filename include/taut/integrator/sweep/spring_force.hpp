@@ -21,12 +21,12 @@ struct Coefficients {
 };
 
 /// @param springs  a SpringTable's Reader, at as many springs as a register has lanes
-/// @param by       damping in proportion to stiffness, s
+/// @param damping  damping in proportion to stiffness, s
 /// @param l2       dx·dx, m²
 /// @param dx_dv    dx·dv, m²/s; read where a spring has a damper or Kind is `projected`
 template <class Law, bool Dampers, Proportional Kind, class Reader, class Scalar>
 EIGEN_ALWAYS_INLINE Coefficients<Scalar> coefficients(const Reader& springs,
-                                                      const StiffnessDamping<Scalar>& by,
+                                                      const StiffnessDamping<Scalar>& damping,
                                                       const VectorRegister<Scalar>& l2,
                                                       const VectorRegister<Scalar>& dx_dv) {
     using Register = VectorRegister<Scalar>;
@@ -45,7 +45,7 @@ EIGEN_ALWAYS_INLINE Coefficients<Scalar> coefficients(const Reader& springs,
     Register bound = zero;
     if constexpr (Kind != Proportional::none) {
         bound = springs.evaluate([](const auto& p, auto L) { return Law::stiffness_bound(p, L); });
-        of_dv = Register(by.graph) * bound;
+        of_dv = Register(damping.graph) * bound;
     }
     [[maybe_unused]] const Register stretching = dx_dv * over_l * over_l;
     if constexpr (Dampers) of_dx += springs.damping() * stretching;
@@ -53,8 +53,8 @@ EIGEN_ALWAYS_INLINE Coefficients<Scalar> coefficients(const Reader& springs,
         const Register slope = springs.evaluate(
             [](const auto& p, auto L, auto length) { return Law::tension_slope(p, L, length); }, l);
         const Register transverse = where_less(zero, l2, max(tension_over_l, zero), bound);
-        of_dv += Register(by.projected) * transverse;
-        of_dx += Register(by.projected) * (max(slope, zero) - transverse) * stretching;
+        of_dv += Register(damping.projected) * transverse;
+        of_dx += Register(damping.projected) * (max(slope, zero) - transverse) * stretching;
     }
     return {springs.unless_gap(of_dx), springs.unless_gap(of_dv)};
 }

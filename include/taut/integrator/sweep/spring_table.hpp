@@ -52,7 +52,7 @@ public:
         std::array<Column, fields> field;  // of one that is: each Scalar of its parameters
     };
 
-    /// In the place of a spring's index: a gap, with parameters of a neighbour that a law can take.
+    /// Stands for a spring's index: a gap, with parameters of a neighbour that a law can take.
     static int gap(int neighbour) { return -1 - neighbour; }
 
     /// Adds springs and gaps of `set`, by their indices. Call finish() after the last addition.
@@ -84,9 +84,9 @@ public:
     }
     /// Lets the last springs be read a whole register at a time.
     void finish() {
-        numbers_.resize(numbers_.size() + most_lanes, Scalar(0));
+        numbers_.resize(numbers_.size() + max_width, Scalar(0));
         if (!parameters_.empty()) {
-            parameters_.resize(parameters_.size() + most_lanes, Parameters(parameters_.back()));
+            parameters_.resize(parameters_.size() + max_width, Parameters(parameters_.back()));
         }
         numbers_.shrink_to_fit();
         parameters_.shrink_to_fit();
@@ -109,7 +109,7 @@ public:
             rest_length_.next();
             damping_.next();
             for (auto& field : field_) field.next();
-            if constexpr (!vectorizable) parameters_ += Register::lanes;
+            if constexpr (!vectorizable) parameters_ += Register::width;
         }
         /// N·s/m.
         EIGEN_ALWAYS_INLINE Register damping() const { return damping_.load(); }
@@ -137,7 +137,7 @@ public:
     private:
         template <class Function, class... More>
         Register lane_by_lane(Function function, const More&... more) const {
-            std::array<Scalar, Register::lanes> result;
+            std::array<Scalar, Register::width> result;
             for (std::size_t lane = 0; lane < result.size(); ++lane) {
                 result[lane] = function(parameters_[lane], more.values[lane]...);
             }
@@ -153,13 +153,13 @@ public:
 private:
     /// The lanes of a register, for a law that takes one number at a time.
     struct Numbers {
-        std::array<Scalar, Register::lanes> values;
-        explicit Numbers(const Register& pack) { pack.store(values.data()); }
+        std::array<Scalar, Register::width> values;
+        explicit Numbers(const Register& lanes) { lanes.store(values.data()); }
     };
 
     ColumnReader reader(const Column& column, std::size_t i) const {
         return {numbers_.data() + column.first + column.stride * i,
-                column.stride * Register::lanes};
+                column.stride * Register::width};
     }
     template <class Value>
     Column add_column(std::size_t count, Value value) {
@@ -169,10 +169,10 @@ private:
             return {shared_, 0};
         }
         // Aligned like the planes, a register never lies across two cache lines.
-        const std::size_t first = (numbers_.size() + most_lanes - 1) / most_lanes * most_lanes;
+        const std::size_t first = (numbers_.size() + max_width - 1) / max_width * max_width;
         numbers_.resize(first, Scalar(0));
         if (same) {
-            numbers_.resize(first + most_lanes, value(0));
+            numbers_.resize(first + max_width, value(0));
             shared_ = first;
         } else {
             for (std::size_t i = 0; i < count; ++i) numbers_.push_back(value(i));

@@ -95,6 +95,7 @@
 //   plane         one coordinate of one vector, of all places                        planes.hpp
 //   block         2048 consecutive places: what a thread does at a time                tile.hpp
 //   tile          256 of them: what the first cache holds                              tile.hpp
+//   view          what the springs of a tile read and write                            tile.hpp
 //   ends a, b     of a spring, places, a < b
 //   offset        b - a
 //   run           springs of one offset and ascending a                      sorted_springs.hpp
@@ -105,9 +106,10 @@
 //   gathered      of places: copied for a batch
 //   chunk         springs of a batch that are computed together
 //   table         rest lengths, dampings and parameters of one law's springs   spring_table.hpp
+//   field         one Scalar of a law's parameters
 //   column        one of these quantities, of the springs of a run or a batch
 //   reader        goes through the columns of a run or a batch, a register at a time
-//   register      a vector register                                                register.hpp
+//   register      a vector register, which Eigen calls a packet                    register.hpp
 //   lane          one number of a register
 //   width         the number of lanes
 //   padding       scalars beyond the last place, for whole registers
@@ -147,8 +149,10 @@ private:
     using Register = VectorRegister<Scalar>;
     /// Not finite is noticed after so many steps; until then they cost as much as others.
     static constexpr Index steps_between_checks = 64;
+    /// A register may begin before its block or end behind it.
     static constexpr Index scratch_stride = block_size + block_size / 16;
 
+    /// Brings all members up to date.
     template <class AnyState>
     void load(const System& system, const AnyState& state, const StepDamping& added);
     template <class Update>
@@ -225,12 +229,12 @@ template <class System>
 template <bool Pins, bool Drag, class Update>
 void Sweep<System>::steps(Scalar h, Index count, int threads, const Update& update) {
     const int blocks = plan_.blocks();
-    const int workers = std::max(1, std::min(threads, blocks));
+    threads = std::max(1, std::min(threads, blocks));
     const Index scratch_size = 3 * Dim * scratch_stride;
-    if (scratch_.size() < workers * scratch_size) scratch_.setZero(workers * scratch_size);
-    const auto work = [&](int worker, const auto& for_each_block) {
+    if (scratch_.size() < threads * scratch_size) scratch_.setZero(threads * scratch_size);
+    const auto work = [&](int thread, const auto& for_each_block) {
         StatePlanes<Scalar> planes = state_.planes();
-        Scalar* scratch = scratch_.data() + worker * scratch_size;
+        Scalar* scratch = scratch_.data() + thread * scratch_size;
         for (Index step = 0; step < count; ++step) {
             for_each_block(
                 [&](int block) { step_block<Pins, Drag>(planes, block, h, scratch, update); });
@@ -238,8 +242,8 @@ void Sweep<System>::steps(Scalar h, Index count, int threads, const Update& upda
         }
     };
 #ifdef _OPENMP
-    if (workers > 1) {
-#pragma omp parallel num_threads(workers)
+    if (threads > 1) {
+#pragma omp parallel num_threads(threads)
         work(omp_get_thread_num(), [&](const auto& visit) {
 #pragma omp for schedule(static)
             for (int block = 0; block < blocks; ++block) visit(block);
@@ -259,23 +263,23 @@ template <bool Pins, bool Drag, class Update>
 void Sweep<System>::step_block(const StatePlanes<Scalar>& planes, int block, Scalar h,
                                Scalar* scratch, const Update& update) const {
     const auto vector = [&](int number) {
-        return Planes<Scalar>{scratch + number * Dim * scratch_stride + most_lanes, scratch_stride};
+        return Planes<Scalar>{scratch + number * Dim * scratch_stride + max_width, scratch_stride};
     };
-    Tile<Scalar> tile{{planes.spring_x.first, planes.spring_x.stride},
-                      {planes.v.first, planes.v.stride},
-                      damping_,
-                      block,
-                      0,
-                      vector(0),
-                      vector(1),
-                      vector(2)};
+    TileView<Scalar> view{{planes.spring_x.first, planes.spring_x.stride},
+                          {planes.v.first, planes.v.stride},
+                          damping_,
+                          block,
+                          0,
+                          vector(0),
+                          vector(1),
+                          vector(2)};
     const Index begin = static_cast<Index>(block) * block_size;
     const Index count = std::min<Index>(block_size, plan_.size() - begin);
     for (Index i = 0; i < count; i += tile_size) {
-        tile.number = static_cast<int>((begin + i) / tile_size);
-        plan_.add_forces(tile);
+        view.tile = static_cast<int>((begin + i) / tile_size);
+        plan_.add_forces(view);
         move<Pins, Drag>(planes, begin + i, std::min<Index>(tile_size, count - i), h,
-                         tile.force_a.at(i), tile.force_b.at(i), update);
+                         view.force_a.at(i), view.force_b.at(i), update);
     }
 }
 
@@ -299,7 +303,7 @@ void Sweep<System>::move(const StatePlanes<Scalar>& planes, Index first, Index c
         Scalar* new_spring_xs = planes.new_spring_x[d] + first;
         Scalar* forces_a = force_a[d];
         Scalar* forces_b = force_b[d];
-        for (Index i = 0; i < count; i += Register::lanes) {
+        for (Index i = 0; i < count; i += Register::width) {
             const Register inverse_mass = Register::load(inverse_masses + i);
             Register x = Register::load(xs + i);
             Register v = Register::load(vs + i);

@@ -16,14 +16,14 @@ inline constexpr int tiles_per_block = block_size / tile_size;
 
 /// What the springs of one tile read and write.
 template <class Scalar>
-struct Tile {
+struct TileView {
     Planes<const Scalar> x;  // m, of all places
     Planes<const Scalar> v;  // m/s, of all places
     StiffnessDamping<Scalar> damping;
     int block;
-    int number;  // among the tiles of all blocks
+    int tile;  // among those of all blocks
     /// Forces on the places of the block, N: those on ends a and those on ends b. Apart, because a
-    /// register stored to one place and loaded from the next would wait for the store.
+    /// register stored to one address and loaded from the next would wait for the store.
     Planes<Scalar> force_a;
     Planes<Scalar> force_b;
     /// For forces on places of other blocks. Its numbers are never used.
