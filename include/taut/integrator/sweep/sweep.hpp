@@ -44,9 +44,10 @@
 //
 // Springs of one offset b - a and ascending a are a run: their ends lie side by side and need no
 // index. A grid is a handful of runs. Where a row ends, the run goes on over a gap (.), which is
-// computed like a spring and gives no force. A segment is what one tile takes of a run. A run that
-// leaves its block has two there: one adds the forces on the ends a, in the tile of a; the other
-// those on the ends b, in the block of b.
+// computed like a spring and gives no force; fewer than 16 springs, or more gaps than springs, are
+// not worth it. A segment is what one tile takes of a run. Where springs leave their block there
+// are two: one adds the forces on the ends a, in the tile of a; the other those on the ends b, in
+// the block of b.
 //
 //
 // 4. What a thread reads and writes
@@ -57,7 +58,7 @@
 //                   springs of the tile: segments, then batches
 //                                |                           |
 //                                v                           v
-//          force_a, force_b on places of the block        discard: on those of other blocks
+//          force_a, force_b on places of the block        discard: segments' on other blocks
 //                                |
 //                                v
 //          update of the tile's places: forces are taken and cleared
@@ -106,8 +107,8 @@
 //   gathered      of places: copied for a batch
 //   chunk         springs of a batch that are computed together
 //   table         rest lengths, dampings and parameters of one law's springs   spring_table.hpp
-//   field         one Scalar of a law's parameters
 //   column        one of these quantities, of the springs of a run or a batch
+//   field         one Scalar of a law's parameters: a column, if the law is plain arithmetic
 //   reader        goes through the columns of a run or a batch, a register at a time
 //   register      a vector register, which Eigen calls a packet                    register.hpp
 //   lane          one number of a register
