@@ -25,13 +25,15 @@ done
 awk '
     FILENAME ~ /plain$/ { plain += $1; next }
     { taut += $1 }
-    /::(add_forces|add_segment|add_list|steps|step_block|move)<false, false[,>]|Steps<.*::finite\(/ {
-        step += $1
+    /::(add_forces|add_segment|add_batch)<(false, )?\([a-z:]*Proportional\)0>/ { step += $1; next }
+    /::(steps|step_block|move)<false, false[,>]|StateMemory<.*::finite\(/ { step += $1; next }
+    /::(add_forces|add_segment|add_batch)<.*Proportional\)[012]>/ { others += $1; next }
+    /::(steps|step_block|move)<(true|false), / { others += $1; next }
+    / taut::fail|::message|to_string|basic_string|require_/ { words += $1; next }
+    / bench::taut_steps|::Sweep<.*::run<|StepLoop|SpringSystem<.*>::force\(|SpringSet<.*::pull</ {
+        ways += $1
         next
     }
-    /::(add_forces|add_segment|add_list|steps|step_block|move)<(true|false), / { others += $1; next }
-    / taut::fail|::message|to_string|basic_string|require_/ { words += $1; next }
-    / bench::taut_steps|::PlaneSteps<.*::run<|StepLoop|SpringSystem<.*>::force\(/ { ways += $1; next }
     { plan += $1 }
     function row(bytes, text) { printf "%7d  %5.1f  %s\n", bytes, bytes / plain, text }
     END {

@@ -7,14 +7,14 @@
 
 #include "../../model/spring_system.hpp"
 #include "../explicit_options.hpp"
-#include "plane_steps.hpp"
+#include "../sweep/sweep.hpp"
 #include "step_loop.hpp"
 
 namespace taut {
 
 namespace detail {
 
-/// Steps of an explicit method: springs in planes, whatever else by System::force.
+/// Steps of an explicit method: springs by a sweep, whatever else by System::force.
 template <class System>
 class ExplicitSteps {
 public:
@@ -29,7 +29,7 @@ public:
     const StepDamping& damping() const { return options_.damping; }
 
     /// @param update  update(x, v, a, h): x and v, of one step, by the acceleration a = M⁻¹f(x, v);
-    ///                arrays or Lanes
+    ///                arrays or registers
     template <class AnyState, class Update>
     Report run(const System& system, AnyState& state, Scalar h, Index count, const Update& update) {
         [[maybe_unused]] const auto added = options_.damping.times(static_cast<double>(h));
@@ -37,7 +37,7 @@ public:
             if (!system.has_external_force()) {
                 const Report report = StepLoop<State>::check(system, state, h);
                 if (!report) return report;
-                if (planes_.run(system, state, h, count, options_.threads, added, update)) {
+                if (sweep_.run(system, state, h, count, options_.threads, added, update)) {
                     return {Status::ok, static_cast<int>(std::max<Index>(count, 0))};
                 }
                 // Not finite: the steps below find out which step and which particle.
@@ -59,7 +59,7 @@ private:
     struct None {};
 
     ExplicitOptions options_;
-    std::conditional_t<is_spring_system_v<System>, PlaneSteps<System>, None> planes_;
+    std::conditional_t<is_spring_system_v<System>, sweep::Sweep<System>, None> sweep_;
     StepLoop<State> loop_;
     decltype(State::x) f_;  // force, Dim × n, N
 };

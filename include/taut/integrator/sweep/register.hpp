@@ -4,10 +4,10 @@
 
 #include <Eigen/Core>
 
-namespace taut::detail {
+namespace taut::detail::sweep {
 
-/// No register of Eigen's holds more scalars than this; arrays are padded by it.
-inline constexpr int most_lanes = 64 / sizeof(float);
+/// No register of Eigen's is wider, in scalars; arrays are padded by as many.
+inline constexpr int max_width = 64 / sizeof(float);
 
 template <class Packet>
 EIGEN_ALWAYS_INLINE Packet rsqrt_packet(const Packet& a) {
@@ -55,76 +55,84 @@ EIGEN_ALWAYS_INLINE __m512 select_less_packet(const __m512& a, const __m512& b, 
 }
 #endif
 
-/// One vector register of scalars with a scalar's arithmetic, on Eigen's packets: vectorised for
-/// whatever the compiler's flags allow (SSE2 on plain x86-64), one number where there is nothing.
+/// One vector register with a scalar's arithmetic, on Eigen's packets: as wide as the compiler's
+/// flags allow (SSE2 on plain x86-64), of one lane where there is nothing.
 template <class Scalar>
-struct Lanes {
+struct VectorRegister {
     using Packet = typename Eigen::internal::packet_traits<Scalar>::type;
-    static constexpr int size = Eigen::internal::unpacket_traits<Packet>::size;
+    static constexpr int width = Eigen::internal::unpacket_traits<Packet>::size;
 
     Packet packet;
 
-    Lanes() = default;
-    EIGEN_ALWAYS_INLINE Lanes(Scalar value) : packet(Eigen::internal::pset1<Packet>(value)) {}
-    static EIGEN_ALWAYS_INLINE Lanes of(const Packet& packet) {
-        Lanes lanes;
-        lanes.packet = packet;
-        return lanes;
+    VectorRegister() = default;
+    EIGEN_ALWAYS_INLINE VectorRegister(Scalar value)
+        : packet(Eigen::internal::pset1<Packet>(value)) {}
+    static EIGEN_ALWAYS_INLINE VectorRegister of(const Packet& packet) {
+        VectorRegister result;
+        result.packet = packet;
+        return result;
     }
-    static EIGEN_ALWAYS_INLINE Lanes load(const Scalar* from) {
+    static EIGEN_ALWAYS_INLINE VectorRegister load(const Scalar* from) {
         return of(Eigen::internal::ploadu<Packet>(from));
     }
     EIGEN_ALWAYS_INLINE void store(Scalar* to) const { Eigen::internal::pstoreu(to, packet); }
 
-    friend EIGEN_ALWAYS_INLINE Lanes operator+(const Lanes& a, const Lanes& b) {
+    friend EIGEN_ALWAYS_INLINE VectorRegister operator+(const VectorRegister& a,
+                                                        const VectorRegister& b) {
         return of(Eigen::internal::padd(a.packet, b.packet));
     }
-    friend EIGEN_ALWAYS_INLINE Lanes operator-(const Lanes& a, const Lanes& b) {
+    friend EIGEN_ALWAYS_INLINE VectorRegister operator-(const VectorRegister& a,
+                                                        const VectorRegister& b) {
         return of(Eigen::internal::psub(a.packet, b.packet));
     }
-    friend EIGEN_ALWAYS_INLINE Lanes operator*(const Lanes& a, const Lanes& b) {
+    friend EIGEN_ALWAYS_INLINE VectorRegister operator*(const VectorRegister& a,
+                                                        const VectorRegister& b) {
         return of(Eigen::internal::pmul(a.packet, b.packet));
     }
-    friend EIGEN_ALWAYS_INLINE Lanes operator/(const Lanes& a, const Lanes& b) {
+    friend EIGEN_ALWAYS_INLINE VectorRegister operator/(const VectorRegister& a,
+                                                        const VectorRegister& b) {
         return of(Eigen::internal::pdiv(a.packet, b.packet));
     }
-    friend EIGEN_ALWAYS_INLINE Lanes operator-(const Lanes& a) {
+    friend EIGEN_ALWAYS_INLINE VectorRegister operator-(const VectorRegister& a) {
         return of(Eigen::internal::pnegate(a.packet));
     }
-    EIGEN_ALWAYS_INLINE Lanes& operator+=(const Lanes& other) { return *this = *this + other; }
-    EIGEN_ALWAYS_INLINE Lanes& operator-=(const Lanes& other) { return *this = *this - other; }
-    EIGEN_ALWAYS_INLINE Lanes& operator*=(const Lanes& other) { return *this = *this * other; }
+    EIGEN_ALWAYS_INLINE VectorRegister& operator+=(const VectorRegister& other) {
+        return *this = *this + other;
+    }
+    EIGEN_ALWAYS_INLINE VectorRegister& operator-=(const VectorRegister& other) {
+        return *this = *this - other;
+    }
+    EIGEN_ALWAYS_INLINE VectorRegister& operator*=(const VectorRegister& other) {
+        return *this = *this * other;
+    }
 
-    friend EIGEN_ALWAYS_INLINE Lanes max(const Lanes& a, const Lanes& b) {
+    friend EIGEN_ALWAYS_INLINE VectorRegister max(const VectorRegister& a,
+                                                  const VectorRegister& b) {
         return of(Eigen::internal::pmax(a.packet, b.packet));
     }
-    friend EIGEN_ALWAYS_INLINE Lanes min(const Lanes& a, const Lanes& b) {
+    friend EIGEN_ALWAYS_INLINE VectorRegister min(const VectorRegister& a,
+                                                  const VectorRegister& b) {
         return of(Eigen::internal::pmin(a.packet, b.packet));
     }
-    friend EIGEN_ALWAYS_INLINE Lanes sqrt(const Lanes& a) {
+    friend EIGEN_ALWAYS_INLINE VectorRegister sqrt(const VectorRegister& a) {
         return of(Eigen::internal::psqrt(a.packet));
     }
     /// 1/√a of normal numbers, to a few ulp.
-    friend EIGEN_ALWAYS_INLINE Lanes reciprocal_sqrt(const Lanes& a) {
+    friend EIGEN_ALWAYS_INLINE VectorRegister reciprocal_sqrt(const VectorRegister& a) {
         return of(rsqrt_packet(a.packet));
     }
     /// `value` in the lanes where `sign` is ≥ 0, and 0 in the others, whatever they hold.
-    friend EIGEN_ALWAYS_INLINE Lanes unless_negative(const Lanes& sign, const Lanes& value) {
+    friend EIGEN_ALWAYS_INLINE VectorRegister unless_negative(const VectorRegister& sign,
+                                                              const VectorRegister& value) {
         return of(unless_negative_packet(sign.packet, value.packet));
     }
     /// Lane by lane, `yes` where a < b and `no` elsewhere, whatever the other one holds.
-    friend EIGEN_ALWAYS_INLINE Lanes where_less(const Lanes& a, const Lanes& b, const Lanes& yes,
-                                                const Lanes& no) {
+    friend EIGEN_ALWAYS_INLINE VectorRegister where_less(const VectorRegister& a,
+                                                         const VectorRegister& b,
+                                                         const VectorRegister& yes,
+                                                         const VectorRegister& no) {
         return of(select_less_packet(a.packet, b.packet, yes.packet, no.packet));
     }
 };
 
-/// visit(d) for each of the coordinates, unrolled whatever the compiler's flags.
-template <int Dim, class Visitor>
-EIGEN_ALWAYS_INLINE void for_each_axis(Visitor&& visit) {
-    visit(0);
-    if constexpr (Dim > 1) visit(1);
-    if constexpr (Dim > 2) visit(2);
-}
-
-}  // namespace taut::detail
+}  // namespace taut::detail::sweep

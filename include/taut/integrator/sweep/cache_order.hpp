@@ -7,23 +7,23 @@
 #include <utility>
 #include <vector>
 
-namespace taut::detail {
+namespace taut::detail::sweep {
 
-/// Two particles that a spring joins.
-using Joint = std::pair<int, int>;
+/// Two particles that a spring joins, by their indices in the system.
+using Edge = std::pair<int, int>;
 
-/// A numbering of n particles in which joined ones are close (Cuthill and McKee, 1969, reversed):
-/// particle order[i] of the system is number i.
-inline std::vector<int> cache_order(int n, const std::vector<Joint>& joints) {
+/// An order of n particles that brings the ends of springs close together (Cuthill and McKee, 1969,
+/// reversed): particle order[p] of the system goes to place p.
+inline std::vector<int> cache_order(int n, const std::vector<Edge>& edges) {
     std::vector<int> first(static_cast<std::size_t>(n) + 1, 0);
-    for (const auto& [a, b] : joints) {
+    for (const auto& [a, b] : edges) {
         ++first[static_cast<std::size_t>(a) + 1];
         ++first[static_cast<std::size_t>(b) + 1];
     }
     for (std::size_t i = 0; i + 1 < first.size(); ++i) first[i + 1] += first[i];
-    std::vector<int> neighbour(2 * joints.size());
+    std::vector<int> neighbour(2 * edges.size());
     auto next = first;
-    for (const auto& [a, b] : joints) {
+    for (const auto& [a, b] : edges) {
         neighbour[next[a]++] = b;
         neighbour[next[b]++] = a;
     }
@@ -55,4 +55,4 @@ inline std::vector<int> cache_order(int n, const std::vector<Joint>& joints) {
     return order;
 }
 
-}  // namespace taut::detail
+}  // namespace taut::detail::sweep

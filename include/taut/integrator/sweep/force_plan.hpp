@@ -6,36 +6,29 @@
 #include <tuple>
 #include <vector>
 
-#include "detail/cache_order.hpp"
-#include "detail/spring_plan.hpp"
-#include "spring_system.hpp"
+#include "../../model/spring_system.hpp"
+#include "cache_order.hpp"
+#include "law_plan.hpp"
 
-namespace taut {
+namespace taut::detail::sweep {
 
-/// The spring forces of a SpringSystem as a sweep over memory in order, for steppers.
-///
-/// Springs of one offset b − a and consecutive a become a run: no indices, no gather; a grid is a
-/// handful of them. Where most springs fit no run, particles get a cache-friendly numbering, seen
-/// only in the planes (one array a coordinate) that this class reads and writes.
+/// All springs of a SpringSystem, law by law, and the places of its particles. Where most springs
+/// are scattered, particles get an order that brings ends together; only the planes that this class
+/// reads and writes know of it.
 template <class System>
 class ForcePlan {
 public:
     using Scalar = typename System::Scalar;
     static constexpr int Dim = System::Dim;
-    using Planes = detail::Planes<Scalar>;
-    using Sweep = detail::BlockSweep<Scalar>;
 
-    /// Brings the plan up to date with particles, springs and pins. @returns whether it changed
+    /// Brings the plan up to date with particles and springs. @returns whether it changed
     bool update(const System& system);
 
-    /// n, the number of particles.
+    /// n, the number of particles and of places.
     Index size() const { return size_; }
-    /// Scalars from one plane to the next: size() and what a whole register may touch beyond it.
+    /// Scalars from one plane to the next: size() and the padding.
     Index stride() const { return stride_; }
-    /// Blocks of particles that a sweep goes through one by one.
-    int blocks() const {
-        return static_cast<int>((size_ + detail::block_size - 1) / detail::block_size);
-    }
+    int blocks() const { return static_cast<int>((size_ + block_size - 1) / block_size); }
 
     /// Whether a spring has a damper of its own.
     bool damped() const {
@@ -44,7 +37,7 @@ public:
 
     /// Planes ← points, Dim × size(), converted where they hold another number type.
     template <class Matrix>
-    void to_planes(const Matrix& points, const Planes& planes) const {
+    void to_planes(const Matrix& points, const Planes<Scalar>& planes) const {
         for_each_place([&](Index i, Index place) {
             for (int d = 0; d < points.rows(); ++d)
                 planes[d][place] = static_cast<Scalar>(points(d, i));
@@ -52,7 +45,7 @@ public:
     }
     /// Points ← planes.
     template <class Matrix>
-    void from_planes(const Planes& planes, Matrix& points) const {
+    void from_planes(const Planes<Scalar>& planes, Matrix& points) const {
         for_each_place([&](Index i, Index place) {
             for (int d = 0; d < points.rows(); ++d) {
                 points(d, i) = static_cast<typename Matrix::Scalar>(planes[d][place]);
@@ -60,18 +53,16 @@ public:
         });
     }
 
-    /// Adds the forces of springs and of all their damping that the sweep's tile brings to its
-    /// block.
-    void add_forces(const Sweep& sweep) const {
+    /// Adds the forces of the tile's springs, and of all their damping, on the places of its block.
+    void add_forces(const TileView<Scalar>& view) const {
         std::apply(
             [&](const auto&... plan) {
                 const auto add = [&](auto kind) {
-                    (plan.template add_forces<decltype(kind)::value>(sweep), ...);
+                    (plan.template add_forces<decltype(kind)::value>(view), ...);
                 };
-                using detail::Proportional;
-                if (sweep.damping.projected > 0) {
+                if (view.damping.projected > 0) {
                     add(std::integral_constant<Proportional, Proportional::projected>{});
-                } else if (sweep.damping.graph > 0) {
+                } else if (view.damping.graph > 0) {
                     add(std::integral_constant<Proportional, Proportional::graph>{});
                 } else {
                     add(std::integral_constant<Proportional, Proportional::none>{});
@@ -85,7 +76,7 @@ private:
     struct PlanOf;
     template <class Law>
     struct PlanOf<SpringSet<Scalar, Law>> {
-        using type = detail::SpringPlan<Scalar, Dim, Law>;
+        using type = LawPlan<Scalar, Dim, Law>;
     };
     template <class Sets>
     struct PlansOf;
@@ -102,11 +93,12 @@ private:
             for (Index place = 0; place < size_; ++place) visit(order_[place], place);
         }
     }
-    template <class Number>
-    std::vector<detail::SpringRuns> runs(const System& system, const Number& number) const;
+    /// The springs of each law.
+    template <class PlaceOf>
+    std::vector<SortedSprings> sort(const System& system, const PlaceOf& place_of) const;
 
     typename PlansOf<typename System::SpringSets>::type plans_;
-    std::vector<int> order_;  // particle at each place; empty: particle i at place i
+    std::vector<int> order_;  // the particle at each place; empty: particle i at place i
     Index size_ = 0;
     Index stride_ = 0;
     std::uint64_t springs_ = 0;  // the system's spring_revision()
@@ -114,12 +106,12 @@ private:
 };
 
 template <class System>
-template <class Number>
-std::vector<detail::SpringRuns> ForcePlan<System>::runs(const System& system,
-                                                        const Number& number) const {
-    std::vector<detail::SpringRuns> runs;
-    system.for_each_set([&](const auto& set) { runs.emplace_back(set, number); });
-    return runs;
+template <class PlaceOf>
+std::vector<SortedSprings> ForcePlan<System>::sort(const System& system,
+                                                   const PlaceOf& place_of) const {
+    std::vector<SortedSprings> springs;
+    system.for_each_set([&](const auto& set) { springs.emplace_back(set, place_of); });
+    return springs;
 }
 
 template <class System>
@@ -128,31 +120,30 @@ bool ForcePlan<System>::update(const System& system) {
     springs_ = system.spring_revision();
     built_ = true;
     size_ = system.size();
-    // No two of a particle's planes begin at the same place of a page: a store to one would hold up
+    // No two planes of one vector begin at the same byte of a page: a store to one would hold up
     // loads of the other.
     const Index page = static_cast<Index>(4096 / sizeof(Scalar));
-    stride_ = (size_ + 2 * detail::most_lanes + page - 1) / page * page + page / 8;
+    stride_ = (size_ + 2 * max_width + page - 1) / page * page + page / 8;
 
-    auto springs = runs(system, [](int i) { return i; });
-    std::size_t in_rest = 0;
-    for (const auto& set : springs) in_rest += set.rest().size();
+    auto springs = sort(system, [](int i) { return i; });
+    std::size_t scattered = 0;
+    for (const auto& of_law : springs) scattered += of_law.scattered().size();
     order_.clear();
-    if (2 * in_rest > static_cast<std::size_t>(system.spring_count())) {
-        std::vector<detail::Joint> joints;
+    if (2 * scattered > static_cast<std::size_t>(system.spring_count())) {
+        std::vector<Edge> edges;
         system.for_each_spring([&](Index a, Index b) {
-            joints.emplace_back(static_cast<int>(a), static_cast<int>(b));
+            edges.emplace_back(static_cast<int>(a), static_cast<int>(b));
         });
-        order_ = detail::cache_order(static_cast<int>(size_), joints);
+        order_ = cache_order(static_cast<int>(size_), edges);
         std::vector<int> place(order_.size());
-        for (std::size_t i = 0; i < order_.size(); ++i) place[order_[i]] = static_cast<int>(i);
-        springs = runs(system, [&](int i) { return place[i]; });
+        for (std::size_t p = 0; p < order_.size(); ++p) place[order_[p]] = static_cast<int>(p);
+        springs = sort(system, [&](int i) { return place[i]; });
     }
     system.for_each_set([&, next = springs.cbegin()](const auto& set) mutable {
         using Plan = typename PlanOf<std::decay_t<decltype(set)>>::type;
-        std::get<Plan>(plans_) =
-            Plan(set, *next++, blocks() * (detail::block_size / detail::tile_size));
+        std::get<Plan>(plans_) = Plan(set, *next++, blocks() * tiles_per_block);
     });
     return true;
 }
 
-}  // namespace taut
+}  // namespace taut::detail::sweep

@@ -8,7 +8,7 @@
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
 
-namespace taut_test::plane_steps_test {
+namespace taut_test::sweep_test {
 
 namespace {
 
@@ -90,8 +90,8 @@ taut::SpringSystem<Scalar, Dim> net(Random& random, Index rows, Index columns) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("plane_steps: a scene without order is stepped as by the plain path",
-                   "[integrator]", (Case<float, 2>), (Case<double, 1>), (Case<double, 3>)) {
+TEMPLATE_TEST_CASE("sweep: a scene without order is stepped as by the plain path", "[integrator]",
+                   (Case<float, 2>), (Case<double, 1>), (Case<double, 3>)) {
     using Scalar = typename TestType::Scalar;
     Random random(41);
     for (const bool damped : {false, true}) {
@@ -107,8 +107,8 @@ TEMPLATE_TEST_CASE("plane_steps: a scene without order is stepped as by the plai
     }
 }
 
-TEMPLATE_TEST_CASE("plane_steps: grids of any width are stepped as by the plain path",
-                   "[integrator]", float, double) {
+TEMPLATE_TEST_CASE("sweep: grids of any width are stepped as by the plain path", "[integrator]",
+                   float, double) {
     Random random(42);
     for (const Index columns : {17, 30, 64}) {
         for (const bool damped : {false, true}) {
@@ -125,8 +125,8 @@ TEMPLATE_TEST_CASE("plane_steps: grids of any width are stepped as by the plain 
     }
 }
 
-TEMPLATE_TEST_CASE("plane_steps: a lone damper along a grid acts in every block", "[integrator]",
-                   float, double) {
+TEMPLATE_TEST_CASE("sweep: a lone damper along a grid acts in every block", "[integrator]", float,
+                   double) {
     Random random(43);
     auto system = net<TestType, 2>(random, 80, 60);
     for (Index i = 0; i + 2000 < system.size(); i += 7) {
@@ -136,8 +136,7 @@ TEMPLATE_TEST_CASE("plane_steps: a lone damper along a grid acts in every block"
     check_equals_plain_path<taut::SymplecticEuler>(system, random_state(random, system));
 }
 
-TEMPLATE_TEST_CASE("plane_steps: every law, in registers or one by one", "[integrator]", float,
-                   double) {
+TEMPLATE_TEST_CASE("sweep: every law, in registers or one by one", "[integrator]", float, double) {
     Random random(44);
     RandomOptions options;
     options.particles = 60;
@@ -156,7 +155,7 @@ TEMPLATE_TEST_CASE("plane_steps: every law, in registers or one by one", "[integ
     }
 }
 
-TEMPLATE_TEST_CASE("plane_steps: springs of no length are the plain path's", "[integrator]", float,
+TEMPLATE_TEST_CASE("sweep: springs of no length are the plain path's", "[integrator]", float,
                    double) {
     Random random(45);
     for (const bool rest : {false, true}) {
@@ -184,7 +183,7 @@ TEMPLATE_TEST_CASE("plane_steps: springs of no length are the plain path's", "[i
     }
 }
 
-TEST_CASE("plane_steps: divergence late in a long call names the plain path's step and particle",
+TEST_CASE("sweep: divergence late in a long call names the plain path's step and particle",
           "[integrator]") {
     Random random(47);
     auto system = net<double, 2>(random, 30, 30);
@@ -201,10 +200,10 @@ TEST_CASE("plane_steps: divergence late in a long call names the plain path's st
     CHECK(same_bits(state, start));
 }
 
-TEST_CASE("plane_steps: a number of threads below one is refused", "[integrator][bad_input]") {
+TEST_CASE("sweep: a number of threads below one is refused", "[integrator][bad_input]") {
     const auto cloth = taut::hanging_cloth<double>({3, 3});
     CHECK_THROWS_WITH(taut::SymplecticEuler(cloth, {0}),
                       ContainsSubstring("threads is 0; it must be >= 1"));
 }
 
-}  // namespace taut_test::plane_steps_test
+}  // namespace taut_test::sweep_test

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <tuple>
+#include <vector>
+
+#include "register.hpp"
+
+namespace taut::detail::sweep {
+
+/// Fewer springs of one offset are not worth a run.
+inline constexpr int shortest_run = 16;
+
+/// A spring by the places of its ends, a < b, and its index in the set.
+struct PlacedSpring {
+    int a;
+    int b;
+    int index;
+
+    int offset() const { return b - a; }
+    friend bool operator<(const PlacedSpring& s, const PlacedSpring& t) {
+        return std::tuple(s.offset(), s.a, s.index) < std::tuple(t.offset(), t.a, t.index);
+    }
+};
+
+/// The springs of a set sorted into runs, and the scattered ones that fit none.
+class SortedSprings {
+public:
+    /// Springs of one offset and ascending a, among the sorted ones.
+    struct Run {
+        std::vector<PlacedSpring>::const_iterator begin, end;
+        const PlacedSpring& front() const { return *begin; }
+        const PlacedSpring& back() const { return *(end - 1); }
+    };
+
+    /// @param place_of  place_of(i): the place of particle i
+    template <class Set, class PlaceOf>
+    SortedSprings(const Set& set, const PlaceOf& place_of) {
+        springs_.reserve(set.a.size());
+        for (std::size_t s = 0; s < set.a.size(); ++s) {
+            const int a = place_of(set.a[s]);
+            const int b = place_of(set.b[s]);
+            springs_.push_back({std::min(a, b), std::max(a, b), static_cast<int>(s)});
+        }
+        std::sort(springs_.begin(), springs_.end());
+        for (Run run{springs_.cbegin(), {}}; run.begin != springs_.cend(); run.begin = run.end) {
+            run.end = run.begin + 1;
+            while (run.end != springs_.cend() && goes_on(run.back(), *run.end)) ++run.end;
+            const auto count = run.end - run.begin;
+            if (count >= shortest_run && 2 * count > run.back().a - run.front().a) {
+                runs_.push_back(run);
+            } else {
+                scattered_.insert(scattered_.end(), run.begin, run.end);
+            }
+        }
+    }
+    // A copy's runs would be among the springs of the original.
+    SortedSprings(const SortedSprings&) = delete;
+    SortedSprings(SortedSprings&&) = default;
+    SortedSprings& operator=(SortedSprings&&) = default;
+
+    const std::vector<Run>& runs() const { return runs_; }
+    const std::vector<PlacedSpring>& scattered() const { return scattered_; }
+
+private:
+    /// A run goes on over a short gap, such as that between the rows of a grid.
+    static bool goes_on(const PlacedSpring& last, const PlacedSpring& next) {
+        return next.offset() == last.offset() && next.a > last.a && next.a <= last.a + max_width;
+    }
+
+    std::vector<PlacedSpring> springs_;  // by offset, then by a
+    std::vector<Run> runs_;
+    std::vector<PlacedSpring> scattered_;
+};
+
+}  // namespace taut::detail::sweep

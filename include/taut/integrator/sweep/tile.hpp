@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "../../model/damping.hpp"
+#include "planes.hpp"
+
+namespace taut::detail::sweep {
+
+/// Places of a block. A constant, so that the order of all sums is the same for any number of
+/// threads.
+inline constexpr int block_size = 2048;
+/// Places of a tile: its planes of positions, velocities and forces stay in the first cache.
+inline constexpr int tile_size = 256;
+inline constexpr int tiles_per_block = block_size / tile_size;
+
+/// What the springs of one tile read and write.
+template <class Scalar>
+struct TileView {
+    Planes<const Scalar> x;  // m, of all places
+    Planes<const Scalar> v;  // m/s, of all places
+    StiffnessDamping<Scalar> damping;
+    int block;
+    int tile;  // among those of all blocks
+    /// Forces on the places of the block, N: those on ends a and those on ends b. Apart, because a
+    /// register stored to one address and loaded from the next would wait for the store.
+    Planes<Scalar> force_a;
+    Planes<Scalar> force_b;
+    /// For forces on places of other blocks. Its numbers are never used.
+    Planes<Scalar> discard;
+};
+
+}  // namespace taut::detail::sweep
