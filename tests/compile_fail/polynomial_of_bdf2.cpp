@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-// EXPECT: taut::method::Absent
+// EXPECT: Absent
 
 #include <taut/method/bdf2.hpp>
 

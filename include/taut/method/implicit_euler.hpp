@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <limits>
 
 #include "detail/scalar_mode.hpp"

@@ -43,11 +43,11 @@ struct LimitedByStiffness {};
 /// Nothing but a K that is not positive semi-definite, and on springs K⁺ is [T20], [T21], [T27].
 struct LimitedByIndefiniteness {};
 
-/// The steps that are safe at every pose of a scene, linearised.
+/// Which steps a moving scene may be given, linearised at each of its poses.
 enum class AnyPose {
-    no_step,    ///< none is certified: Guarded and recommend() pass the method over
+    no_step,    ///< none is certified: Guarded refuses the method, recommend() passes it over
     limited,    ///< those below any_pose_limit [T23]
-    every_step  ///< all
+    every_step  ///< all, of an implicit method
 };
 
 /// Where the energy that a method keeps lies, in shares of E = T + V [T36].

@@ -61,7 +61,8 @@ struct LimitingMode {
 /// Where springs are compressed, K⁺ stands for K in every answer and the growth of the physics is
 /// given apart [T27]. A certified step holds on both sides of a law's kink that lies within
 /// rounding of a spring's length; what refutes takes the stiffer side. Zero modes never count as
-/// unstable.
+/// unstable. BDF2, of which nothing is proved beside compressed springs, is refused by name in all
+/// but spectral_radius().
 /// @tparam Cholesky  the factorisation behind proofs (see Prover)
 template <class Scalar, class Cholesky = EigenCholesky>
 class Stability {
@@ -258,7 +259,8 @@ double Stability<Scalar, Cholesky>::spectral_radius(Method method, double h) con
     require_positive("Stability::spectral_radius", "h", h);
     if (size() == 0) return 0;
     if (size() <= dense_size) return DenseAnalysis<>(*pencil_).spectral_radius(method, h);
-    // For fixed h the radius is quasi-convex in k, so the ends of the spectrum decide.
+    // For fixed h the radius is quasi-convex in k (of BDF2 known without damping alone), so the
+    // ends of the spectrum decide.
     double radius = 0;
     for (const double sign : {1.0, -1.0}) {
         const RitzPair end = largest_ritz_pair(*pencil_, {0, sign, 0});
