@@ -16,7 +16,8 @@ using taut::Method;
 
 using Gradients = taut::ConjugateGradient<double, 3>;
 using Stepper = std::variant<taut::ExplicitEuler<Cloth>, taut::SymplecticEuler<Cloth>,
-                             taut::VelocityVerlet<Cloth>, taut::ImplicitEuler<Cloth, Gradients>>;
+                             taut::VelocityVerlet<Cloth>, taut::ImplicitEuler<Cloth, Gradients>,
+                             taut::Bdf2<Cloth, Gradients>>;
 
 struct Lab {
     taut::ClothOptions options;
@@ -51,20 +52,17 @@ void build(double stiffness, double mass, double alpha, double drag) {
 
 void take_stepper(Method method) {
     if (lab.stepper && lab.stepper->index() == static_cast<std::size_t>(method)) return;
-    const auto take = [](auto kind) { lab.stepper.emplace(kind, lab.cloth); };
-    switch (method) {
-        case Method::explicit_euler: return take(std::in_place_index<0>);
-        case Method::symplectic_euler: return take(std::in_place_index<1>);
-        case Method::velocity_verlet: return take(std::in_place_index<2>);
-        case Method::implicit_euler: {
-            take(std::in_place_index<3>);
+    taut::method::visit(method, [](auto descriptor) {
+        using Descriptor = decltype(descriptor);
+        constexpr auto index = static_cast<std::size_t>(Descriptor::method);
+        static_assert(std::variant_alternative_t<index, Stepper>::method == Descriptor::method);
+        auto& stepper = lab.stepper.emplace(std::in_place_index<index>, lab.cloth);
+        if constexpr (Descriptor::is_implicit) {
             // As exact as what recommend() times.
-            const double tolerance = taut::Candidate{}.solver_tolerance;
-            std::get<3>(*lab.stepper).configure([&](Gradients& solver) {
-                solver.setTolerance(tolerance);
-            });
+            std::get<index>(stepper).configure(
+                [](Gradients& solver) { solver.setTolerance(taut::Candidate{}.solver_tolerance); });
         }
-    }
+    });
 }
 
 taut::Report step(double h, taut::Index count) {
@@ -72,15 +70,13 @@ taut::Report step(double h, taut::Index count) {
                       *lab.stepper);
 }
 
-/// The limit at any pose, linearised; explicit Euler has none, implicit Euler no need of one.
+/// The limit at any pose, linearised; explicit Euler has none, implicit steps no need of one.
 double any_pose(Method method) {
-    switch (method) {
-        case Method::explicit_euler: return 0;
-        case Method::symplectic_euler:
-        case Method::velocity_verlet: return taut::any_pose_limit(lab.cloth).certified;
-        case Method::implicit_euler: return std::numeric_limits<double>::infinity();
-    }
-    return 0;
+    using taut::method::AnyPose;
+    const AnyPose safe =
+        taut::method::visit(method, [](auto descriptor) { return decltype(descriptor)::any_pose; });
+    if (safe == AnyPose::limited) return taut::any_pose_limit(lab.cloth).certified;
+    return safe == AnyPose::every_step ? std::numeric_limits<double>::infinity() : 0;
 }
 
 }  // namespace
@@ -158,10 +154,9 @@ int lab_plan_count() { return static_cast<int>(lab.advice.plans.size()); }
 
 const LabPlan* lab_plan(int i) {
     const taut::Plan& plan = lab.advice.plans[static_cast<std::size_t>(i)];
-    const bool implicit = plan.candidate.scheme == taut::Scheme::implicit_euler;
+    const Method method = plan.candidate.scheme;
     const bool gradients = plan.candidate.solver == taut::LinearSolver::conjugate_gradient;
-    const Method method = implicit ? Method::implicit_euler : Method::symplectic_euler;
-    lab.plan = {static_cast<double>(method), implicit && gradients ? 1.0 : 0.0,
+    lab.plan = {static_cast<double>(method), is_implicit(method) && gradients ? 1.0 : 0.0,
                 static_cast<double>(plan.substeps), plan.candidate.h, plan.cost};
     return &lab.plan;
 }

@@ -10,7 +10,7 @@
 #endif
 
 // One cloth for a page, or for a native program, to play with. Methods count as in taut::Method:
-// explicit Euler, symplectic Euler, velocity Verlet, implicit Euler.
+// explicit Euler, symplectic Euler, velocity Verlet, implicit Euler, BDF2.
 
 extern "C" {
 
@@ -53,8 +53,8 @@ LAB_CALL const float* lab_drawn_positions();
 /// mode with the multiplier −1 has this amplitude; slow motion has next to none.
 LAB_CALL const float* lab_ringing();
 
-/// Limits of `method` for the cloth as it was laid out, whatever its pose now; h, s, is the step
-/// that the window of alpha is about.
+/// Limits of `method`, which is not BDF2, for the cloth as it was laid out, whatever its pose now;
+/// h, s, is the step that the window of alpha is about.
 LAB_CALL const LabLimits* lab_analyse(int method, double h);
 /// The cause of the last analysis, as one sentence.
 LAB_CALL const char* lab_cause();

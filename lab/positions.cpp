@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
-// The positions after a hundred steps of each method, one coordinate a line: what check_same.mjs
-// compares the WebAssembly with.
+// The positions after a hundred steps of each method of the page, one coordinate a line: what
+// check_same.mjs compares the WebAssembly with.
 
 #include <cstdio>
 

@@ -16,6 +16,28 @@ namespace soundness {
 
 using taut::Method;
 
+// h, s, was called safe; or there is a vector that proves it is not: by what limits the method.
+inline Verdict certified_by(taut::method::LimitedByDamping, const Exact& e, double h,
+                            double admitted) {
+    return std::isinf(h) ? certified_always_explicit(e) : certified_explicit(e, h, admitted);
+}
+inline Verdict certified_by(taut::method::LimitedByStiffness, const Exact& e, double h, double) {
+    return std::isinf(h) ? certified_always(e) : certified_symplectic(e, h);
+}
+inline Verdict certified_by(taut::method::LimitedByIndefiniteness, const Exact& e, double h,
+                            double) {
+    return std::isinf(h) ? Verdict::holds : certified_implicit(e, h);
+}
+inline Verdict refuted_by(taut::method::LimitedByDamping, const Exact& e, const Real& h) {
+    return refuted_explicit(e, h);
+}
+inline Verdict refuted_by(taut::method::LimitedByStiffness, const Exact& e, const Real& h) {
+    return refuted_symplectic(e, h);
+}
+inline Verdict refuted_by(taut::method::LimitedByIndefiniteness, const Exact& e, const Real& h) {
+    return refuted_implicit(e, h);
+}
+
 /// What was claimed how often, and what of it is false.
 struct Tally {
     struct Count {
@@ -75,25 +97,18 @@ public:
         if (std::isfinite(refuted)) {
             possible(label + ": refuted", refuted, [&](const Exact& e) {
                 const Real h = refuted > 0 ? Real(refuted) : tiny_step(e);
-                switch (method) {
-                    case Method::explicit_euler: return refuted_explicit(e, h);
-                    case Method::implicit_euler: return refuted_implicit(e, h);
-                    default: return refuted_symplectic(e, h);
-                }
+                return taut::method::visit_limited("Judge", method, [&](auto descriptor) {
+                    return refuted_by(typename decltype(descriptor)::Limit{}, e, h);
+                });
             });
         }
     }
     /// h, s, was called safe.
     void certifies(Method method, const std::string& claim, double h, double admitted) {
         holds(claim, h, [&](const Exact& e) {
-            switch (method) {
-                case Method::explicit_euler:
-                    return std::isinf(h) ? certified_always_explicit(e)
-                                         : certified_explicit(e, h, admitted);
-                case Method::implicit_euler:
-                    return std::isinf(h) ? Verdict::holds : certified_implicit(e, h);
-                default: return std::isinf(h) ? certified_always(e) : certified_symplectic(e, h);
-            }
+            return taut::method::visit_limited("Judge", method, [&](auto descriptor) {
+                return certified_by(typename decltype(descriptor)::Limit{}, e, h, admitted);
+            });
         });
     }
     void spectrum(const taut::StiffnessSpectrum& spectrum) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-// EXPECT: explicit Euler has no limit that holds at every pose
+// EXPECT: has no limit that holds at every pose
 
 #include <taut/integrator/explicit_euler.hpp>
 #include <taut/integrator/guarded.hpp>

@@ -40,8 +40,8 @@ Balance balance(const System& system, typename System::State state, double share
         share * static_cast<double>(taut::any_pose_limit(system).certified));
     const auto step = static_cast<double>(h);
     const double start = books_of(system, state, method).kept(method, step);
-    taut::detail::WorkMeter<System> meter;
-    meter.start(method, step, 1);
+    taut::detail::WorkMeter<System, taut::method::Of<method>> meter;
+    meter.start(step, 1);
     Stepper stepper(system);
     Balance result;
     for (int i = 0; i < steps; ++i) {

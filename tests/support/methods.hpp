@@ -2,12 +2,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <taut/core/method.hpp>
+#include <taut/method/visit.hpp>
+#include <vector>
 
 namespace taut_test {
 
-inline constexpr taut::Method all_methods[] = {
-    taut::Method::explicit_euler, taut::Method::symplectic_euler, taut::Method::velocity_verlet,
-    taut::Method::implicit_euler};
+/// Those that Stability has a proof for.
+inline const std::vector<taut::Method> limited_methods = [] {
+    std::vector<taut::Method> found;
+    for (int i = 0; i <= static_cast<int>(taut::Method::last); ++i) {
+        const auto method = static_cast<taut::Method>(i);
+        if (!taut::method::is_limited_by<taut::method::Absent>(method)) found.push_back(method);
+    }
+    return found;
+}();
 
 }  // namespace taut_test

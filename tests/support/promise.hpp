@@ -16,7 +16,7 @@ namespace taut_test {
 template <class Stepper>
 struct Promise {
     using Scalar = typename Stepper::Scalar;
-    static constexpr bool implicit = Stepper::method == taut::Method::implicit_euler;
+    static constexpr bool implicit = taut::is_implicit(Stepper::method);
     static constexpr double swing = implicit                                            ? 1
                                     : Stepper::method == taut::Method::symplectic_euler ? 3.9
                                                                                         : 2.4;

@@ -8,7 +8,7 @@
 #include <complex>
 #include <limits>
 #include <optional>
-#include <taut/core/method.hpp>
+#include <taut/method/method.hpp>
 #include <taut/stability/stability.hpp>
 #include <utility>
 #include <vector>

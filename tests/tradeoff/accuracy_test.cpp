@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include <taut/scene/chain.hpp>
-#include <taut/stability/mode.hpp>
+#include <taut/method/mode.hpp>
 #include <taut/tradeoff/mode_probe.hpp>
 
 #include "../support/catch.hpp"
@@ -75,26 +75,6 @@ TEST_CASE("accuracy: at small steps the errors of the theory's section 12", "[tr
             CHECK_THAT(error.artificial_damping,
                        WithinAbs(term.damping * scale, z * z * scale + 1e-15));
             CHECK_THAT(error.period_error, WithinAbs(term.period * z * z, z * z * z));
-        }
-    }
-}
-
-TEST_CASE("accuracy: the multiplier is one of those that stability is judged by", "[tradeoff]") {
-    Random random(901);
-    const std::pair<Scheme, Method> pairs[] = {{Scheme::explicit_euler, Method::explicit_euler},
-                                               {Scheme::symplectic_euler, Method::symplectic_euler},
-                                               {Scheme::velocity_verlet, Method::velocity_verlet},
-                                               {Scheme::implicit_euler, Method::implicit_euler}};
-    for (int repeat = 0; repeat < 500; ++repeat) {
-        const double z = std::exp2(random.uniform(-12, 3));
-        const double zeta = random.uniform(0, 0.99);
-        for (const auto& [scheme, method] : pairs) {
-            INFO(name(scheme) << ", z = " << z << ", zeta = " << zeta);
-            const auto mu = 1.0 + taut::detail::multiplier_less_one(scheme, z, zeta);
-            const auto known = taut::multipliers(method, 1, 2 * zeta, z);
-            CHECK(std::min(std::abs(mu - known[0]), std::abs(mu - known[1])) < 1e-6);
-            CHECK_THAT(std::abs(mu),
-                       WithinAbs(taut::spectral_radius(method, 1, 2 * zeta, z), 1e-6));
         }
     }
 }

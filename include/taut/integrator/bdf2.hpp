@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "../method/bdf2.hpp"
 #include "../solver/block_ordering.hpp"
 #include "detail/last_state.hpp"
 #include "detail/step_equation.hpp"
@@ -38,7 +39,8 @@ class Bdf2 {
 public:
     using Scalar = typename System::Scalar;
     using State = typename System::State;
-    static constexpr int order = 2;
+    static constexpr Method method = Method::bdf2;
+    static constexpr int order = method::Bdf2::order;
     static constexpr double max_ratio = 2;
     static constexpr bool symmetric =
         !std::is_same_v<std::decay_t<System>, GeneralLinearSystem<Scalar>>;

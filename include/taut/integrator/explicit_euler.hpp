@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "../core/method.hpp"
+#include "../method/explicit_euler.hpp"
 #include "detail/explicit_steps.hpp"
 
 namespace taut {
@@ -20,7 +20,7 @@ public:
     using State = typename System::State;
     using Options = ExplicitOptions;
     static constexpr Method method = Method::explicit_euler;
-    static constexpr int order = 1;
+    static constexpr int order = method::ExplicitEuler::order;
 
     /// Keeps a reference: the system must outlive the stepper.
     explicit ExplicitEuler(const System& system, const Options& options = {})

@@ -52,9 +52,9 @@ public:
     using Scalar = typename System::Scalar;
     using State = typename System::State;
     static constexpr Method method = detail::guarded_method<Stepper>();
-    static_assert(method != Method::explicit_euler,
-                  "taut::Guarded: explicit Euler has no limit that holds at every pose; guard "
-                  "SymplecticEuler, which costs the same");
+    static_assert(method::Of<method>::any_pose != method::AnyPose::no_step,
+                  "taut::Guarded: the stepper's method, as explicit Euler, has no limit that holds "
+                  "at every pose; guard SymplecticEuler, which costs the same");
 
     /// What a frame may cost, and what counts as a gain of energy.
     struct Options {
@@ -109,8 +109,7 @@ public:
     const std::optional<StepLimit<Scalar>>& limit() const { return limit_; }
 
 private:
-    static constexpr bool limited =
-        method == Method::symplectic_euler || method == Method::velocity_verlet;
+    static constexpr bool limited = method::Of<method>::any_pose == method::AnyPose::limited;
 
     template <class Stored>
     bool holds(const StateView<Stored, System::Dim>& view) const {
@@ -154,7 +153,7 @@ private:
     detail::EnergyBooks start_books_;
     detail::EnergyAccount account_;
     detail::EnergyAccount::Frame frame_;
-    detail::WorkMeter<System> meter_;
+    detail::WorkMeter<System, method::Of<method>> meter_;
     detail::Refinement refinement_;
     Points<Scalar, System::Dim> forces_;  // workspace
     State viewed_;                        // of a StateView
@@ -234,7 +233,7 @@ Report Guarded<Stepper, System>::attempt(State& state, GuardedReport<Scalar>& re
                                          Respond& respond) {
     constexpr bool responds = !std::is_same_v<std::decay_t<Respond>, detail::NoResponse>;
     const auto h = static_cast<double>(report.h);
-    meter_.start(method, h, std::min(1.0, 2 * (1 - share() * share())), damping().times(h));
+    meter_.start(h, std::min(1.0, 2 * (1 - share() * share())), damping().times(h));
     report.response = 0;
     if (limited && !responds && !meter_.needed(*system_, state)) {
         return stepper_.step(state, report.h, report.substeps);

@@ -5,7 +5,7 @@
 #include <Eigen/SparseCholesky>
 #include <type_traits>
 
-#include "../core/method.hpp"
+#include "../method/implicit_euler.hpp"
 #include "../model/particle_constraints.hpp"
 #include "../solver/block_ordering.hpp"
 #include "detail/constraint_projection.hpp"
@@ -54,7 +54,7 @@ public:
     static constexpr int Dim = System::Dim;
     using Constraints = ParticleConstraints<Scalar, Dim>;
     static constexpr Method method = Method::implicit_euler;
-    static constexpr int order = 1;
+    static constexpr int order = method::ImplicitEuler::order;
     static constexpr bool symmetric =
         !std::is_same_v<std::decay_t<System>, GeneralLinearSystem<Scalar>>;
 

@@ -4,7 +4,7 @@
 
 #include <type_traits>
 
-#include "../core/method.hpp"
+#include "../method/implicit_euler.hpp"
 #include "../solver/interleaved_llt.hpp"
 #include "../stability/spring_pencil.hpp"
 #include "detail/factor_cache.hpp"
@@ -41,7 +41,7 @@ public:
     using Scalar = typename System::Scalar;
     using State = typename System::State;
     static constexpr Method method = Method::implicit_euler;
-    static constexpr int order = 1;
+    static constexpr int order = method::ImplicitEuler::order;
     static constexpr int Dim = System::Dim;
 
     static_assert((require_solver<Solver, Scalar>(), true));

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "../core/method.hpp"
+#include "../method/velocity_verlet.hpp"
 #include "detail/last_state.hpp"
 #include "detail/step_loop.hpp"
 #include "explicit_options.hpp"
@@ -23,7 +23,7 @@ public:
     using State = typename System::State;
     using Options = ExplicitOptions;
     static constexpr Method method = Method::velocity_verlet;
-    static constexpr int order = 2;
+    static constexpr int order = method::VelocityVerlet::order;
 
     /// Keeps a reference: the system must outlive the stepper.
     /// @param options  its damping; one thread whatever it says

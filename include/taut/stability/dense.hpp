@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <complex>
 
-#include "../core/method.hpp"
-#include "mode.hpp"
+#include "../method/visit.hpp"
 #include "pencil.hpp"
 
 namespace taut {
@@ -131,23 +130,9 @@ Real DenseAnalysis<Real>::spectral_radius(Method method, Real h) const {
     using ComplexVector = Eigen::Matrix<std::complex<Real>, Eigen::Dynamic, 1>;
     const Matrix C = generator();
     const Index n = C.rows();
-    const Index N = root_.size();
-    const Index r = n - N;
-    const Matrix I = Matrix::Identity(n, n);
-    Matrix step;
-    switch (method) {
-        case Method::explicit_euler: step = I + h * C; break;
-        case Method::symplectic_euler:
-        case Method::velocity_verlet: {
-            // v⁺ from the old x, then x⁺ from v⁺.
-            step = I;
-            step.bottomRows(N) += h * C.bottomRows(N);
-            step.topRows(r) +=
-                h * C.block(0, r, r, r).diagonal().asDiagonal() * step.middleRows(r, r);
-            break;
-        }
-        case Method::implicit_euler: step = (I - h * C).partialPivLu().inverse(); break;
-    }
+    const Index r = n - root_.size();
+    const Matrix step = method::visit(
+        method, [&](auto descriptor) { return decltype(descriptor)::step_matrix(C, h, r); });
     Real radius = 0;
     for (const auto& mu : ComplexVector(step.eigenvalues())) {
         // The velocity of an undamped zero mode: multiplier exactly 1.

@@ -8,8 +8,8 @@
 #include <complex>
 #include <limits>
 
+#include "../method/mode.hpp"
 #include "detail/arnoldi.hpp"
-#include "mode.hpp"
 #include "pencil.hpp"
 
 namespace taut {

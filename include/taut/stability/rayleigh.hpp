@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "mode.hpp"
+#include "../method/mode.hpp"
 
 namespace taut {
 
@@ -60,9 +60,9 @@ inline double below(double value) {
 
 /// The ends of rayleigh_window for an explicit method, its reason apart, rounded inwards: whether
 /// any α is left.
-inline bool explicit_window(Method method, double h, double d0, double k_min, double k_max,
-                            double compression, AlphaWindow& window) {
-    const bool is_explicit = method == Method::explicit_euler;
+/// @param is_explicit  explicit Euler, not symplectic
+inline bool explicit_ends(bool is_explicit, double h, double d0, double k_min, double k_max,
+                          double compression, AlphaWindow& window) {
     // What counts as d0 in the upper end.
     const double d0_above =
         is_explicit && compression > 0 ? above(d0 + above(above(h * compression) / 2)) : d0;
@@ -90,12 +90,35 @@ inline bool explicit_window(Method method, double h, double d0, double k_min, do
     return window.upper > window.lower;
 }
 
+inline AlphaWindow explicit_window(bool is_explicit, double h, double d0, double k_min,
+                                   double k_max, double compression) {
+    AlphaWindow window;
+    if (explicit_ends(is_explicit, h, d0, k_min, k_max, compression, window)) return window;
+    // Where both are too large the step is to blame: no smaller d0 helps [T12].
+    const bool helps = explicit_ends(is_explicit, h, 0, k_min, k_max, compression, window);
+    return {0, 0, helps ? EmptyWindow::mass_damping_too_large : EmptyWindow::step_too_large, false};
+}
+
+// rayleigh_window by what limits the method.
+inline AlphaWindow window_by(method::LimitedByDamping, double h, double d0, double k_min,
+                             double k_max, double compression) {
+    return explicit_window(true, h, d0, k_min, k_max, compression);
+}
+inline AlphaWindow window_by(method::LimitedByStiffness, double h, double d0, double k_min,
+                             double k_max, double compression) {
+    return explicit_window(false, h, d0, k_min, k_max, compression);
+}
+inline AlphaWindow window_by(method::LimitedByIndefiniteness, double, double, double, double,
+                             double) {
+    return {0, std::numeric_limits<double>::infinity(), EmptyWindow::none, true};
+}
+
 }  // namespace detail
 
 /// The feasible α of D' = d0 + αK' at step h, s, for eigenvalues of K' in [k_min, k_max] with
 /// 0 ≤ k_min, 1/s²: exact [T13]–[T16], but for its own rounding, which is inwards: whatever the
 /// window contains is stable. A mode with k = 0 and d0 = 0 is a zero mode and never counts against
-/// the window. With k_max = 0 or the implicit method the upper end is infinite.
+/// the window. With k_max = 0 or implicit Euler the upper end is infinite. BDF2 is refused.
 /// @param compression  a bound on M⁻¹(K⁺ − K), 1/s², 0 unless springs are compressed: the true K,
 ///                     which explicit Euler sees, weakens its second condition by that [T17]
 inline AlphaWindow rayleigh_window(Method method, double h, double d0, double k_min, double k_max,
@@ -106,14 +129,10 @@ inline AlphaWindow rayleigh_window(Method method, double h, double d0, double k_
     if (!(k_max >= k_min) || !std::isfinite(k_max)) {
         fail("rayleigh_window: k_max is ", k_max, "; it must be finite and >= k_min, ", k_min);
     }
-    if (method == Method::implicit_euler) {
-        return {0, std::numeric_limits<double>::infinity(), EmptyWindow::none, true};
-    }
-    AlphaWindow window;
-    if (detail::explicit_window(method, h, d0, k_min, k_max, compression, window)) return window;
-    // Where both are too large the step is to blame: no smaller d0 helps [T12].
-    const bool helps = detail::explicit_window(method, h, 0, k_min, k_max, compression, window);
-    return {0, 0, helps ? EmptyWindow::mass_damping_too_large : EmptyWindow::step_too_large, false};
+    return method::visit_limited("rayleigh_window", method, [&](auto descriptor) {
+        using Limit = typename decltype(descriptor)::Limit;
+        return detail::window_by(Limit{}, h, d0, k_min, k_max, compression);
+    });
 }
 
 }  // namespace taut

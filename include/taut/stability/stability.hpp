@@ -61,7 +61,8 @@ struct LimitingMode {
 /// Where springs are compressed, K⁺ stands for K in every answer and the growth of the physics is
 /// given apart [T27]. A certified step holds on both sides of a law's kink that lies within
 /// rounding of a spring's length; what refutes takes the stiffer side. Zero modes never count as
-/// unstable.
+/// unstable. BDF2, of which nothing is proved beside compressed springs, is refused by name in all
+/// but spectral_radius().
 /// @tparam Cholesky  the factorisation behind proofs (see Prover)
 template <class Scalar, class Cholesky = EigenCholesky>
 class Stability {
@@ -109,7 +110,7 @@ public:
         if (size() == 0) return taut::rayleigh_window(method, h, d0, 0, 0, 0);
         const double stiffest = pencil_->upper_bound({0, 1, 0});
         // Springs count as semi-definite though rounding leaves them slightly compressed.
-        const bool compressed = method == Method::explicit_euler &&
+        const bool compressed = method::is_limited_by<method::LimitedByDamping>(method) &&
                                 (pencil_->projects() || !pencil_->stiffness_semidefinite());
         const double compression = compressed ? pencil_->upper_bound({0, -1, 0, false}) : 0;
         if (!std::isfinite(stiffest) || !std::isfinite(compression)) {
@@ -151,10 +152,13 @@ private:
     // Effort: detail::Bounds or detail::Factorisations.
     template <class Effort>
     StepLimit<Scalar> bracket(Method method, Effort effort) const;
+    // Of a whole method, by what limits it.
     template <class Effort>
-    StepLimit<Scalar> explicit_limit(Effort& effort) const;
+    StepLimit<Scalar> limit_by(method::LimitedByDamping, Effort& effort) const;
     template <class Effort>
-    StepLimit<Scalar> symplectic_limit(Effort& effort) const;
+    StepLimit<Scalar> limit_by(method::LimitedByStiffness, Effort& effort) const;
+    template <class Effort>
+    StepLimit<Scalar> limit_by(method::LimitedByIndefiniteness, Effort&) const;
     template <class Effort>
     void add_growth(Method method, StepLimit<Scalar>& limit, Effort& effort) const;
     static bool claims(const StepLimit<Scalar>& limit) {
@@ -163,7 +167,6 @@ private:
     static void admit(Method method, double rate, StepLimit<Scalar>& limit);
     void admit_negative_damping(Method method, StepLimit<Scalar>& limit) const;
     double certified_when_scaled(Method method, double stiffness, double mass) const;
-    StepLimit<Scalar> implicit_limit() const;
     StepLimit<Scalar> limit(double certified, double refuted, Cause cause) const {
         StepLimit<Scalar> answer;
         answer.certified = detail::round_down<Scalar>(certified);
@@ -209,10 +212,10 @@ Certificate Stability<Scalar, Cholesky>::certify(Method method, double h) const 
     if (certificate.proved || !(h < static_cast<double>(bound.refuted))) return certificate;
     const Pencil& pencil = *pencil_;
     const double wide = h * (1 + detail::step_rounding<Scalar>);
-    const bool symplectic = method == Method::symplectic_euler || method == Method::velocity_verlet;
     // An h² that underflows would leave the stiffness out.
-    if (symplectic && h * h >= std::numeric_limits<double>::min() &&
-        pencil.damping_semidefinite() && (pencil.projects() || pencil.stiffness_semidefinite())) {
+    if (method::is_limited_by<method::LimitedByStiffness>(method) &&
+        h * h >= std::numeric_limits<double>::min() && pencil.damping_semidefinite() &&
+        (pencil.projects() || pencil.stiffness_semidefinite())) {
         // [T19] at h itself; where K is indefinite hD ≺ 4M carries it to smaller steps.
         Prover<Cholesky> prover;
         certificate.proved =
@@ -256,7 +259,8 @@ double Stability<Scalar, Cholesky>::spectral_radius(Method method, double h) con
     require_positive("Stability::spectral_radius", "h", h);
     if (size() == 0) return 0;
     if (size() <= dense_size) return DenseAnalysis<>(*pencil_).spectral_radius(method, h);
-    // For fixed h the radius is quasi-convex in k, so the ends of the spectrum decide.
+    // For fixed h the radius is quasi-convex in k (of BDF2 known without damping alone), so the
+    // ends of the spectrum decide.
     double radius = 0;
     for (const double sign : {1.0, -1.0}) {
         const RitzPair end = largest_ritz_pair(*pencil_, {0, sign, 0});

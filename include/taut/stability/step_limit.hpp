@@ -7,8 +7,6 @@
 #include <limits>
 #include <optional>
 
-#include "../core/method.hpp"
-
 namespace taut {
 
 /// What sets a step limit, or removes it.

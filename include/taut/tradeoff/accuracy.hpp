@@ -9,7 +9,7 @@
 
 #include "../core/detail/bisection.hpp"
 #include "../core/error.hpp"
-#include "scheme.hpp"
+#include "../method/visit.hpp"
 
 // How well each integrator follows one mode ẍ + 2ζω ẋ + ω² x = 0, from its exact multiplier [T25].
 // z = hω is the step in radians of the undamped mode.
@@ -24,31 +24,6 @@ struct ModeError {
 
 namespace detail {
 
-/// μ − 1 of the multiplier μ that stands for e^(hλ), λ = ω(−ζ + i√(1 − ζ²)), without cancellation
-/// at small z. Where a step too large has turned the pair real, the root of larger modulus.
-inline std::complex<double> multiplier_less_one(Scheme scheme, double z, double zeta) {
-    const std::complex<double> w(-zeta * z, std::sqrt((1 - zeta) * (1 + zeta)) * z);
-    switch (scheme) {
-        case Scheme::explicit_euler: return w;
-        case Scheme::symplectic_euler:
-        case Scheme::velocity_verlet: {
-            // ε² + bε + z² = 0 for ε = μ − 1, from μ² − (2 − hd − h²k)μ + (1 − hd) = 0 [T10].
-            const double b = z * (2 * zeta + z);
-            const double under = (2 * z - b) * (2 * z + b);
-            if (under > 0) return {-b / 2, std::sqrt(under) / 2};
-            const double far = -(b + std::sqrt(-under)) / 2;
-            return b > 2 ? far : z * z / far;
-        }
-        case Scheme::implicit_euler: return w / (1.0 - w);
-        case Scheme::bdf2: {
-            // (3 − 2w)μ² − 4μ + 1 = 0, so μ = (2 + s)/(3 − 2w) with s = √(1 + 2w).
-            const std::complex<double> s = std::sqrt(1.0 + 2.0 * w);
-            return 2.0 * w * (2.0 + s) / ((1.0 + s) * (3.0 - 2.0 * w));
-        }
-    }
-    fail("mode_error: unknown scheme");
-}
-
 inline void require_mode(const char* function, double z, double zeta) {
     require_positive(function, "z", z);
     if (!(zeta >= 0) || !(zeta < 1)) {
@@ -58,7 +33,7 @@ inline void require_mode(const char* function, double z, double zeta) {
 
 inline void require_added(Scheme scheme, double added) {
     require_non_negative("mode_error", "added", added);
-    if (added > 0 && scheme != Scheme::symplectic_euler && scheme != Scheme::velocity_verlet)
+    if (added > 0 && !method::is_limited_by<method::LimitedByStiffness>(scheme))
         fail("mode_error: added is ", added, "; it must be 0 for ", name(scheme));
 }
 
@@ -74,7 +49,9 @@ inline void require_added(Scheme scheme, double added) {
 inline ModeError mode_error(Scheme scheme, double z, double zeta = 0, double added = 0) {
     detail::require_mode("mode_error", z, zeta);
     detail::require_added(scheme, added);
-    const std::complex<double> e = detail::multiplier_less_one(scheme, z, zeta + added * z / 2);
+    const auto e = method::visit(scheme, [&](auto descriptor) {
+        return decltype(descriptor)::multiplier_less_one(z, zeta + added * z / 2);
+    });
     const double decay = -std::log1p(2 * e.real() + std::norm(e)) / 2;
     const double phase = std::atan2(e.imag(), 1 + e.real());
     return {decay / std::hypot(decay, phase) - zeta,

@@ -10,8 +10,8 @@
 #include "../integrator/implicit_euler.hpp"
 #include "../integrator/symplectic_euler.hpp"
 #include "../integrator/velocity_verlet.hpp"
+#include "../method/visit.hpp"
 #include "../solver/conjugate_gradient.hpp"
-#include "scheme.hpp"
 
 namespace taut {
 
@@ -40,56 +40,69 @@ inline std::string name(const Candidate& candidate) {
     return text + " by sparse Cholesky";
 }
 
+namespace detail {
+
+/// The stepper of each method; Solver is that of an implicit one.
+template <class Descriptor, class System, class Solver>
+struct StepperOf;
+template <class System, class Solver>
+struct StepperOf<method::ExplicitEuler, System, Solver> {
+    using type = ExplicitEuler<System>;
+};
+template <class System, class Solver>
+struct StepperOf<method::SymplecticEuler, System, Solver> {
+    using type = SymplecticEuler<System>;
+};
+template <class System, class Solver>
+struct StepperOf<method::VelocityVerlet, System, Solver> {
+    using type = VelocityVerlet<System>;
+};
+template <class System, class Solver>
+struct StepperOf<method::ImplicitEuler, System, Solver> {
+    using type = ImplicitEuler<System, Solver>;
+};
+template <class System, class Solver>
+struct StepperOf<method::Bdf2, System, Solver> {
+    using type = Bdf2<System, Solver>;
+};
+
+/// The stepper of `candidate`, which has this descriptor and this solver.
+template <class Descriptor, class Solver, class System>
+auto make_stepper(const System& system, const Candidate& candidate) {
+    using Stepper = typename StepperOf<Descriptor, System, Solver>::type;
+    if constexpr (!Descriptor::is_implicit) {
+        return Stepper(system, ExplicitOptions{1, candidate.damping});
+    } else if constexpr (Descriptor::method == Method::implicit_euler) {
+        typename Stepper::Options options;
+        options.newton_iterations = candidate.newton_iterations;
+        return Stepper(system, options);
+    } else {
+        return Stepper(system);
+    }
+}
+
+}  // namespace detail
+
 /// action(stepper) with the stepper of `candidate` on `system`, as fresh from its constructor.
 template <class System, class Action>
 void with_stepper(const System& system, const Candidate& candidate, Action&& action) {
     using Scalar = typename System::Scalar;
     using Direct = Eigen::SimplicialLLT<SparseMatrix<Scalar>, Eigen::Lower, BlockOrdering<>>;
     using Gradients = ConjugateGradient<Scalar, System::Dim>;
-    const auto tune = [&](Gradients& solver) {
-        solver.setTolerance(static_cast<Scalar>(candidate.solver_tolerance));
-    };
-    const ExplicitOptions own{1, candidate.damping};
-    const bool direct = candidate.solver == LinearSolver::direct;
-    switch (candidate.scheme) {
-        case Scheme::explicit_euler: {
-            ExplicitEuler<System> stepper(system, own);
-            return action(stepper);
-        }
-        case Scheme::symplectic_euler: {
-            SymplecticEuler<System> stepper(system, own);
-            return action(stepper);
-        }
-        case Scheme::velocity_verlet: {
-            VelocityVerlet<System> stepper(system, own);
-            return action(stepper);
-        }
-        case Scheme::implicit_euler: {
-            if (direct) {
-                using Stepper = ImplicitEuler<System, Direct>;
-                typename Stepper::Options options;
-                options.newton_iterations = candidate.newton_iterations;
-                Stepper stepper(system, options);
+    method::visit(candidate.scheme, [&](auto descriptor) {
+        using Descriptor = decltype(descriptor);
+        if constexpr (Descriptor::is_implicit) {
+            if (candidate.solver == LinearSolver::conjugate_gradient) {
+                auto stepper = detail::make_stepper<Descriptor, Gradients>(system, candidate);
+                stepper.configure([&](Gradients& solver) {
+                    solver.setTolerance(static_cast<Scalar>(candidate.solver_tolerance));
+                });
                 return action(stepper);
             }
-            using Stepper = ImplicitEuler<System, Gradients>;
-            typename Stepper::Options options;
-            options.newton_iterations = candidate.newton_iterations;
-            Stepper stepper(system, options);
-            stepper.configure(tune);
-            return action(stepper);
         }
-        case Scheme::bdf2: {
-            if (direct) {
-                Bdf2<System, Direct> stepper(system);
-                return action(stepper);
-            }
-            Bdf2<System, Gradients> stepper(system);
-            stepper.configure(tune);
-            return action(stepper);
-        }
-    }
-    fail("with_stepper: unknown scheme");
+        auto stepper = detail::make_stepper<Descriptor, Direct>(system, candidate);
+        return action(stepper);
+    });
 }
 
 }  // namespace taut

@@ -48,19 +48,14 @@ std::vector<Plan> feasible_plans(const SpringSystem<Scalar, Dim, Laws...>& syste
     const auto limit = static_cast<double>(any_pose_limit(system).certified);
     std::vector<Plan> plans;
     for (const Candidate& candidate : candidates) {
-        switch (candidate.scheme) {
-            case Scheme::explicit_euler: continue;  // nothing is certified of it at every pose
-            case Scheme::symplectic_euler:
-            case Scheme::velocity_verlet:
-                if (limit > 0) {
-                    const double share = share_of_limit(recipe.safety, candidate.damping);
-                    plans.push_back(plan_for(candidate, share * limit, goal, zeta));
-                }
-                break;
-            case Scheme::implicit_euler:
-            case Scheme::bdf2:
-                plans.push_back(
-                    plan_for(candidate, std::numeric_limits<double>::infinity(), goal, zeta));
+        const method::AnyPose safe = method::visit(
+            candidate.scheme, [](auto descriptor) { return decltype(descriptor)::any_pose; });
+        if (safe == method::AnyPose::every_step) {
+            plans.push_back(
+                plan_for(candidate, std::numeric_limits<double>::infinity(), goal, zeta));
+        } else if (safe == method::AnyPose::limited && limit > 0) {
+            const double share = share_of_limit(recipe.safety, candidate.damping);
+            plans.push_back(plan_for(candidate, share * limit, goal, zeta));
         }
     }
     return plans;

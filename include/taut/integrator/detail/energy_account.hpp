@@ -20,15 +20,11 @@ struct EnergyTerms {
     /// @param own  the stepper's own damping, share of its step
     static EnergyTerms of(Method method, double share, double own, double slack, double drift) {
         const double braked = own * share * share;
-        // Of kept energy/E.
-        const double least = std::max(1e-9, method == Method::symplectic_euler
-                                                ? 1 - braked - std::hypot(braked, share)
-                                                : 1 - share);
-        if (method == Method::symplectic_euler)
-            return {slack, drift, (1 + share) / least, 1 / least};
-        if (method == Method::velocity_verlet)
-            return {slack, drift, (1 + 2 * braked) / least, 1 / least};
-        return {slack, drift, 1, 1};
+        const method::EnergyBand kept = method::visit(method, [&](auto descriptor) {
+            return decltype(descriptor)::energy_band(share, braked);
+        });
+        const double least = std::max(1e-9, kept.least);
+        return {slack, drift, kept.most / least, 1 / least};
     }
 };
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "../../core/method.hpp"
 #include "../../core/types.hpp"
+#include "../../method/visit.hpp"
 #include "../../model/spring_set.hpp"
 #include "pin_work.hpp"
 
@@ -33,27 +33,18 @@ struct EnergyBooks {
     double total() const { return owned() + gravity; }
 
     /// The energy that steps of h keep on a linear scene, up to what moving pins do, and that
-    /// damping lowers [T36]: for symplectic Euler H + ½h v·f − ¼h vᵀDv, for velocity Verlet H − ⅛h²
-    /// fᵀM⁻¹f + ½h v_p·f_p + ¼h vᵀDv with p the pins. Implicit steps keep none; they lose H.
+    /// damping lowers [T36]: the descriptor's kept_energy. Implicit steps keep none; they lose H.
     double kept(Method method, double h) const {
-        switch (method) {
-            case Method::symplectic_euler: return total() + h / 2 * power - h / 4 * braking(h);
-            case Method::velocity_verlet:
-                return total() - h * h / 8 * force_norm + h / 2 * pin_power + h / 4 * braking(h);
-            default: return total();
-        }
+        return method::visit(
+            method, [&](auto descriptor) { return decltype(descriptor)::kept_energy(*this, h); });
     }
     /// vᵀDv of all damping at steps of h, W.
     double braking(double h) const { return dissipation + h * step_dissipation; }
     /// The part of kept() that gravity and moving pins have in what oscillates, J. Without G and
     /// this, kept() lies within a share of E = T + V that the step alone sets [T36].
     double lag(Method method, double h) const {
-        switch (method) {
-            case Method::symplectic_euler: return h / 2 * (fall_power + pin_power);
-            case Method::velocity_verlet:
-                return h / 2 * pin_power - h * h / 8 * (force_norm - pull_norm);
-            default: return 0;
-        }
+        return method::visit(
+            method, [&](auto descriptor) { return decltype(descriptor)::energy_lag(*this, h); });
     }
 };
 
@@ -122,7 +113,8 @@ EnergyBooks energy_books(const System& system, const State& state, Method method
     EnergyBooks books;
     const double reach =
         system.size() == 0 ? 0 : static_cast<double>(state.x.cwiseAbs().maxCoeff());
-    const bool forces = method == Method::velocity_verlet;
+    const bool forces = method::visit(
+        method, [](auto descriptor) { return decltype(descriptor)::averages_forces; });
     if (forces) {
         f.setZero(System::Dim, system.size());
         add_spring_books<true>(system, state, share, reach, books, f);

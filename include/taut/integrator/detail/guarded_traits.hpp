@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "../../core/concepts.hpp"
-#include "../../core/method.hpp"
+#include "../../method/method.hpp"
 
 namespace taut::detail {
 

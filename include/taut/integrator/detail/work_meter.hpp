@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "../../core/method.hpp"
 #include "../../core/types.hpp"
+#include "../../method/visit.hpp"
 #include "last_state.hpp"
 #include "pin_work.hpp"
 
@@ -15,18 +15,17 @@ namespace taut::detail {
 
 /// Measures what is done on a scene from outside, step by step, by the rule under which the
 /// method's kept energy changes by exactly that work on a linear scene [T36].
-template <class System>
+template <class System, class Descriptor>
 class WorkMeter {
 public:
     using State = typename System::State;
     using Force = typename System::Force;
 
-    /// Forgets what was measured; steps of `method` and h, s, follow.
+    /// Forgets what was measured; steps of h, s, follow.
     /// @param resolved  h²κ and hδ up to which a force of stiffness κ and damping δ, per mass,
     ///                  counts as resolved
     /// @param added     the stepper's own damping, StepDamping::times(h)
-    void start(Method method, double h, double resolved, const StepDamping& added = {}) {
-        method_ = method;
+    void start(double h, double resolved, const StepDamping& added = {}) {
         h_ = h;
         resolved_ = resolved;
         added_ = added;
@@ -46,10 +45,10 @@ public:
         if (external_ || held) x_ = state.x;
         if (moving_pins_) pin_power_ = damped_pin_power(system, state);
         if (!external_) return;
-        if (method_ != Method::implicit_euler) v_ = state.v;
+        if (!Descriptor::is_implicit) v_ = state.v;
         // Velocity Verlet itself goes on with the force of its last step where it can.
         const bool known =
-            method_ == Method::velocity_verlet ? last_.is(system, state) : force_known_ && !touched;
+            Descriptor::averages_forces ? last_.is(system, state) : force_known_ && !touched;
         if (known) return;
         system.external_force(state, force_);
         felt_v_ = state.v;
@@ -58,8 +57,7 @@ public:
     void arrive(const System& system, const State& state, const Force* held) {
         if (external_) add_external(system, state);
         if (moving_pins_) {
-            const bool at_start = method_ != Method::implicit_euler;
-            work_ -= h_ * (at_start ? pin_power_ : damped_pin_power(system, state));
+            work_ -= h_ * (Descriptor::is_implicit ? damped_pin_power(system, state) : pin_power_);
         }
         if (held != nullptr && held->cols() > 0) {
             work_ += static_cast<double>(held->cwiseProduct(state.x - x_).sum());
@@ -91,7 +89,7 @@ private:
     }
     void add_external(const System& system, const State& state) {
         end_ = state;
-        if (method_ == Method::velocity_verlet) end_.v = (state.x - x_) / static_cast<Scalar>(h_);
+        if (Descriptor::averages_forces) end_.v = (state.x - x_) / static_cast<Scalar>(h_);
         system.external_force(end_, next_force_);
         bool doubtful = false;
         for (Index i = 0; i < system.size(); ++i) {
@@ -104,13 +102,13 @@ private:
         std::swap(force_, next_force_);
         std::swap(felt_v_, end_.v);
         force_known_ = true;
-        if (method_ == Method::velocity_verlet) last_.keep(system, state);
+        if (Descriptor::averages_forces) last_.keep(system, state);
     }
     double work_on(const System& system, const State& state, Index i) const {
         const Vector f = column(force_, i);
-        if (method_ == Method::implicit_euler) return f.dot(way(i));
+        if (Descriptor::is_implicit) return f.dot(way(i));
         const Vector v = column(v_, i);
-        if (method_ == Method::symplectic_euler) return f.dot(way(i) + h_ * v) / 2;
+        if (!Descriptor::averages_forces) return f.dot(way(i) + h_ * v) / 2;
         const Vector last = column(next_force_, i);
         const double squares = (last - f).dot(last + f) / static_cast<double>(system.mass(i));
         return h_ / 2 * (f.dot(v) + last.dot(column(state.v, i))) - h_ * h_ / 8 * squares;
@@ -163,7 +161,6 @@ private:
     Force probe_force_;
     double pin_power_ = 0;  // on the pins at the step's start, W
     StepDamping added_;
-    Method method_ = Method::implicit_euler;
     double h_ = 0;  // s
     double resolved_ = 0;
     double work_ = 0;        // J

@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "../../core/detail/bisection.hpp"
+#include "../../method/mode.hpp"
 #include "../dense.hpp"
 #include "../lanczos.hpp"
-#include "../mode.hpp"
 #include "../step_limit.hpp"
 
 // One function a method: the bracket of its largest stable step, for any pencil, in double. Those

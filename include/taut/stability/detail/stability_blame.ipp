@@ -24,6 +24,20 @@ std::vector<Share> largest_shares(std::vector<Share> shares, Index count) {
 /// How well the scales of max_stiffness_scale and min_mass_scale are found, relative.
 inline constexpr double scale_tolerance = 1e-9;
 
+// The step that the bound certifies by what limits the method, s.
+inline double certified_by(method::LimitedByDamping, const Pencil& pencil) {
+    const double k = std::max(0.0, pencil.upper_bound({0, 1, 0}));
+    const double d = std::max(0.0, pencil.upper_bound({0, 0, 1}));
+    return k > 0 || d > 0 ? certified_explicit(pencil, k, d) : infinity;
+}
+inline double certified_by(method::LimitedByStiffness, const Pencil& pencil) {
+    return certified_symplectic(pencil);
+}
+inline double certified_by(method::LimitedByIndefiniteness, const Pencil& pencil) {
+    const double kappa = std::max(0.0, pencil.upper_bound({0, -1, 0}));
+    return kappa == 0 || pencil.stiffness_semidefinite() ? infinity : 1 / std::sqrt(kappa);
+}
+
 }  // namespace detail
 
 template <class Scalar, class Cholesky>
@@ -42,22 +56,10 @@ std::vector<ParticleShare> Stability<Scalar, Cholesky>::limiting_particles(Index
 template <class Scalar, class Cholesky>
 double Stability<Scalar, Cholesky>::certified_when_scaled(Method method, double stiffness,
                                                           double mass) const {
-    const auto pencil = pencil_->scaled(stiffness, mass);
-    const double k = std::max(0.0, pencil->upper_bound({0, 1, 0}));
-    switch (method) {
-        case Method::explicit_euler: {
-            const double d = std::max(0.0, pencil->upper_bound({0, 0, 1}));
-            return k > 0 || d > 0 ? detail::certified_explicit(*pencil, k, d) : detail::infinity;
-        }
-        case Method::symplectic_euler:
-        case Method::velocity_verlet: return detail::certified_symplectic(*pencil);
-        case Method::implicit_euler: {
-            const double kappa = std::max(0.0, pencil->upper_bound({0, -1, 0}));
-            return kappa == 0 || pencil->stiffness_semidefinite() ? detail::infinity
-                                                                  : 1 / std::sqrt(kappa);
-        }
-    }
-    return 0;
+    return method::visit_limited("Stability", method, [&](auto descriptor) {
+        using Limit = typename decltype(descriptor)::Limit;
+        return detail::certified_by(Limit{}, *pencil_->scaled(stiffness, mass));
+    });
 }
 
 template <class Scalar, class Cholesky>

@@ -13,16 +13,13 @@ template <class Scalar, class Cholesky>
 template <class Effort>
 StepLimit<Scalar> Stability<Scalar, Cholesky>::bracket(Method method, Effort effort) const {
     if (size() == 0) return limit(detail::infinity, detail::infinity, Cause::nothing_to_limit);
-    StepLimit<Scalar> answer;
-    switch (method) {
-        case Method::explicit_euler: answer = explicit_limit(effort); break;
-        case Method::symplectic_euler:
-        case Method::velocity_verlet: answer = symplectic_limit(effort); break;
-        case Method::implicit_euler: answer = implicit_limit(); break;
-    }
+    auto answer = method::visit_limited("Stability", method, [&](auto descriptor) {
+        return limit_by(typename decltype(descriptor)::Limit{}, effort);
+    });
     // An explicit step is claimed by D − hK ⪰ −δM, which needs no D ⪰ 0 beside it unless K is
     // indefinite: there it says nothing of smaller steps.
-    if (method != Method::explicit_euler || !claims(answer) || !pencil_->stiffness_semidefinite())
+    if (!method::is_limited_by<method::LimitedByDamping>(method) || !claims(answer) ||
+        !pencil_->stiffness_semidefinite())
         admit_negative_damping(method, answer);
     add_growth(method, answer, effort);
     return answer;
@@ -30,7 +27,8 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::bracket(Method method, Effort eff
 
 template <class Scalar, class Cholesky>
 template <class Effort>
-StepLimit<Scalar> Stability<Scalar, Cholesky>::explicit_limit(Effort& effort) const {
+StepLimit<Scalar> Stability<Scalar, Cholesky>::limit_by(method::LimitedByDamping,
+                                                        Effort& effort) const {
     const Pencil& pencil = *pencil_;
     const double k = pencil.upper_bound({0, 1, 0});
     const double d = pencil.upper_bound({0, 0, 1});
@@ -92,7 +90,8 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::explicit_limit(Effort& effort) co
 
 template <class Scalar, class Cholesky>
 template <class Effort>
-StepLimit<Scalar> Stability<Scalar, Cholesky>::symplectic_limit(Effort& effort) const {
+StepLimit<Scalar> Stability<Scalar, Cholesky>::limit_by(method::LimitedByStiffness,
+                                                        Effort& effort) const {
     const Pencil& pencil = *pencil_;
     // A bound within 3 % of the Ritz value's step needs no improvement.
     detail::Bracket bracket;
@@ -109,7 +108,9 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::symplectic_limit(Effort& effort) 
 }
 
 template <class Scalar, class Cholesky>
-StepLimit<Scalar> Stability<Scalar, Cholesky>::implicit_limit() const {
+template <class Effort>
+StepLimit<Scalar> Stability<Scalar, Cholesky>::limit_by(method::LimitedByIndefiniteness,
+                                                        Effort&) const {
     const Pencil& pencil = *pencil_;
     // K⁺ ⪰ 0 for springs: solvable and stable at every step [T20], [T27].
     const double kappa = std::max(0.0, pencil.upper_bound({0, -1, 0}));
@@ -138,7 +139,7 @@ StepLimit<Scalar> Stability<Scalar, Cholesky>::implicit_limit() const {
 /// e^(2h·rate) while h·rate ≤ ½. Rates add up where they meet in one vector.
 template <class Scalar, class Cholesky>
 void Stability<Scalar, Cholesky>::admit(Method method, double rate, StepLimit<Scalar>& limit) {
-    limit.admitted_growth += method == Method::implicit_euler ? 2 * rate : rate;
+    limit.admitted_growth += is_implicit(method) ? 2 * rate : rate;
     const double most = 1 / std::max(limit.admitted_growth, 1e-300);
     limit.certified_up_to = std::min(std::max(limit.certified, limit.certified_up_to),
                                      detail::round_down<Scalar>(most));

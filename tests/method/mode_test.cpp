@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <set>
 #include <string>
-#include <taut/stability/mode.hpp>
+#include <taut/method/mode.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/methods.hpp"
@@ -51,7 +51,9 @@ Step transition(Method method, double stiffness, double damping, double seconds)
             const Real a = 1 + h * d + h * h * k;  // determinant of I − hC
             return {(1 + h * d) / a, h / a, -h * k / a, 1 / a};
         }
+        case Method::bdf2: break;  // 4 × 4: descriptor_test.cpp
     }
+    FAIL("no transition matrix of " << name(method));
     return {};
 }
 
@@ -73,12 +75,12 @@ void for_each_mode(std::uint32_t seed, Visit&& visit) {
 }  // namespace
 
 TEST_CASE("mode: step_quadratic and multipliers are those of the transition matrix",
-          "[stability]") {
+          "[method]") {
     constexpr double rounding = Tolerance<double>::rounding;
     Random random(501);
     for_each_mode(500, [&](double k, double d) {
         const double h = log_uniform(random, 1e-4, 1e2) / (std::sqrt(k) + d);
-        for (const Method method : all_methods) {
+        for (const Method method : limited_methods) {
             INFO(taut::name(method) << ", k = " << k << ", d = " << d << ", h = " << h);
             const Step step = transition(method, k, d, h);
             const double size = 2 + h * d + h * h * k;
@@ -106,13 +108,13 @@ TEST_CASE("mode: step_quadratic and multipliers are those of the transition matr
     });
 }
 
-TEST_CASE("mode: the smaller root loses nothing to cancellation", "[stability]") {
+TEST_CASE("mode: the smaller root loses nothing to cancellation", "[method]") {
     Random random(502);
     for (int repeat = 0; repeat < 3000; ++repeat) {
         const double k = log_uniform(random, 1e-3, 1e3);
         const double d = std::sqrt(k) * log_uniform(random, 10, 1e8);
         const double h = log_uniform(random, 1e-3, 1e3) / d;
-        for (const Method method : all_methods) {
+        for (const Method method : limited_methods) {
             INFO(taut::name(method) << ", k = " << k << ", d = " << d << ", h = " << h);
             const auto [b, c] = taut::step_quadratic(method, k, d, h);
             const Real half = -static_cast<Real>(b) / 2;
@@ -128,9 +130,9 @@ TEST_CASE("mode: the smaller root loses nothing to cancellation", "[stability]")
     }
 }
 
-TEST_CASE("mode: stable just below critical_step, unstable just above", "[stability]") {
+TEST_CASE("mode: stable just below critical_step, unstable just above", "[method]") {
     for_each_mode(503, [&](double k, double d) {
-        for (const Method method : all_methods) {
+        for (const Method method : limited_methods) {
             const double h = critical_step(method, k, d);
             INFO(taut::name(method) << ", k = " << k << ", d = " << d << ", h = " << h);
             if (method == Method::explicit_euler && d == 0) {
@@ -164,7 +166,7 @@ TEST_CASE("mode: stable just below critical_step, unstable just above", "[stabil
     });
 }
 
-TEST_CASE("mode: closed forms by hand", "[stability]") {
+TEST_CASE("mode: closed forms by hand", "[method]") {
     constexpr double rounding = Tolerance<double>::rounding;
     // k = 100: undamped 2/√k; d = 15 < 2ω: d/k; d = 25 > 2ω: 4/(25 + 15); zero stiffness 2/d.
     CHECK_THAT(critical_step(Method::symplectic_euler, 100, 0), WithinRel(0.2, rounding));
@@ -174,13 +176,13 @@ TEST_CASE("mode: closed forms by hand", "[stability]") {
     CHECK_THAT(critical_step(Method::explicit_euler, 100, 20), WithinRel(0.2, rounding));
     CHECK_THAT(critical_step(Method::explicit_euler, 0, 4), WithinRel(0.5, rounding));
     CHECK_THAT(critical_step(Method::symplectic_euler, 0, 4), WithinRel(0.5, rounding));
-    for (const Method method : all_methods) CHECK(critical_step(method, 0, 0) == infinity);
+    for (const Method method : limited_methods) CHECK(critical_step(method, 0, 0) == infinity);
     // κ = 4: implicit Euler turns singular at 1/√κ.
     CHECK_THAT(critical_step(Method::implicit_euler, -4, 0), WithinRel(0.5, rounding));
     CHECK(critical_step(Method::symplectic_euler, -4, 3) == infinity);
 }
 
-TEST_CASE("mode: no square vanishes or overflows on the way to critical_step", "[stability]") {
+TEST_CASE("mode: no square vanishes or overflows on the way to critical_step", "[method]") {
     Random random(506);
     for (int repeat = 0; repeat < 3000; ++repeat) {
         const double k = repeat % 4 == 0 ? 0 : log_uniform(random, 1e-307, 1e307);
@@ -226,12 +228,12 @@ TEST_CASE("mode: no square vanishes or overflows on the way to critical_step", "
     }
 }
 
-TEST_CASE("mode: a buckled mode is limited by the step alone", "[stability]") {
+TEST_CASE("mode: a buckled mode is limited by the step alone", "[method]") {
     Random random(504);
     for (int repeat = 0; repeat < 1000; ++repeat) {
         const double kappa = log_uniform(random, 1e-3, 1e3);
         const double d = repeat % 5 == 0 ? 0 : std::sqrt(kappa) * log_uniform(random, 1e-3, 1e3);
-        for (const Method method : all_methods) {
+        for (const Method method : limited_methods) {
             const double h = critical_step(method, -kappa, d);
             INFO(taut::name(method) << ", k = " << -kappa << ", d = " << d << ", h = " << h);
             REQUIRE(h > 0);
@@ -263,7 +265,7 @@ TEST_CASE("mode: a buckled mode is limited by the step alone", "[stability]") {
     }
 }
 
-TEST_CASE("mode: velocity Verlet shares everything with symplectic Euler", "[stability]") {
+TEST_CASE("mode: velocity Verlet shares everything with symplectic Euler", "[method]") {
     Random random(505);
     for (int repeat = 0; repeat < 100; ++repeat) {
         const double k = random.uniform(-10, 100), d = random.uniform(0, 20);

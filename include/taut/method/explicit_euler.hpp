@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+
+#include "detail/scalar_mode.hpp"
+
+namespace taut::method {
+
+/// The descriptor of explicit Euler [T4], and the model of all: every descriptor has these members.
+struct ExplicitEuler : KeepsNoEnergy {
+    static constexpr Method method = Method::explicit_euler;
+    /// As tables, sentences and the programs' JSON spell it.
+    static constexpr const char* name = "explicit_euler";
+    static constexpr int order = 1;
+    /// Whether a step solves a linear system; its forces are then those at its end.
+    static constexpr bool is_implicit = false;
+    /// Whether a step averages the forces at its two ends.
+    static constexpr bool averages_forces = false;
+    /// What holds a step down at one pose, or Absent.
+    using Limit = LimitedByDamping;
+    /// Which steps are safe at every pose.
+    static constexpr AnyPose any_pose = AnyPose::no_step;
+
+    /// Of one step of h, s, on ẍ + dẋ + kx = 0, d in 1/s and k in 1/s² [T8]; or Absent.
+    static StepQuadratic step_quadratic(double k, double d, double h) {
+        const double hd = h * d;
+        const double hhk = h * h * k;
+        return {hd - 2, 1 - hd + hhk};
+    }
+    /// The largest |μ| of such a step.
+    static double spectral_radius(double k, double d, double h) {
+        return taut::detail::largest_root(step_quadratic(k, d, h));
+    }
+    /// As taut::critical_step, where k and d are not both 0: d/k, or 4/(d + √(d² − 4k)) [T9].
+    static double critical_step(double k, double d) {
+        const double root = taut::detail::discriminant_root(d, -k);
+        return root < 0 ? d / k : 2 / (d / 2 + root / 2);
+    }
+    /// The matrix whose eigenvalues are the multipliers of a whole system.
+    /// @param C  [T1], n × n, 1/s: the rate of positions in its first `positions` rows, then that
+    ///           of velocities. @param h  s
+    template <class Matrix>
+    static Matrix step_matrix(const Matrix& C, typename Matrix::Scalar h, Eigen::Index) {
+        return Matrix::Identity(C.rows(), C.cols()) + h * C;
+    }
+    /// μ − 1 of the multiplier μ that stands for e^(hλ), λ = ω(−ζ + i√(1 − ζ²)), without
+    /// cancellation at small z = hω [T25]. Where a step too large has turned the pair real, the
+    /// root of larger modulus.
+    static std::complex<double> multiplier_less_one(double z, double zeta) {
+        return taut::detail::exponent(z, zeta);
+    }
+    // Of KeepsNoEnergy: kept_energy(books, h), the energy that steps of h, s, keep on a linear
+    // scene, up to what moving pins do [T36]; energy_lag(books, h), the part that gravity and
+    // moving pins have in what of it oscillates; energy_band(share, braked), where it lies at steps
+    // of that share of any_pose_limit, the stepper's own damping being braked/share² of its step.
+};
+
+}  // namespace taut::method

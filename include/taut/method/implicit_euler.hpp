@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/LU>
+#include <limits>
+
+#include "detail/scalar_mode.hpp"
+
+namespace taut::method {
+
+/// The descriptor of implicit Euler [T6], [T27]; what its members mean: ExplicitEuler.
+struct ImplicitEuler : KeepsNoEnergy {
+    static constexpr Method method = Method::implicit_euler;
+    static constexpr const char* name = "implicit_euler";
+    static constexpr int order = 1;
+    static constexpr bool is_implicit = true;
+    static constexpr bool averages_forces = false;
+    using Limit = LimitedByIndefiniteness;
+    static constexpr AnyPose any_pose = AnyPose::every_step;
+
+    /// [T11].
+    static StepQuadratic step_quadratic(double k, double d, double h) {
+        const double hd = h * d;
+        const double hhk = h * h * k;
+        return {-(2 + hd) / (1 + hd + hhk), 1 / (1 + hd + hhk)};
+    }
+    /// The largest |μ| of that polynomial.
+    static double spectral_radius(double k, double d, double h) {
+        return taut::detail::largest_root(step_quadratic(k, d, h));
+    }
+    /// Infinity; for k < 0 the root of 1 + hd + h²k [T21].
+    static double critical_step(double k, double d) {
+        if (k >= 0) return std::numeric_limits<double>::infinity();
+        return (d / 2 + taut::detail::discriminant_root(d, -k) / 2) / -k;
+    }
+    /// (I − hC)⁻¹.
+    template <class Matrix>
+    static Matrix step_matrix(const Matrix& C, typename Matrix::Scalar h, Eigen::Index) {
+        const Matrix I = Matrix::Identity(C.rows(), C.cols());
+        return (I - h * C).partialPivLu().inverse();
+    }
+    /// w/(1 − w), w = hλ.
+    static std::complex<double> multiplier_less_one(double z, double zeta) {
+        const std::complex<double> w = taut::detail::exponent(z, zeta);
+        return w / (1.0 - w);
+    }
+};
+
+}  // namespace taut::method

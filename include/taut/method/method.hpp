@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <type_traits>
+
+namespace taut {
+
+/// The integrators. Each stepper declares its own as `method`.
+enum class Method {
+    explicit_euler,
+    symplectic_euler,
+    velocity_verlet,
+    implicit_euler,
+    bdf2,
+    last = bdf2  ///< no method: visit.hpp compares its list with it
+};
+
+/// The older name, of those whose cost and error are compared.
+using Scheme = Method;
+
+/// The characteristic polynomial μ² + b μ + c of one step on one mode.
+struct StepQuadratic {
+    double b;
+    double c;
+};
+
+/// One descriptor a method, and what descriptors are made of.
+namespace method {
+
+/// In place of what a method does not have, or of what nobody has proved of it. It cannot be
+/// called, and the public function that would need it refuses by the method's name.
+struct Absent {};
+template <class T>
+inline constexpr bool is_absent_v = std::is_same_v<std::remove_cv_t<T>, Absent>;
+
+// What holds a step down at one pose: a descriptor's `Limit`. Stability has one proof for each.
+
+/// Stable only where damping outweighs hK [T8], [T17].
+struct LimitedByDamping {};
+/// 4M − 2hD − h²K ≻ 0 [T10], [T19].
+struct LimitedByStiffness {};
+/// Nothing but a K that is not positive semi-definite, and on springs K⁺ is [T20], [T21], [T27].
+struct LimitedByIndefiniteness {};
+
+/// Which steps a moving scene may be given, linearised at each of its poses.
+enum class AnyPose {
+    no_step,    ///< none is certified: Guarded refuses the method, recommend() passes it over
+    limited,    ///< those below any_pose_limit [T23]
+    every_step  ///< all, of an implicit method
+};
+
+/// Where the energy that a method keeps lies, in shares of E = T + V [T36].
+struct EnergyBand {
+    double least = 1;
+    double most = 1;
+};
+
+/// The part of a descriptor whose method keeps no energy: it is judged by H = T + V + G itself.
+struct KeepsNoEnergy {
+    /// H, J. @param books  detail::EnergyBooks
+    template <class Books>
+    static double kept_energy(const Books& books, double) {
+        return books.total();
+    }
+    /// None, J.
+    template <class Books>
+    static double energy_lag(const Books&, double) {
+        return 0;
+    }
+    /// E itself.
+    static EnergyBand energy_band(double, double) { return {}; }
+};
+
+}  // namespace method
+}  // namespace taut
