@@ -23,3 +23,11 @@ function(taut_executable target)
     target_link_libraries(${target} PRIVATE Taut::Taut)
     taut_private_flags(${target})
 endfunction()
+
+# The same by Taut::Compiled where it is built: for many programs of the common systems.
+function(taut_program target)
+    taut_executable(${target} ${ARGN})
+    if(TARGET Taut::Compiled)
+        target_link_libraries(${target} PRIVATE Taut::Compiled)
+    endif()
+endfunction()

@@ -110,16 +110,43 @@ struct Side {
     double reach;
 };
 
-/// T′ of that side.
+/// T′ of that side: of both slopes at each jump and of those at both ends.
 template <class Law, class Parameters>
 Real slope_on_side(Law law, const Parameters& p, const Real& L, const Real& l, const Real& reach,
                    bool stiffer) {
-    Real chosen = law_tangent(law, p, L, l).slope;
+    constexpr int parts = 16;
+    const auto slope = [&](const Real& at) { return law_tangent(law, p, L, at).slope; };
+    Real chosen = slope(l);
+    const auto count = [&](const Real& value) {
+        chosen = stiffer ? std::max(chosen, value) : std::min(chosen, value);
+    };
     // Between two kinks of Buckling the slope may show just below L alone.
-    for (const Real& at : {Real(l - reach), Real(l + reach), Real(L - scaled(L, -60)), L}) {
-        if (!(at > 0) || abs(at - l) > 1.01 * reach) continue;
-        const Real slope = law_tangent(law, p, L, at).slope;
-        chosen = stiffer ? std::max(chosen, slope) : std::min(chosen, slope);
+    for (const Real& at : {Real(L - scaled(L, -60)), L}) {
+        if (at > 0 && abs(at - l) <= 1.01 * reach) count(slope(at));
+    }
+    for (int i = 0; i < parts; ++i) {
+        Real low = l + reach * (Real(2 * i) / parts - 1);
+        Real high = l + reach * (Real(2 * i + 2) / parts - 1);
+        if (!(high > 0)) continue;
+        if (!(low > 0)) low = high / 2;
+        Real at_low = slope(low);
+        Real at_high = slope(high);
+        count(at_low);
+        count(at_high);
+        if (abs(at_high - at_low) <= scaled(std::max(abs(at_low), abs(at_high)), -12)) continue;
+        for (int halving = 0; halving < 100; ++halving) {
+            const Real middle = (low + high) / 2;
+            const Real at_middle = slope(middle);
+            if (abs(at_middle - at_low) < abs(at_middle - at_high)) {
+                low = middle;
+                at_low = at_middle;
+            } else {
+                high = middle;
+                at_high = at_middle;
+            }
+        }
+        count(at_low);
+        count(at_high);
     }
     return chosen;
 }

@@ -13,6 +13,7 @@
 #include "model/tension_only.hpp"
 #include "scene/cloth.hpp"
 #include "solver/conjugate_gradient.hpp"
+#include "solver/interleaved_llt.hpp"
 #include "stability/any_pose.hpp"
 #include "stability/energy_limit.hpp"
 #include "stability/stability.hpp"
@@ -38,6 +39,22 @@
     KIND StepLimit<SCALAR> Stability<SCALAR>::bracket(Method, detail::Bounds) const; \
     KIND StepLimit<SCALAR> Stability<SCALAR>::bracket(                               \
         Method, detail::Factorisations<EigenCholesky>) const;
+
+#define TAUT_COMPILED_SOLVERS(KIND, SCALAR)             \
+    KIND class InterleavedLLT<SCALAR>;                  \
+    KIND class IncompleteCholesky<SCALAR, 1>;           \
+    KIND class IncompleteCholesky<SCALAR, 2>;           \
+    KIND class IncompleteCholesky<SCALAR, 3>;           \
+    KIND class ConjugateGradient<SCALAR, 1>;            \
+    KIND class ConjugateGradient<SCALAR, 2>;            \
+    KIND class ConjugateGradient<SCALAR, 3>;            \
+    KIND class ParticleConstraints<SCALAR, 1>;          \
+    KIND class ParticleConstraints<SCALAR, 2>;          \
+    KIND class ParticleConstraints<SCALAR, 3>;          \
+    KIND class detail::ConstraintProjection<SCALAR, 1>; \
+    KIND class detail::ConstraintProjection<SCALAR, 2>; \
+    KIND class detail::ConstraintProjection<SCALAR, 3>; \
+    KIND class LinearSystem<SCALAR>;
 
 #define TAUT_COMPILED_PENCILS(KIND)                                                         \
     KIND class SpringPencil<1>;                                                             \
@@ -97,6 +114,8 @@
     PART(KIND, SCALAR, DIM, SCALAR, DIM, Hookean, Buckling)
 
 #define TAUT_COMPILED_EACH_SYSTEM(PART, KIND)     \
+    PART(KIND, float, 1, float, 1)                \
+    PART(KIND, double, 1, double, 1)              \
     TAUT_COMPILED_EACH_LAW(PART, KIND, float, 2)  \
     TAUT_COMPILED_EACH_LAW(PART, KIND, float, 3)  \
     TAUT_COMPILED_EACH_LAW(PART, KIND, double, 2) \
@@ -118,6 +137,8 @@ namespace {
 }  // namespace
 }  // namespace detail
 TAUT_COMPILED_PENCILS(extern template)
+TAUT_COMPILED_SOLVERS(extern template, float)
+TAUT_COMPILED_SOLVERS(extern template, double)
 TAUT_COMPILED_ANALYSIS(extern template, float)
 TAUT_COMPILED_ANALYSIS(extern template, double)
 TAUT_COMPILED_EACH_SYSTEM(TAUT_COMPILED_SYSTEM, extern template)

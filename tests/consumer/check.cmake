@@ -36,7 +36,8 @@ endif()
 # Moved after the install: a package that remembers where it was built or put would not be found.
 run(${CMAKE_COMMAND} --install ${BUILD} ${config} --prefix ${WORK}/first)
 file(RENAME ${WORK}/first ${WORK}/prefix)
-build(installed 17 main.cpp -D CONSUMER_SUITESPARSE=${SUITESPARSE} -D CONSUMER_MODAL=${MODAL})
+build(installed 17 main.cpp -D CONSUMER_SUITESPARSE=${SUITESPARSE} -D CONSUMER_MODAL=${MODAL}
+    -D CONSUMER_COMPILED=${COMPILED})
 
 run(${CMAKE_COMMAND} -S ${consumer}/refusals -B ${WORK}/refusals -G ${GENERATOR}
     -D CMAKE_PREFIX_PATH=${WORK}/prefix -D Eigen3_DIR=${EIGEN})
