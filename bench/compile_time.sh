@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 Taut contributors
 # SPDX-License-Identifier: MIT
 
-# Processor seconds to compile README's first example, beside what its headers alone take and what
-# Eigen's alone take: the least and the median of five runs, taken in turn.
+# Processor seconds to compile README's first example, header-only and by Taut::Compiled, beside what its
+# headers alone take and what Eigen's alone take: the least and the median of five runs, taken in turn.
 # Usage: bench/compile_time.sh [COMPILER [FLAG...]], by default g++ -O2
 set -eu
 cd "$(dirname "$0")/.."
@@ -14,11 +14,12 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 cp examples/01_first_step.cpp "$work/first_step.cpp"
+{ echo '#define TAUT_COMPILED'; cat examples/01_first_step.cpp; } >"$work/by_compiled.cpp"
 echo '#include <taut/taut.hpp>' >"$work/headers.cpp"
 printf '#include <Eigen/Dense>\n#include <Eigen/Sparse>\n' >"$work/eigen.cpp"
 
 for _ in 1 2 3 4 5; do
-    for name in eigen headers first_step; do
+    for name in eigen headers by_compiled first_step; do
         (
             "$compiler" -std=c++17 "$@" -Iinclude -isystem "${EIGEN3_INCLUDE_DIR:-/usr/include/eigen3}" \
                 -c "$work/$name.cpp" -o "$work/out.o"
@@ -30,6 +31,6 @@ for _ in 1 2 3 4 5; do
 done
 
 echo "least, median, s: $compiler $*"
-for name in eigen headers first_step; do
+for name in eigen headers by_compiled first_step; do
     sort -n "$work/$name" | awk -v name="$name" '{t[NR] = $1} END {printf "%6.2f %6.2f  %s\n", t[1], t[3], name}'
 done
