@@ -131,11 +131,12 @@ int compiled_with_alignment();
 }  // namespace detail
 
 #if defined(TAUT_COMPILED)
-namespace detail {
+#if !defined(TAUT_COMPILED_SOURCE)
 namespace {
-[[maybe_unused]] const int alignment_of_library = compiled_with_alignment<EIGEN_MAX_ALIGN_BYTES>();
+[[maybe_unused]] const int alignment_of_library =
+    detail::compiled_with_alignment<EIGEN_MAX_ALIGN_BYTES>();
 }  // namespace
-}  // namespace detail
+#endif
 TAUT_COMPILED_PENCILS(extern template)
 TAUT_COMPILED_SOLVERS(extern template, float)
 TAUT_COMPILED_SOLVERS(extern template, double)

@@ -44,9 +44,9 @@ MeshSprings<Scalar> springs_from_mesh(const Points<Scalar, 3>& vertices,
 namespace detail {
 
 /// The vertex pairs to join, in order of first appearance.
-class MeshEdges {
+class UniqueEdges {
 public:
-    explicit MeshEdges(Index vertices) : vertices_(vertices) {}
+    explicit UniqueEdges(Index vertices) : vertices_(vertices) {}
 
     /// Adds the pair unless it is there already. @returns whether it was new
     bool add(Index a, Index b) {
@@ -118,7 +118,7 @@ MeshSprings<Scalar> springs_from_mesh(const Points<Scalar, 3>& vertices,
         particle[v] = mesh.system.add_particle(vertices.col(v), mass);
     }
 
-    detail::MeshEdges edges(vertices.cols());
+    detail::UniqueEdges edges(vertices.cols());
     std::unordered_map<Index, detail::Hinge> hinges;
     std::vector<std::array<Index, 2>> hinge_order;
     const auto add_triangle = [&](Index a, Index b, Index c) {
