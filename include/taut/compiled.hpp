@@ -31,9 +31,9 @@
 
 #define TAUT_COMPILED_ANALYSIS(KIND, SCALAR)                                         \
     KIND class MatrixPencil<SCALAR>;                                                 \
-    KIND class SpringSet<SCALAR, Hookean>;                                           \
-    KIND class SpringSet<SCALAR, TensionOnly>;                                       \
-    KIND class SpringSet<SCALAR, Buckling>;                                          \
+    KIND struct SpringSet<SCALAR, Hookean>;                                          \
+    KIND struct SpringSet<SCALAR, TensionOnly>;                                      \
+    KIND struct SpringSet<SCALAR, Buckling>;                                         \
     KIND SpringSystem<SCALAR, 3> hanging_cloth<SCALAR>(const ClothOptions&);         \
     KIND class Stability<SCALAR>;                                                    \
     KIND StepLimit<SCALAR> Stability<SCALAR>::bracket(Method, detail::Bounds) const; \
@@ -69,7 +69,12 @@
     KIND Report __VA_ARGS__::step(State&, Scalar, Index);
 
 #define TAUT_COMPILED_SYSTEM(KIND, SCALAR, DIM, ...)                                            \
-    KIND class SpringSystem<__VA_ARGS__>;                                                       \
+    KIND Index SpringSystem<__VA_ARGS__>::add_particle(const Vector&, SCALAR);                  \
+    KIND State<SCALAR, DIM> SpringSystem<__VA_ARGS__>::initial_state() const;                   \
+    KIND void SpringSystem<__VA_ARGS__>::force(const State&, Force&, const StepDamping&) const; \
+    KIND SCALAR SpringSystem<__VA_ARGS__>::kinetic_energy(const State&) const;                  \
+    KIND SCALAR SpringSystem<__VA_ARGS__>::potential_energy(const State&) const;                \
+    KIND LinearSystem<SCALAR> SpringSystem<__VA_ARGS__>::linearize(const State&) const;         \
     KIND SpringPencil<DIM> SpringPencil<DIM>::at_pose(const SpringSystem<__VA_ARGS__>&,         \
                                                       const Points<TangentReal<SCALAR>, DIM>&); \
     KIND SpringPencil<1> SpringPencil<1>::any_pose(const SpringSystem<__VA_ARGS__>&,            \
