@@ -26,8 +26,9 @@
 // KIND is `template` in the library's own sources, `extern template` elsewhere. A system's template
 // arguments come last: its scalar, its dimension, its laws.
 //
-// Library and program must agree about Eigen's alignment, which follows from flags as -mavx: a
-// program that does not agree lacks a symbol named compiled_with_alignment.
+// Library and program must agree about Eigen's version and its alignment, which follows from flags
+// like -mavx: a program that does not agree lacks a symbol named compiled_for. TAUT_USER_CONFIG and
+// -fopenmp are those of the library.
 
 #define TAUT_COMPILED_ANALYSIS(KIND, SCALAR)                                         \
     KIND class MatrixPencil<SCALAR>;                                                 \
@@ -129,17 +130,17 @@
 namespace taut {
 namespace detail {
 
-/// Defined by the library for the alignment that it was compiled with.
-template <int Bytes>
-int compiled_with_alignment();
+/// Defined by the library for the alignment and the version of Eigen that it was compiled with.
+template <int Bytes, int World, int Major>
+bool compiled_for();
 
 }  // namespace detail
 
 #if defined(TAUT_COMPILED)
 #if !defined(TAUT_COMPILED_SOURCE)
 namespace {
-[[maybe_unused]] const int alignment_of_library =
-    detail::compiled_with_alignment<EIGEN_MAX_ALIGN_BYTES>();
+[[maybe_unused]] const bool fits_library =
+    detail::compiled_for<EIGEN_MAX_ALIGN_BYTES, EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION>();
 }  // namespace
 #endif
 TAUT_COMPILED_PENCILS(extern template)

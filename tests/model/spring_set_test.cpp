@@ -68,6 +68,46 @@ TEST_CASE("spring_set: a float spring has a tangent in double", "[model]") {
     CHECK_THAT(t.transverse, Catch::Matchers::WithinRel(expected, Tolerance<double>::rounding));
 }
 
+// T' = k sin(l)/l: of a length, no number at 0.
+struct Sinc {
+    static constexpr bool convex = false;
+    template <class Scalar>
+    struct Parameters {
+        Scalar stiffness;
+        template <class Other>
+        Parameters<Other> cast() const {
+            return {static_cast<Other>(stiffness)};
+        }
+    };
+    template <class Scalar>
+    static Scalar tension(const Parameters<Scalar>& p, Scalar L, Scalar l) {
+        return p.stiffness * (l - L);
+    }
+    template <class Scalar>
+    static Scalar tension_slope(const Parameters<Scalar>& p, Scalar, Scalar l) {
+        return p.stiffness * std::sin(l) / l;
+    }
+    template <class Scalar>
+    static Scalar stiffness_bound(const Parameters<Scalar>& p, Scalar) {
+        return p.stiffness;
+    }
+};
+
+TEST_CASE("spring_set: axial_range asks a law for lengths alone", "[model]") {
+    Random random(1402);
+    for (int repeat = 0; repeat < 100; ++repeat) {
+        SpringSet<float, Sinc> set;
+        set.add({0, 1, {10}, 1});
+        const double origin = log_uniform(random, 1e4, 1e7);
+        taut::Points<double, 1> x(1, 2);
+        x << origin, origin + log_uniform(random, 1e-3, 1);
+        const auto [softer, stiffer] = set.axial_range(0, x, set.tangent(0, x));
+        CAPTURE(origin, softer, stiffer);
+        CHECK(std::isfinite(softer));
+        CHECK(stiffer <= 10);
+    }
+}
+
 // Far from the origin rounding reaches across the kinks of Buckling: what lies between two of them,
 // the line or the end of the arc, may be the stiffest of all.
 TEMPLATE_TEST_CASE("spring_set: every slope within rounding is in axial_range", "[model]", float,

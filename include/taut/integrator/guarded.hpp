@@ -53,8 +53,8 @@ public:
     using State = typename System::State;
     static constexpr Method method = detail::guarded_method<Stepper>();
     static_assert(method::Of<method>::any_pose != method::AnyPose::no_step,
-                  "taut::Guarded: the stepper's method, as explicit Euler, has no limit that holds "
-                  "at every pose; guard SymplecticEuler, which costs the same");
+                  "taut::Guarded: the stepper's method, like explicit Euler, has no limit that "
+                  "holds at every pose; guard SymplecticEuler, which costs the same");
 
     /// What a frame may cost, and what counts as a gain of energy.
     struct Options {

@@ -13,7 +13,7 @@ enum class Method {
     velocity_verlet,
     implicit_euler,
     bdf2,
-    last = bdf2  ///< no method: visit.hpp compares its list with it
+    last = bdf2  ///< another name of the last one; visit.hpp compares its list with it
 };
 
 /// The older name, of those whose cost and error are compared.
@@ -63,12 +63,12 @@ struct KeepsNoEnergy {
     static double kept_energy(const Books& books, double) {
         return books.total();
     }
-    /// None, J.
+    /// No part of it oscillates: 0 J.
     template <class Books>
     static double energy_lag(const Books&, double) {
         return 0;
     }
-    /// E itself.
+    /// It is E itself.
     static EnergyBand energy_band(double, double) { return {}; }
 };
 

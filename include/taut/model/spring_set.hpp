@@ -211,8 +211,10 @@ struct SpringSet {
         const Real size = x.col(t.a).cwiseAbs().maxCoeff() + x.col(t.b).cwiseAbs().maxCoeff() + L;
         const Real reach = 8 * static_cast<Real>(std::numeric_limits<Scalar>::epsilon()) * size;
         if (!std::isfinite(l + reach)) return {t.axial, t.axial};
+        // Laws are asked for l > 0: below this length the ends coincide [T3].
+        const Real shortest = std::sqrt(static_cast<Real>(std::numeric_limits<Scalar>::min()));
         const auto [least, most] =
-            detail::slope_range<Law>(p, L, std::max(l - reach, Real(0)), l + reach);
+            detail::slope_range<Law>(p, L, std::max(l - reach, shortest), l + reach);
         return {std::min(least, t.axial), std::max(most, t.axial)};
     }
 

@@ -39,7 +39,7 @@ public:
     /// The same from above: each λ may err by its condition number times the rounding of C, to
     /// first order; eigenvalues that this leaves undecided are passed over.
     Real explicit_limit_above() const { return limits().above; }
-    /// Largest |μ| of one step over all modes but the zero modes.
+    /// Largest |μ| of one step over all modes but the zero modes; BDF2 has 1/3 on these, too.
     Real spectral_radius(Method method, Real h) const;
 
 private:

@@ -259,7 +259,7 @@ double Stability<Scalar, Cholesky>::spectral_radius(Method method, double h) con
     require_positive("Stability::spectral_radius", "h", h);
     if (size() == 0) return 0;
     if (size() <= dense_size) return DenseAnalysis<>(*pencil_).spectral_radius(method, h);
-    // For fixed h the radius is quasi-convex in k (of BDF2 known without damping alone), so the
+    // For fixed h the radius is quasi-convex in k (for BDF2 known only without damping), so the
     // ends of the spectrum decide.
     double radius = 0;
     for (const double sign : {1.0, -1.0}) {

@@ -10,8 +10,8 @@
 //
 // A spring takes some dozens of operations. A vector register does several of each at once, if the
 // numbers lie side by side in memory. In a plain loop over springs they do not: both ends are
-// looked up by index, a coordinate at a time, and forces are added to what the spring before may
-// just have stored, which waits for the store. So particles lie in planes, one array a coordinate,
+// looked up by index, a coordinate at a time, and each addition to a force may
+// wait for the store of the one before. So particles lie in planes, one array a coordinate,
 // and springs are sorted once so that a step reads memory forwards: a plan, which lasts until the
 // springs change. A state is converted once a call, however many steps it takes.
 //
@@ -44,10 +44,10 @@
 //
 // Springs of one offset b - a and ascending a are a run: their ends lie side by side and need no
 // index. A grid is a handful of runs. Where a row ends, the run goes on over a gap (.), which is
-// computed like a spring and gives no force; fewer than 16 springs, or more gaps than springs, are
-// not worth it. A segment is what one tile takes of a run. Where springs leave their block there
-// are two: one adds the forces on the ends a, in the tile of a; the other those on the ends b, in
-// the block of b.
+// computed like a spring and gives no force; fewer than 16 springs (so small a grid has no run), or
+// more gaps than springs, are not worth it. A segment is what one tile takes of a run. Where
+// springs leave their block there are two: one adds the forces on the ends a, in the tile of a; the
+// other those on the ends b, in the block of b.
 //
 //
 // 4. What a thread reads and writes
@@ -85,8 +85,8 @@
 //
 // Scattered springs come in batches, each of which touches few places. Those are gathered, copied
 // to where one load finds all coordinates; coefficients are computed by whole registers, and forces
-// added to the copies go back to the block at the end. Where most springs are scattered, particles
-// get an order that brings ends together before runs are sought again.
+// are summed for each copy and added to the block at the end. Where most springs are scattered,
+// particles get an order that brings ends together before runs are sought again.
 //
 //
 // Words, each for one thing

@@ -12,8 +12,8 @@
 #include "../lanczos.hpp"
 #include "../step_limit.hpp"
 
-// One function a method: the bracket of its largest stable step, for any pencil, in double. Those
-// that search for vectors are templates, so that only their callers compile the eigensolver.
+// One function for each limit: the bracket of its largest stable step, for any pencil, in double.
+// Those that search for vectors are templates, so that only their callers compile the eigensolver.
 
 namespace taut::detail {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-// Stability::max_step, method by method, and what an unproved K or D adds.
+// Stability::max_step, by what limits the method, and what an unproved K or D adds.
 
 namespace taut {
 
