@@ -69,27 +69,10 @@ TEST_CASE("spring_set: a float spring has a tangent in double", "[model]") {
 }
 
 // T' = k sin(l)/l: of a length, no number at 0.
-struct Sinc {
-    static constexpr bool convex = false;
-    template <class Scalar>
-    struct Parameters {
-        Scalar stiffness;
-        template <class Other>
-        Parameters<Other> cast() const {
-            return {static_cast<Other>(stiffness)};
-        }
-    };
-    template <class Scalar>
-    static Scalar tension(const Parameters<Scalar>& p, Scalar L, Scalar l) {
-        return p.stiffness * (l - L);
-    }
+struct Sinc : Hookean {
     template <class Scalar>
     static Scalar tension_slope(const Parameters<Scalar>& p, Scalar, Scalar l) {
         return p.stiffness * std::sin(l) / l;
-    }
-    template <class Scalar>
-    static Scalar stiffness_bound(const Parameters<Scalar>& p, Scalar) {
-        return p.stiffness;
     }
 };
 
