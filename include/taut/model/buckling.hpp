@@ -9,6 +9,7 @@
 
 #include "../core/error.hpp"
 #include "detail/arc.hpp"
+#include "detail/slope_range.hpp"
 
 namespace taut {
 
@@ -67,22 +68,14 @@ struct Buckling {
     template <class Scalar>
     static std::pair<Scalar, Scalar> slope_range(const Parameters<Scalar>& p, Scalar L, Scalar low,
                                                  Scalar high) {
-        const Scalar at_low = tension_slope(p, L, low);
-        std::pair<Scalar, Scalar> range = std::minmax(at_low, tension_slope(p, L, high));
-        const auto count = [&](Scalar slope) {
-            range = {std::min(range.first, slope), std::max(range.second, slope)};
-        };
-        if (low < L && L <= high) {
-            count(p.stiffness);
-            count(tension_slope(p, L, std::nextafter(L, Scalar(0))));
-        }
+        auto range = detail::slopes_at_ends_and_rest<Buckling>(p, L, low, high);
         if (!beam_shows(p, L)) return range;
         // Along the arc T′ falls as l grows, so that its ends and those of the interval decide.
         const auto [from, to] = arc_ends(p, L);
         for (const Scalar w : {from, to}) {
             const auto bent = detail::Arc<Scalar>::at(w);
             const Scalar l = L * (1 - w * bent.sag);
-            if (l >= low && l <= high) count(arc_slope(p, L, bent));
+            if (l >= low && l <= high) detail::widen(range, {arc_slope(p, L, bent)});
         }
         return range;
     }
