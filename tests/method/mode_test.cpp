@@ -74,8 +74,7 @@ void for_each_mode(std::uint32_t seed, Visit&& visit) {
 
 }  // namespace
 
-TEST_CASE("mode: step_quadratic and multipliers are those of the transition matrix",
-          "[method]") {
+TEST_CASE("mode: step_quadratic and multipliers are those of the transition matrix", "[method]") {
     constexpr double rounding = Tolerance<double>::rounding;
     Random random(501);
     for_each_mode(500, [&](double k, double d) {
