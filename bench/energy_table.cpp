@@ -27,7 +27,7 @@ typename System::State pulled(const System& system) {
     auto state = system.initial_state();
     state.x.setZero();
     const auto laplacian = taut::SpringPencil<1>::any_pose(system);
-    const Eigen::VectorXd mode = taut::largest_ritz_pair(laplacian, {0, 1, 0}).vector;
+    const Eigen::VectorXd mode = taut::largest_ritz_pair(laplacian, taut::matrices::K_plus).vector;
     double longest = 0;
     system.for_each_set([&](const auto& set) {
         for (const auto length : set.rest_length)

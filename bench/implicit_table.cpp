@@ -121,7 +121,11 @@ void ratios() {
         });
         iterations = std::max(iterations, gradients.solver().iterations());
         if (k % 6 == 3) {
-            assembly.run([&] { tangent.assemble(cloth, state.x, {1, h * h, h}, A); });
+            assembly.run([&] {
+                tangent.assemble(
+                    cloth, state.x,
+                    taut::matrices::M + h * taut::matrices::D + h * h * taut::matrices::K_plus, A);
+            });
             by_ldlt.run([&] {
                 ldlt.factorize(A);
                 x = ldlt.solve(b);
@@ -159,7 +163,8 @@ void ratios() {
 /// One iteration of projective dynamics beside a plain local step and three of Eigen's solves.
 void projective() {
     const Cloth cloth = taut::hanging_cloth<double>({100, 100});
-    const Sparse P = taut::SpringPencil<1>::any_pose(cloth).assemble({1, h * h, h});
+    const Sparse P = taut::SpringPencil<1>::any_pose(cloth).assemble(
+        taut::matrices::M + h * taut::matrices::D + h * h * taut::matrices::K_plus);
     const Eigen::SimplicialLLT<Sparse> llt(P);
     const auto& set = cloth.springs();
     State state = cloth.initial_state();

@@ -139,8 +139,8 @@ long double true_symplectic(const taut::Pencil& pencil) {
         return Matrix(scale.asDiagonal() * pencil.assemble(c).toDense().cast<long double>() *
                       scale.asDiagonal());
     };
-    const Matrix K = scaled({0, 1, 0});
-    const Matrix D = scaled({0, 0, 1});
+    const Matrix K = scaled(taut::matrices::K_plus);
+    const Matrix D = scaled(taut::matrices::D);
     const auto stable = [&](long double h) {
         const Matrix S = 4 * Matrix::Identity(K.rows(), K.rows()) - 2 * h * D - h * h * K;
         return Eigen::SelfAdjointEigenSolver<Matrix>(S, Eigen::EigenvaluesOnly).eigenvalues()[0] >

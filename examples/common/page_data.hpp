@@ -74,7 +74,7 @@ inline Json window_json(const taut::Stability<double>& stability, const Findings
     const double k_max = found.spectrum.k_max.upper;
     const auto& pencil = stability.pencil();
     const double compression =
-        pencil.stiffness_semidefinite() ? 0 : std::max(0.0, pencil.upper_bound({0, -1, 0, false}));
+        pencil.stiffness_semidefinite() ? 0 : std::max(0.0, pencil.upper_bound(-taut::matrices::K));
     const double longest = 2 / std::sqrt(k_max);
     Json json{{"d0", d0}, {"k_max", k_max}, {"longest", longest}, {"h", Json::array()}};
     for (int i = 0; i <= samples; ++i) {

@@ -10,6 +10,8 @@
 
 namespace taut_test::tangent_matrix_test {
 
+namespace matrices = taut::matrices;
+
 using taut::TangentMatrix;
 
 TEMPLATE_TEST_CASE("tangent_matrix: assemble is the combination of dense M, K or K+, and D",
@@ -33,16 +35,12 @@ TEMPLATE_TEST_CASE("tangent_matrix: assemble is the combination of dense M, K or
     const auto state = random_state(random, system);
     const auto dense = dense_matrices(system, state);
     // One matrix for all of them: assemble must clear what was there.
-    for (const taut::Combination& c : {taut::Combination{1, 0, 0},
-                                       {0, 1, 0, false},
-                                       {0, 1, 0, true},
-                                       {0, 0, 1, false},
-                                       {1, 0.25, 0.5},
-                                       {3, -0.5, 2, false}}) {
+    for (const taut::Combination& c : {matrices::M, matrices::K, matrices::K_plus, matrices::D,
+                                       matrices::M + 0.5 * matrices::D + 0.25 * matrices::K_plus,
+                                       3 * matrices::M + 2 * matrices::D - 0.5 * matrices::K}) {
         tangent.assemble(system, state.x, c, A);
-        const Eigen::MatrixXd expected = c.mass * dense.M +
-                                         c.stiffness * (c.project ? dense.K_plus : dense.K) +
-                                         c.damping * dense.D;
+        const Eigen::MatrixXd expected = c.mass() * dense.M + c.damping() * dense.D +
+                                         c.stiffness() * dense.K + c.projected() * dense.K_plus;
         const Eigen::Matrix<Scalar, -1, -1> assembled(A);
         const double rounding = Tolerance<Scalar>::rounding * (largest(dense.K) + largest(dense.M));
         CHECK(distance(assembled, expected(free, free)) <= rounding);
@@ -80,7 +78,8 @@ TEST_CASE("tangent_matrix: values are written in place, and the pattern is that 
     const double* values = A.valuePtr();
     const Index entries = A.nonZeros();
     for (int trial = 0; trial < 3; ++trial) {
-        tangent.assemble(system, random_state(random, system).x, {1, 1, 1}, A);
+        tangent.assemble(system, random_state(random, system).x,
+                         matrices::M + matrices::D + matrices::K_plus, A);
         CHECK(A.valuePtr() == values);
         CHECK(A.nonZeros() == entries);
     }
@@ -100,7 +99,8 @@ TEST_CASE("tangent_matrix: with nothing free it is 0 by 0", "[model]") {
     const TangentMatrix<double, 3> tangent(system);
     auto A = tangent.zero();
     CHECK(A.rows() == 0);
-    tangent.assemble(system, system.initial_state().x, {1, 1, 1}, A);
+    tangent.assemble(system, system.initial_state().x, matrices::M + matrices::D + matrices::K_plus,
+                     A);
     CHECK(A.nonZeros() == 0);
 }
 

@@ -74,7 +74,7 @@ TEMPLATE_TEST_CASE("limits: a vector refutes no step that exact arithmetic would
     for (int repeat = 0; repeat < 12; ++repeat) {
         const Eigen::VectorXd u = random_vector(random, pencil.size());
         const auto [k, d] = exact_quotients(system, u);
-        const auto enclosed = taut::detail::quotients(pencil, u, false);
+        const auto enclosed = taut::detail::quotients(pencil, u, taut::matrices::K);
         CHECK(static_cast<Real>(enclosed.k.lower()) <= k);
         CHECK(static_cast<Real>(enclosed.k.upper()) >= k);
         CHECK(static_cast<Real>(enclosed.d.lower()) <= d);

@@ -8,6 +8,8 @@
 
 namespace taut_test::quick_mode_test {
 
+namespace matrices = taut::matrices;
+
 using taut::detail::leading_pair;
 using taut::detail::quick_mode;
 
@@ -48,7 +50,7 @@ TEMPLATE_TEST_CASE("quick_mode: close to the largest eigenvalue, from below", "[
             sharp.basis = 40;
             sharp.restarts = 30;
             sharp.tolerance = 1e-8;
-            const taut::Combination c{0, 1, 0};
+            const taut::Combination c = matrices::K_plus;
             const double truth = taut::largest_ritz_pair(pencil, c, sharp).value;
             const auto pair = leading_pair(pencil, c);
             INFO("decades " << decades << ", repeat " << repeat);
@@ -78,7 +80,8 @@ TEST_CASE("quick_mode: dampers and signs of any combination of D and K", "[stabi
     cloth.set_rayleigh({2, 1e-4});
     const auto state = deformed(cloth, 0.97, 0.01, 5);
     const auto pencil = taut::SpringPencil<3>::at_pose(cloth, state.x);
-    for (const taut::Combination& c : {taut::Combination{0, 1, 0}, {0, 0, 1}, {0, 1e-8, 1e-4}}) {
+    for (const taut::Combination& c :
+         {matrices::K_plus, matrices::D, 1e-4 * matrices::D + 1e-8 * matrices::K_plus}) {
         taut::LanczosOptions sharp;
         sharp.basis = 40;
         sharp.tolerance = 1e-6;

@@ -58,21 +58,29 @@ inline taut::Combination wild_combination(Random& random) {
     const auto weight = [&] {
         return random.below(4) == 0 ? 0 : (random.below(2) == 0 ? 1 : -1) * over_decades(random, 2);
     };
-    return {weight(), weight(), weight(), random.below(2) == 0};
+    namespace matrices = taut::matrices;
+    const double mass = weight();
+    const double stiffness = weight();
+    const double damping = weight();
+    return mass * matrices::M + damping * matrices::D +
+           stiffness * (random.below(2) == 0 ? matrices::K_plus : matrices::K);
 }
 
-/// mass·M + stiffness·K + damping·D in long double.
+/// The sum in long double.
 inline RealMatrix exact_sum(const Exact& e, const taut::Combination& c) {
-    RealMatrix S = static_cast<Real>(c.stiffness) * (c.project ? e.K_plus : e.K) +
-                   static_cast<Real>(c.damping) * e.D;
-    S.diagonal() += static_cast<Real>(c.mass) * e.mass;
+    RealMatrix S = static_cast<Real>(c.stiffness()) * e.K +
+                   static_cast<Real>(c.projected()) * e.K_plus +
+                   static_cast<Real>(c.damping()) * e.D;
+    S.diagonal() += static_cast<Real>(c.mass()) * e.mass;
     return S;
 }
 
 /// Eigenvalues of M⁻¹S, ascending.
 inline RealVector exact_eigenvalues(const Exact& e, const taut::Combination& c) {
-    return eigenvalues(e.scaled(static_cast<Real>(c.mass), static_cast<Real>(c.stiffness),
-                                static_cast<Real>(c.damping), c.project));
+    const bool project = c.projected() != 0;
+    return eigenvalues(e.scaled(static_cast<Real>(c.mass()),
+                                static_cast<Real>(project ? c.projected() : c.stiffness()),
+                                static_cast<Real>(c.damping()), project));
 }
 
 inline Eigen::VectorXd random_vector(Random& random, Index n) {

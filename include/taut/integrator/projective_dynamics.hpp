@@ -133,9 +133,10 @@ Status ProjectiveDynamics<System, Solver>::prepare(Scalar h) {
     revision_ = system_->revision();
     if (free_.empty() || factors_.find(h)) return Status::ok;
     const double step = static_cast<double>(h);
-    const SparseMatrix<Scalar> P = SpringPencil<1>::any_pose(*system_)
-                                       .assemble({1, step * step, step})
-                                       .template cast<Scalar>();
+    const SparseMatrix<Scalar> P =
+        SpringPencil<1>::any_pose(*system_)
+            .assemble(matrices::M + step * matrices::D + step * step * matrices::K_plus)
+            .template cast<Scalar>();
     return factors_.factorize(P, h) ? Status::ok : Status::not_positive_definite;
 }
 

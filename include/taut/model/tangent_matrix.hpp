@@ -8,17 +8,10 @@
 
 #include "../core/assert.hpp"
 #include "block_pattern.hpp"
+#include "combination.hpp"
 #include "spring_set.hpp"
 
 namespace taut {
-
-/// Factors of the sum mass·M + stiffness·K + damping·D.
-struct Combination {
-    double mass = 0;
-    double stiffness = 0;
-    double damping = 0;
-    bool project = true;  ///< take K⁺ for K; D always uses K⁺ [T28]
-};
 
 /// The symmetric sparsity pattern of a spring system's matrices, one Dim × Dim block for each pair
 /// of free particles that a spring joins, and their assembly in place.
@@ -43,7 +36,7 @@ public:
     /// An N × N matrix of zeros with this pattern.
     Matrix zero() const { return pattern_.template zero<Scalar, Dim>(); }
 
-    /// A ← c.mass·M + c.stiffness·K(x) + c.damping·D(x), into a matrix made by zero().
+    /// A ← the sum c at x, into a matrix made by zero().
     template <class System>
     void assemble(const System& system, const Points<Scalar, Dim>& x, const Combination& c,
                   Matrix& A) const;
@@ -92,22 +85,23 @@ void TangentMatrix<Scalar, Dim>::assemble(const System& system, const Points<Sca
     TAUT_ASSERT(A.nonZeros() == Dim * Dim * pattern_.blocks(), "the matrix must be made by zero()");
     std::fill_n(A.valuePtr(), A.nonZeros(), Scalar(0));
     const auto rayleigh = system.rayleigh();
-    const Scalar on_mass = static_cast<Scalar>(c.mass + c.damping * rayleigh.mass_proportional);
-    const Scalar on_k = static_cast<Scalar>(c.stiffness);
-    const Scalar on_k_plus = static_cast<Scalar>(c.damping * rayleigh.stiffness_proportional);
-    const Scalar on_bound = static_cast<Scalar>(c.damping * system.graph_damping());
-    const Scalar on_damper = static_cast<Scalar>(c.damping);
+    const Scalar on_mass = static_cast<Scalar>(c.mass() + c.damping() * rayleigh.mass_proportional);
+    const Scalar on_k = static_cast<Scalar>(c.stiffness());
+    const Scalar on_k_plus = static_cast<Scalar>(c.projected());
+    const Scalar on_rayleigh = static_cast<Scalar>(c.damping() * rayleigh.stiffness_proportional);
+    const Scalar on_bound = static_cast<Scalar>(c.damping() * system.graph_damping());
+    const Scalar on_damper = static_cast<Scalar>(c.damping());
     std::size_t s = 0;
     system.for_each_tangent(x, [&](const SpringTangent<Scalar, Dim>& raw) {
         const Slots slots = slots_[s++];
         const Index a = column_[raw.a];
         const Index b = column_[raw.b];
         const auto plus = raw.projected();
-        const auto& k = c.project ? plus : raw;
         const Scalar graph = on_bound * raw.bound;
-        const Scalar axial =
-            on_k * k.axial + on_k_plus * plus.axial + on_damper * raw.damping + graph;
-        const Scalar transverse = on_k * k.transverse + on_k_plus * plus.transverse + graph;
+        const Scalar axial = on_k * raw.axial + on_k_plus * plus.axial + on_rayleigh * plus.axial +
+                             on_damper * raw.damping + graph;
+        const Scalar transverse = on_k * raw.transverse + on_k_plus * plus.transverse +
+                                  on_rayleigh * plus.transverse + graph;
         const Block P = spring_block(raw.d, axial, transverse);
         if (a >= 0) pattern_.add(A, diagonal_[a], a, P);
         if (b >= 0) pattern_.add(A, diagonal_[b], b, P);

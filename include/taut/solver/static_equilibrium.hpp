@@ -133,7 +133,10 @@ bool EquilibriumSearch<System>::line_search(const VectorX<Scalar>& dx) {
 template <class System>
 Status EquilibriumSearch<System>::iterate() {
     const auto factorize = [&](bool project) {
-        tangent_.assemble(system_, state_.x, {static_cast<double>(sigma_), 1, 0, project}, A_);
+        tangent_.assemble(
+            system_, state_.x,
+            static_cast<double>(sigma_) * matrices::M + (project ? matrices::K_plus : matrices::K),
+            A_);
         llt_.factorize(A_);
         return llt_.info() == Eigen::Success;
     };

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "../model/spring_system.hpp"
-#include "detail/narrow.hpp"
 #include "detail/quick_mode.hpp"
+#include "detail/symplectic_limit.hpp"
 #include "spring_pencil.hpp"
 
 namespace taut {
@@ -15,33 +15,13 @@ template <class Effort, class Scalar, int Dim, class... Laws>
 StepLimit<Scalar> any_pose_bracket(const SpringSystem<Scalar, Dim, Laws...>& system,
                                    Effort effort) {
     const auto laplacian = SpringPencil<1>::any_pose(system);
-    StepLimit<Scalar> limit;
-    limit.revision = system.revision();
     if (!laplacian.lost().empty()) {
-        limit.refuted = std::numeric_limits<Scalar>::infinity();
-        limit.cause = Cause::overflow;
-        return limit;
+        return rounded<Scalar>({0, infinity, Cause::overflow}, system.revision());
     }
-    Bracket bracket;
-    bracket.certified = laplacian.size() == 0 ? infinity : certified_symplectic(laplacian);
-    if (!std::isfinite(bracket.certified)) {
-        limit.certified = limit.refuted = std::numeric_limits<Scalar>::infinity();
-        limit.cause = Cause::nothing_to_limit;
-        return limit;
-    }
-    if (!(bracket.certified > 0)) {  // overflow: nothing is proved
-        limit.refuted = std::numeric_limits<Scalar>::infinity();
-        limit.cause = Cause::overflow;
-        return limit;
-    }
-    const double h = bracket.certified;
-    bracket.vector = leading_pair(laplacian, {0, h * h, 2 * h}).vector;
-    bracket.refuted = refuted_symplectic(laplacian, bracket.vector);
-    if constexpr (Effort::factorises) narrow_symplectic(laplacian, effort, bracket);
-    limit.certified = round_down<Scalar>(bracket.certified);
-    limit.refuted = round_up<Scalar>(bracket.refuted);
-    limit.cause = symplectic_cause(laplacian, bracket.certified, bracket.vector);
-    return limit;
+    const auto start = [&](double h) {
+        return leading_pair(laplacian, 2 * h * D + h * h * K_plus).vector;
+    };
+    return rounded<Scalar>(symplectic_limit(laplacian, effort, 0, start), system.revision());
 }
 
 }  // namespace detail

@@ -109,9 +109,7 @@ double proved_deficit(Prover<Cholesky>& prover, const Pencil& pencil, const Comb
                       double most) {
     if (!(most > 0) || !std::isfinite(most)) return std::numeric_limits<double>::infinity();
     for (double epsilon = 1e-14 * most; epsilon <= most; epsilon *= 16) {
-        Combination shifted = c;
-        shifted.mass += epsilon;
-        if (prove(prover, pencil, shifted).proved) return epsilon;
+        if (prove(prover, pencil, c + epsilon * matrices::M).proved) return epsilon;
     }
     return std::numeric_limits<double>::infinity();
 }

@@ -12,7 +12,7 @@
 namespace taut {
 
 /// Full eigenvalue computations for small systems: O(N³), good to rounding, numerical (no proof).
-/// K⁺ is used throughout; modes of K whose eigenvalue is zero to rounding are zero modes and are
+/// Modes of K whose eigenvalue is zero to rounding are zero modes and are
 /// left out of limits and radii.
 /// @tparam Real  the precision: double, or long double for a referee
 template <class Real = double>
@@ -21,8 +21,11 @@ public:
     using Vector = VectorX<Real>;
     using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 
-    /// @param project  take K⁺ for K
-    explicit DenseAnalysis(const Pencil& pencil, bool project = true);
+    /// Degrees of freedom up to which all this takes little time.
+    static constexpr Index good_size = 120;
+
+    /// @param stiffness  K_plus or K
+    explicit DenseAnalysis(const Pencil& pencil, const Combination& stiffness = matrices::K_plus);
 
     /// Eigenvalues of K'⁺, ascending, 1/s².
     const Vector& stiffness_eigenvalues() const { return modes_.eigenvalues(); }
@@ -57,15 +60,15 @@ private:
 };
 
 template <class Real>
-DenseAnalysis<Real>::DenseAnalysis(const Pencil& pencil, bool project)
+DenseAnalysis<Real>::DenseAnalysis(const Pencil& pencil, const Combination& stiffness)
     : root_(pencil.mass().template cast<Real>().cwiseSqrt()) {
     const auto scaled = [&](const Combination& c) {
         const Vector inverse = root_.cwiseInverse();
         const Matrix S = pencil.assemble(c).toDense().template cast<Real>();
         return Matrix(inverse.asDiagonal() * S * inverse.asDiagonal());
     };
-    D_ = scaled({0, 0, 1});
-    modes_.compute(scaled({0, 1, 0, project}));
+    D_ = scaled(matrices::D);
+    modes_.compute(scaled(stiffness));
     const Real norm = modes_.eigenvalues().cwiseAbs().maxCoeff();
     zero_ = 64 * static_cast<Real>(pencil.size()) * std::numeric_limits<Real>::epsilon() * norm;
 }

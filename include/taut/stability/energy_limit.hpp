@@ -4,8 +4,8 @@
 
 #include "../core/detail/bisection.hpp"
 #include "../model/spring_system.hpp"
-#include "detail/narrow.hpp"
 #include "detail/quick_mode.hpp"
+#include "detail/symplectic_limit.hpp"
 #include "spring_pencil.hpp"
 
 namespace taut {
@@ -70,37 +70,26 @@ EnergyLimit<Scalar> energy_bracket(const SpringSystem<Scalar, Dim, Laws...>& sys
     EnergyLimit<Scalar> limit;
     limit.revision = system.revision();
     limit.refuted = std::numeric_limits<Scalar>::infinity();
+    const auto overflow = [&] {
+        limit.cause = Cause::overflow;
+        return limit;
+    };
     using Damping = SpringPencil<1>::Damping;
     const auto springs = SpringPencil<1>::any_pose(system, Damping::none);
-    if (!springs.lost().empty()) {
-        limit.cause = Cause::overflow;
-        return limit;
-    }
+    if (!springs.lost().empty()) return overflow();
     const auto damped = SpringPencil<1>::any_pose(system, Damping::all_but_graph);
     if (springs.size() > 0) limit.drag = damped.rayleigh().mass_proportional;
-    Bracket bracket;
-    bracket.certified = springs.size() == 0 ? infinity : certified_symplectic(springs);
-    if (std::isfinite(bracket.certified) && bracket.certified > 0) {
-        bracket.vector = leading_pair(springs, {0, 1, 0}).vector;
-        bracket.refuted = refuted_symplectic(springs, bracket.vector);
-        if constexpr (Effort::factorises) narrow_symplectic(springs, effort, bracket);
-    }
-    if (!(bracket.certified > 0)) {
-        limit.cause = Cause::overflow;
-        return limit;
-    }
-    const double k = 2 / bracket.certified;
-    limit.stiffness = k * k * (1 + step_rounding<double>);
+    const UnroundedLimit bracket = symplectic_limit(
+        springs, effort, 0, [&](double) { return leading_pair(springs, K_plus).vector; });
+    if (!(bracket.certified > 0)) return overflow();
     const bool only_drag = damped.is_rayleigh() && damped.rayleigh().stiffness_proportional == 0;
     if (springs.size() > 0 && !only_drag) {
-        const double all = damped.upper_bound({0, 0, 1});
+        const double all = damped.upper_bound(D);
         limit.dampers = std::max(0.0, all - limit.drag * (1 - step_rounding<double>));
     }
-    if (!std::isfinite(limit.drag + limit.dampers)) {
-        limit.stiffness = infinity;
-        limit.cause = Cause::overflow;
-        return limit;
-    }
+    if (!std::isfinite(limit.drag + limit.dampers)) return overflow();
+    const double k = 2 / bracket.certified;
+    limit.stiffness = k * k * (1 + step_rounding<double>);
     const auto holds = [&](double h) { return !limit.alpha(h).empty(); };
     // No damping meets the condition above 1/√ℓ; drag and dampers forbid larger steps than these.
     const double most = std::min(bracket.certified / 2, 2 / (limit.drag + limit.dampers));

@@ -37,16 +37,16 @@ Real explicit_estimate(const Pencil& pencil, Real k_max) {
     const auto forwards = [&](const Eigen::VectorXd& y) {
         Eigen::VectorXd Cy(2 * N);
         Cy << omega * y.tail(N),
-            -times({0, 1 / omega, 0, false}, y.head(N)) - times({0, 0, 1}, y.tail(N));
+            -times(1 / omega * matrices::K, y.head(N)) - times(matrices::D, y.tail(N));
         return Cy;
     };
     const Eigen::SimplicialLLT<SparseMatrix<double>> shifted(
-        pencil.assemble({sigma * sigma, 1, sigma, false}));
+        pencil.assemble(sigma * sigma * matrices::M + sigma * matrices::D + matrices::K));
     if (shifted.info() != Eigen::Success) return std::numeric_limits<double>::quiet_NaN();
     const auto backwards = [&](const Eigen::VectorXd& y) {
         // (σ²M + σD + K)x = −(r + (D + σM)a) with v = a + σx, for (C − σ)(ωx; v) = (ωa; r).
         const Eigen::VectorXd a = y.head(N) / omega;
-        const Eigen::VectorXd load = -y.tail(N) - times({sigma, 0, 1}, a);
+        const Eigen::VectorXd load = -y.tail(N) - times(sigma * matrices::M + matrices::D, a);
         const Eigen::VectorXd x =
             root.cwiseProduct(shifted.solve(Eigen::VectorXd(root.cwiseProduct(load))));
         Eigen::VectorXd solution(2 * N);
@@ -67,8 +67,8 @@ Real explicit_estimate(const Pencil& pencil, Real k_max) {
                        pencil.quadratic(c, x.imag().cwiseQuotient(root)).value;
             };
             const double m = x.squaredNorm();
-            h = std::min(h, critical_step(Method::explicit_euler, form({0, 1, 0, false}) / m,
-                                          form({0, 0, 1}) / m));
+            h = std::min(h, critical_step(Method::explicit_euler, form(matrices::K) / m,
+                                          form(matrices::D) / m));
         }
     };
     lower(detail::arnoldi(forwards, 2 * N, steps),

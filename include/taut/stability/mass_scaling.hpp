@@ -57,7 +57,8 @@ AddedMass added_mass(const SpringSystem<Scalar, Dim, Laws...>& system,
     }
     double best = std::numeric_limits<double>::infinity();
     for (int repeat = 0; repeat < repeats; ++repeat) {
-        const auto needed = pencil.particle_loads({0, h * h, 2 * h}, p);  // N s²/m, kg
+        const auto needed =
+            pencil.particle_loads(2 * h * matrices::D + h * h * matrices::K_plus, p);  // N s²/m, kg
         double total = 0;
         for (std::size_t i = 0; i < free.size(); ++i) {
             total += std::max(0.0, needed[i] / budget * margin - mass[i]);

@@ -15,17 +15,16 @@ namespace taut {
 /// The pencil of a LinearSystem: bare matrices, without springs behind them.
 /// @tparam Scalar  the system's; all is taken in double
 template <class Scalar>
-class MatrixPencil final : public Pencil {
+class MatrixPencil final : public ScenePencil {
 public:
     /// Copies M, D and K.
     explicit MatrixPencil(const LinearSystem<Scalar>& system);
 
-    int dim() const override { return 1; }
     void multiply(const Combination& c, const Eigen::VectorXd& u,
                   Eigen::VectorXd& y) const override {
-        y = c.mass * mass_.cwiseProduct(u);
-        if (c.stiffness != 0) y.noalias() += c.stiffness * (K_ * u);
-        if (c.damping != 0) y.noalias() += c.damping * (D_ * u);
+        y = c.mass() * mass_.cwiseProduct(u);
+        if (on_K(c) != 0) y.noalias() += on_K(c) * (K_ * u);
+        if (c.damping() != 0) y.noalias() += c.damping() * (D_ * u);
     }
     Enclosed quadratic(const Combination& c, const Eigen::VectorXd& u) const override;
     double upper_bound(const Combination& c, double enough = 0) const override;
@@ -38,19 +37,17 @@ public:
     double assembly_error(const Combination& c, const Eigen::VectorXd& s) const override;
     std::vector<SpringShare> spring_shares(const Eigen::VectorXd&) const override { return {}; }
     std::vector<ParticleShare> particle_shares(const Eigen::VectorXd& u) const override;
-    std::shared_ptr<const Pencil> scaled(double stiffness, double mass) const override;
-    bool projects() const override { return false; }
-    bool stiffness_semidefinite() const override { return stiffness_semidefinite_; }
-    bool damping_semidefinite() const override { return damping_semidefinite_; }
-    bool is_rayleigh() const override { return is_rayleigh_; }
+    std::shared_ptr<const ScenePencil> scaled(double stiffness, double mass) const override;
 
 private:
     using Matrix = SparseMatrix<double>;
 
+    // K⁺ = K.
+    static double on_K(const Combination& c) { return c.stiffness() + c.projected(); }
     /// The sizes of what S is added up from, the mass term apart: its rounding errors are relative
     /// to these.
     Matrix magnitudes(const Combination& c) const {
-        return std::abs(c.stiffness) * K_.cwiseAbs() + std::abs(c.damping) * D_.cwiseAbs();
+        return std::abs(on_K(c)) * K_.cwiseAbs() + std::abs(c.damping()) * D_.cwiseAbs();
     }
     using Real = TangentReal<Scalar>;
 
@@ -63,9 +60,6 @@ private:
 
     Matrix K_;
     Matrix D_;
-    bool stiffness_semidefinite_ = false;
-    bool damping_semidefinite_ = false;
-    bool is_rayleigh_ = false;
 };
 
 template <class Scalar>
@@ -79,8 +73,9 @@ MatrixPencil<Scalar>::MatrixPencil(const LinearSystem<Scalar>& system)
         mass_[i] = in_range(system.mass()[i], "mass in row", i);
     if (!lost().empty()) return;
     detect_rayleigh();
-    stiffness_semidefinite_ = proves_semidefinite(system.stiffness());
-    damping_semidefinite_ = is_rayleigh_ || proves_semidefinite(system.damping());
+    facts_.stiffness_semidefinite = facts_.projected_semidefinite =
+        proves_semidefinite(system.stiffness());
+    facts_.damping_semidefinite = is_rayleigh() || proves_semidefinite(system.damping());
 }
 
 template <class Scalar>
@@ -117,8 +112,9 @@ void MatrixPencil<Scalar>::detect_rayleigh() {
         least = std::min(least, d != 0 && !std::isnormal(quotient) ? -1 : quotient);
         most = std::max(most, quotient);
     }
-    is_rayleigh_ = diagonal && least >= 0 && most <= least * (1 + rounding) && std::isfinite(most);
-    if (is_rayleigh_) rayleigh_.mass_proportional = most;
+    facts_.is_rayleigh =
+        diagonal && least >= 0 && most <= least * (1 + rounding) && std::isfinite(most);
+    if (is_rayleigh()) rayleigh_.mass_proportional = most;
 }
 
 /// a_ii ≥ Σ|a_ij| in every row; where the sum rounds, with room for it.
@@ -165,7 +161,7 @@ template <class Scalar>
 Enclosed MatrixPencil<Scalar>::quadratic(const Combination& c, const Eigen::VectorXd& u) const {
     Enclosed sum;
     for (Index i = 0; i < size(); ++i) {
-        const double term = c.mass * mass_[i] * u[i] * u[i];
+        const double term = c.mass() * mass_[i] * u[i] * u[i];
         sum.value += term;
         sum.error += std::abs(term);
     }
@@ -179,8 +175,8 @@ Enclosed MatrixPencil<Scalar>::quadratic(const Combination& c, const Eigen::Vect
             }
         }
     };
-    add(K_, c.stiffness);
-    add(D_, c.damping);
+    add(K_, on_K(c));
+    add(D_, c.damping());
     const double terms = static_cast<double>(size() + K_.nonZeros() + D_.nonZeros()) + 8;
     sum.error *= terms * std::numeric_limits<double>::epsilon();
     return sum;
@@ -201,7 +197,7 @@ double MatrixPencil<Scalar>::upper_bound(const Combination& c, double enough) co
         static_cast<double>(widest + 8) * std::numeric_limits<double>::epsilon();
     // Products that underflow lose less than this in a row; rows without entries lose nothing.
     const Eigen::VectorXd entries =
-        sizes * Eigen::VectorXd::Ones(size()) + std::abs(c.mass) * mass_;
+        sizes * Eigen::VectorXd::Ones(size()) + std::abs(c.mass()) * mass_;
     const Eigen::VectorXd underflow =
         (entries.array() > 0)
             .select(static_cast<double>(widest + 8) * std::numeric_limits<double>::min(),
@@ -218,7 +214,7 @@ double MatrixPencil<Scalar>::upper_bound(const Combination& c, double enough) co
         }
         const Eigen::VectorXd diagonal = S.diagonal().cwiseProduct(p);
         const Eigen::VectorXd error =
-            rounding * (sizes * p + std::abs(c.mass) * mass_.cwiseProduct(p)) + underflow;
+            rounding * (sizes * p + std::abs(c.mass()) * mass_.cwiseProduct(p)) + underflow;
         const Eigen::VectorXd weight = mass_.cwiseProduct(p);
         const Eigen::VectorXd quotient = (others + diagonal + error).cwiseQuotient(weight);
         // maxCoeff may pass over what is not a number: a weight that vanished, or overflow.
@@ -239,10 +235,10 @@ double MatrixPencil<Scalar>::upper_bound(const Combination& c, double enough) co
 
 template <class Scalar>
 SparseMatrix<double> MatrixPencil<Scalar>::assemble(const Combination& c) const {
-    Matrix S = c.stiffness * K_ + c.damping * D_;
+    Matrix S = on_K(c) * K_ + c.damping() * D_;
     Matrix mass(size(), size());
     mass.setIdentity();
-    mass.diagonal() = c.mass * mass_;
+    mass.diagonal() = c.mass() * mass_;
     S += mass;
     S.makeCompressed();
     return S;
@@ -251,7 +247,7 @@ SparseMatrix<double> MatrixPencil<Scalar>::assemble(const Combination& c) const 
 /// Two products and two sums an entry.
 template <class Scalar>
 double MatrixPencil<Scalar>::assembly_error(const Combination& c, const Eigen::VectorXd& s) const {
-    const Eigen::VectorXd row = magnitudes(c) * s + std::abs(c.mass) * mass_.cwiseProduct(s);
+    const Eigen::VectorXd row = magnitudes(c) * s + std::abs(c.mass()) * mass_.cwiseProduct(s);
     return 4 * std::numeric_limits<double>::epsilon() * s.cwiseProduct(row).maxCoeff();
 }
 
@@ -267,7 +263,8 @@ std::vector<ParticleShare> MatrixPencil<Scalar>::particle_shares(const Eigen::Ve
 
 /// D has no known part that follows K; its part d0·M follows M where it was recognised.
 template <class Scalar>
-std::shared_ptr<const Pencil> MatrixPencil<Scalar>::scaled(double stiffness, double mass) const {
+std::shared_ptr<const ScenePencil> MatrixPencil<Scalar>::scaled(double stiffness,
+                                                                double mass) const {
     auto pencil = std::make_shared<MatrixPencil>(*this);
     pencil->mass_ *= mass;
     // An entry that vanished would take the allowance for its row's underflow with it.
@@ -277,7 +274,7 @@ std::shared_ptr<const Pencil> MatrixPencil<Scalar>::scaled(double stiffness, dou
         const bool zero = entry == 0 || stiffness == 0;
         return zero ? 0 : std::copysign(std::max(std::abs(product), least), product);
     });
-    if (is_rayleigh_) pencil->D_ *= mass;
+    if (is_rayleigh()) pencil->D_ *= mass;
     return pencil;
 }
 

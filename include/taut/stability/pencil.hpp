@@ -13,6 +13,7 @@
 
 #include "../core/error.hpp"
 #include "../core/types.hpp"
+#include "../model/combination.hpp"
 #include "../model/damping.hpp"
 #include "../model/tangent_matrix.hpp"
 
@@ -48,8 +49,7 @@ template <class Scalar>
 using TangentReal = std::conditional_t<std::is_same_v<Scalar, float>, double, Scalar>;
 
 /// M, D, K of the free degrees of freedom, as the analysis needs them: in double, from springs or
-/// from matrices. K⁺ is K without negative transverse stiffness where springs are behind it [T27];
-/// for bare matrices K⁺ = K. A Combination is S = mass·M + stiffness·K⁺ (or K) + damping·D.
+/// from matrices, as an operator, its quotients and its bounds. S stands for a Combination.
 class Pencil {
 public:
     virtual ~Pencil() = default;
@@ -59,7 +59,7 @@ public:
     /// N, kg: the diagonal of M.
     const Eigen::VectorXd& mass() const { return mass_; }
     /// Degrees of freedom of one particle; 1 where there are no particles.
-    virtual int dim() const = 0;
+    int dim() const { return facts_.dim; }
 
     /// y ← S u.
     virtual void multiply(const Combination& c, const Eigen::VectorXd& u,
@@ -67,14 +67,12 @@ public:
     /// uᵀS u with its rounding error.
     virtual Enclosed quadratic(const Combination& c, const Eigen::VectorXd& u) const = 0;
     /// A proved upper bound on the largest eigenvalue of M⁻¹S, rounding included [T26]. For springs
-    /// it is never below c.mass + c.damping·d0.
+    /// it is never below the factor of M, the mass-proportional part of D counted.
     /// @param enough  stop improving the bound once it is at most this
     virtual double upper_bound(const Combination& c, double enough = 0) const = 0;
     /// An ε ≥ 0, in the units of M⁻¹S, with S ⪰ −εM proved: by the bound, for bare matrices also by
     /// factorisation.
-    virtual double deficit(const Combination& c) const {
-        return std::max(0.0, upper_bound({-c.mass, -c.stiffness, -c.damping, c.project}));
-    }
+    virtual double deficit(const Combination& c) const { return std::max(0.0, upper_bound(-c)); }
     /// S as a sparse matrix, both triangles.
     virtual SparseMatrix<double> assemble(const Combination& c) const = 0;
     /// The same with each spring that may be on either side of a kink on the side where its part of
@@ -84,25 +82,25 @@ public:
     /// the tangents.
     virtual double assembly_error(const Combination& c, const Eigen::VectorXd& s) const = 0;
 
-    /// Shares in the energy of mode u, in no order; empty without springs. Elastic energy by K⁺.
-    virtual std::vector<SpringShare> spring_shares(const Eigen::VectorXd& u) const = 0;
-    /// Without springs a "particle" is a degree of freedom.
-    virtual std::vector<ParticleShare> particle_shares(const Eigen::VectorXd& u) const = 0;
-    /// The same with K (and αK⁺) times `stiffness` and M (and d0·M) times `mass`; dampers stay.
-    /// What is scaled below the normal numbers keeps its allowance for rounding.
-    virtual std::shared_ptr<const Pencil> scaled(double stiffness, double mass) const = 0;
-
-    /// Whether K⁺ differs from K where K is indefinite: springs, not bare matrices.
-    virtual bool projects() const = 0;
-    /// Whether K (not K⁺) is known to be positive semi-definite.
-    virtual bool stiffness_semidefinite() const = 0;
-    /// Whether D is known to be positive semi-definite.
-    virtual bool damping_semidefinite() const = 0;
+    /// Whether K is known to be positive semi-definite, up to resolution().
+    bool stiffness_semidefinite() const { return facts_.stiffness_semidefinite; }
+    /// Whether K⁺ is: that of springs always.
+    bool projected_semidefinite() const { return facts_.projected_semidefinite; }
+    /// Whether D is.
+    bool damping_semidefinite() const { return facts_.damping_semidefinite; }
     /// Whether D = d0·M + αK⁺ (d0·M of bare matrices: to 4 ulp), so that M, D and K⁺ share their
     /// eigenvectors [T13].
-    virtual bool is_rayleigh() const = 0;
+    bool is_rayleigh() const { return facts_.is_rayleigh; }
+    /// How much of k_max rest lengths and positions, which are rounded to Scalar, may leave as
+    /// compression that nobody meant; 0 for bare matrices.
+    double resolution() const { return facts_.resolution; }
     /// The Rayleigh part of D, as steppers hold it, in the system's Scalar.
     const RayleighDamping& rayleigh() const { return rayleigh_; }
+    /// A κ ≥ 0, 1/s², with K ⪰ −κM proved by the bound, rounding of the scene counted.
+    double compression() const {
+        const bool exact = stiffness_semidefinite() && resolution() == 0;
+        return exact ? 0 : std::max(0.0, upper_bound(-matrices::K));
+    }
     /// Names the first number of the system that is out of the analysis's range, with its value;
     /// empty where there is none. A pencil that lost one says nothing about its system.
     const std::string& lost() const { return lost_; }
@@ -125,8 +123,18 @@ protected:
         within(value, what, index, 0, square_holds);
     }
 
-    Eigen::VectorXd mass_;      // N, kg
-    RayleighDamping rayleigh_;  // the Rayleigh part of D
+    struct Facts {
+        int dim = 1;
+        bool stiffness_semidefinite = false;
+        bool projected_semidefinite = false;
+        bool damping_semidefinite = false;
+        bool is_rayleigh = false;
+        double resolution = 0;
+    };
+
+    Eigen::VectorXd mass_;
+    RayleighDamping rayleigh_;
+    Facts facts_;
 
 private:
     static constexpr double square_holds = 0x1p500;
@@ -147,6 +155,21 @@ private:
     }
 
     std::string lost_;
+};
+
+/// A pencil that knows the scene it came from: whose a mode is, and what other stiffness or mass
+/// would make of it.
+class ScenePencil : public Pencil {
+public:
+    /// The springs' shares in the elastic energy of mode u, by K⁺, in no order; empty without
+    /// springs.
+    virtual std::vector<SpringShare> spring_shares(const Eigen::VectorXd& u) const = 0;
+    /// The particles' shares in its kinetic energy, in no order; without springs a "particle" is a
+    /// degree of freedom.
+    virtual std::vector<ParticleShare> particle_shares(const Eigen::VectorXd& u) const = 0;
+    /// The same scene with K (and αK⁺) times `stiffness` and M (and d0·M) times `mass`; dampers
+    /// stay. What is scaled below the normal numbers keeps its allowance for rounding.
+    virtual std::shared_ptr<const ScenePencil> scaled(double stiffness, double mass) const = 0;
 };
 
 }  // namespace taut

@@ -15,7 +15,7 @@ namespace taut {
 
 /// The pencil of springs at one pose: no matrix, 84 bytes a spring in three dimensions.
 template <int Dim>
-class SpringPencil final : public Pencil {
+class SpringPencil final : public ScenePencil {
 public:
     using Vector = Eigen::Matrix<double, Dim, 1>;
     using Block = Eigen::Matrix<double, Dim, Dim>;
@@ -33,7 +33,6 @@ public:
     template <class System>
     static SpringPencil any_pose(const System& system, Damping counted = Damping::all);
 
-    int dim() const override { return Dim; }
     void multiply(const Combination& c, const Eigen::VectorXd& u,
                   Eigen::VectorXd& y) const override;
     Enclosed quadratic(const Combination& c, const Eigen::VectorXd& u) const override;
@@ -63,13 +62,13 @@ public:
     Index link_count() const { return static_cast<Index>(links_.size()); }
     std::vector<SpringShare> spring_shares(const Eigen::VectorXd& u) const override;
     std::vector<ParticleShare> particle_shares(const Eigen::VectorXd& u) const override;
-    std::shared_ptr<const Pencil> scaled(double stiffness, double mass) const override;
-    bool projects() const override { return true; }
-    bool stiffness_semidefinite() const override { return !compressed_; }
-    bool damping_semidefinite() const override { return true; }
-    bool is_rayleigh() const override { return !damped_; }
+    std::shared_ptr<const ScenePencil> scaled(double stiffness, double mass) const override;
 
 private:
+    using Pencil::facts_;
+    using Pencil::mass_;
+    using Pencil::rayleigh_;
+
     struct Link {
         int a;  // free particle, or −1 when pinned
         int b;
@@ -98,13 +97,13 @@ private:
     SparseMatrix<double> assemble(const Combination& c, CoefficientsOf&& coefficients_of) const;
     /// What the rounding errors of a link's block are relative to, N/m.
     double magnitude(const Combination& c, const Link& link) const {
-        const double factor =
-            std::abs(c.stiffness) + std::abs(c.damping) * rayleigh_.stiffness_proportional;
+        const double factor = std::abs(c.stiffness()) + std::abs(c.projected()) +
+                              std::abs(c.damping()) * rayleigh_.stiffness_proportional;
         return factor * std::max(link.bound, std::abs(link.transverse)) +
-               std::abs(c.damping) * (link.damping + link.graph);
+               std::abs(c.damping()) * (link.damping + link.graph);
     }
     double mass_coefficient(const Combination& c) const {
-        return c.mass + c.damping * rayleigh_.mass_proportional;
+        return c.mass() + c.damping() * rayleigh_.mass_proportional;
     }
     /// One choice of weights in [T26]: of each free particle the block Σ_b (1 + p_b/p_i) P_b, and a
     /// bound on its rounding error, N/m.
@@ -129,8 +128,6 @@ private:
     std::vector<Link> links_;                // springs with at least one free end
     std::vector<std::array<int, 3>> names_;  // of each link: spring, particle a, particle b
     int springs_ = 0;                        // met so far, links or not
-    bool compressed_ = false;                // a spring has negative stiffness
-    bool damped_ = false;                    // a spring has a damper, or graph damping
     double graph_damping_ = 0;               // as steppers hold it, s
 };
 
@@ -147,6 +144,8 @@ void SpringPencil<Dim>::set_particles(const System& system) {
         if (!system.is_pinned(i)) free_[i] = count++;
     }
     mass_.resize(Dim * count);
+    facts_ = {Dim,  true, true,
+              true, true, 16 * static_cast<double>(std::numeric_limits<Scalar>::epsilon())};
     degree_.assign(static_cast<std::size_t>(count), 0);
     for (Index i = 0; i < system.size(); ++i) {
         if (free_[i] >= 0) {
@@ -174,7 +173,7 @@ void SpringPencil<Dim>::add_link(const Set& set, std::size_t s, const Tangent& t
     links_.push_back(link);
     if (a >= 0) ++degree_[a];
     if (b >= 0) ++degree_[b];
-    damped_ = damped_ || link.damping > 0 || link.graph > 0;
+    if (link.damping > 0 || link.graph > 0) facts_.is_rayleigh = false;
 }
 
 template <int Dim>
@@ -196,8 +195,8 @@ SpringPencil<Dim> SpringPencil<Dim>::at_pose(
                 const Real transverse = Dim == 1 && t.d[0] != 0 ? 0 : t.transverse;
                 // A few ulp below zero are rounding of l − L.
                 const Real rounding = -16 * std::numeric_limits<Real>::epsilon() * t.bound;
-                pencil.compressed_ =
-                    pencil.compressed_ || softer < rounding || transverse < rounding;
+                if (softer < rounding || transverse < rounding)
+                    pencil.facts_.stiffness_semidefinite = false;
                 Link link{};
                 link.d = t.d.template cast<double>();
                 link.axial = static_cast<double>(stiffer);
@@ -241,20 +240,21 @@ SpringPencil<Dim> SpringPencil<Dim>::any_pose(const System& system, Damping coun
     });
     if (counted == Damping::none) {
         for (Link& link : pencil.links_) link.damping = 0;
-        pencil.damped_ = false;
+        pencil.facts_.is_rayleigh = true;
     }
     return pencil;
 }
 
 template <int Dim>
 auto SpringPencil<Dim>::coefficients(const Combination& c, const Link& link) const -> Coefficients {
-    const double plus = c.damping * rayleigh_.stiffness_proportional;
-    const double axial = std::max(link.axial, 0.0);
-    const double transverse = std::max(link.transverse, 0.0);
-    const double graph = c.damping * link.graph;
-    return {c.stiffness * (c.project ? axial : link.axial) + plus * axial +
-                c.damping * link.damping + graph,
-            c.stiffness * (c.project ? transverse : link.transverse) + plus * transverse + graph};
+    const double on_rayleigh = c.damping() * rayleigh_.stiffness_proportional;
+    const double graph = c.damping() * link.graph;
+    const auto elastic = [&](double slope) {
+        const double plus = std::max(slope, 0.0);
+        return c.stiffness() * slope + c.projected() * plus + on_rayleigh * plus;
+    };
+    return {elastic(link.axial) + c.damping() * link.damping + graph,
+            elastic(link.transverse) + graph};
 }
 
 template <int Dim>
@@ -296,7 +296,8 @@ Enclosed SpringPencil<Dim>::quadratic(const Combination& c, const Eigen::VectorX
         sum.error += std::abs(on_mass) * term;
     }
     const bool springs =
-        c.stiffness != 0 || (c.damping != 0 && (damped_ || rayleigh_.stiffness_proportional > 0));
+        c.stiffness() != 0 || c.projected() != 0 ||
+        (c.damping() != 0 && (!is_rayleigh() || rayleigh_.stiffness_proportional > 0));
     for (std::size_t s = 0; springs && s < links_.size(); ++s) {
         const Link& link = links_[s];
         const auto [axial, transverse] = coefficients(c, link);
@@ -317,7 +318,7 @@ std::vector<SpringShare> SpringPencil<Dim>::spring_shares(const Eigen::VectorXd&
     std::vector<SpringShare> shares;
     double total = 0;
     for (std::size_t s = 0; s < links_.size(); ++s) {
-        const auto [axial, transverse] = coefficients({0, 1, 0}, links_[s]);
+        const auto [axial, transverse] = coefficients(matrices::K_plus, links_[s]);
         const Vector du = segment(u, links_[s].a) - segment(u, links_[s].b);
         const double along = links_[s].d.dot(du);
         const double energy =
@@ -344,7 +345,7 @@ std::vector<ParticleShare> SpringPencil<Dim>::particle_shares(const Eigen::Vecto
 }
 
 template <int Dim>
-std::shared_ptr<const Pencil> SpringPencil<Dim>::scaled(double stiffness, double mass) const {
+std::shared_ptr<const ScenePencil> SpringPencil<Dim>::scaled(double stiffness, double mass) const {
     constexpr double least = std::numeric_limits<double>::min();
     auto pencil = std::make_shared<SpringPencil>(*this);
     pencil->mass_ *= mass;

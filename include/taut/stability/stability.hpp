@@ -10,11 +10,13 @@
 #include <vector>
 
 #include "../model/spring_system.hpp"
-#include "detail/limits.hpp"
-#include "detail/narrow.hpp"
+#include "detail/explicit_limit.hpp"
+#include "detail/implicit_limit.hpp"
 #include "detail/quick_mode.hpp"
+#include "detail/scales.hpp"
+#include "detail/symplectic_limit.hpp"
+#include "detail/unproved.hpp"
 #include "detail/zero_modes.hpp"
-#include "explicit_estimate.hpp"
 #include "matrix_pencil.hpp"
 #include "rayleigh.hpp"
 #include "spring_pencil.hpp"
@@ -68,13 +70,13 @@ template <class Scalar, class Cholesky = EigenCholesky>
 class Stability {
 public:
     /// Up to so many degrees of freedom dense eigensolvers help where bounds are not enough.
-    static constexpr Index dense_size = 120;
+    static constexpr Index dense_size = DenseAnalysis<>::good_size;
 
     /// For matrices, where K⁺ = K.
     explicit Stability(const LinearSystem<Scalar>& system)
         : pencil_(std::make_shared<MatrixPencil<Scalar>>(system)), revision_(system.revision()) {
         pencil_->require_range("Stability");
-        stiffest_ = largest_ritz_pair(*pencil_, {0, 1, 0});
+        stiffest_ = largest_ritz_pair(*pencil_, matrices::K_plus);
     }
 
     /// @param state  the pose; its velocity is taken as zero. Fails unless it is finite and fits.
@@ -108,16 +110,13 @@ public:
     /// proved, since it takes k_max from above and k_min as 0 [T14]–[T16].
     AlphaWindow rayleigh_window(Method method, double h, double d0 = 0) const {
         if (size() == 0) return taut::rayleigh_window(method, h, d0, 0, 0, 0);
-        const double stiffest = pencil_->upper_bound({0, 1, 0});
-        // Springs count as semi-definite though rounding leaves them slightly compressed.
-        const bool compressed = method::is_limited_by<method::LimitedByDamping>(method) &&
-                                (pencil_->projects() || !pencil_->stiffness_semidefinite());
-        const double compression = compressed ? pencil_->upper_bound({0, -1, 0, false}) : 0;
+        const double stiffest = pencil_->upper_bound(matrices::K_plus);
+        const bool by_damping = method::is_limited_by<method::LimitedByDamping>(method);
+        const double compression = by_damping ? pencil_->compression() : 0;
         if (!std::isfinite(stiffest) || !std::isfinite(compression)) {
             return {0, 0, EmptyWindow::overflow, false};
         }
-        return taut::rayleigh_window(method, h, d0, 0, std::max(0.0, stiffest),
-                                     std::max(0.0, compression));
+        return taut::rayleigh_window(method, h, d0, 0, std::max(0.0, stiffest), compression);
     }
     /// Brackets of the extreme eigenvalues. @param count_zero_modes by the inertia of K⁺ − εM: one
     /// sparse factorisation
@@ -129,54 +128,58 @@ public:
     /// The vibration that holds explicit steps down, as the Lanczos iteration found it.
     LimitingMode limiting_mode() const;
     /// The springs that hold most of the limiting mode's elastic energy, the first one most.
-    std::vector<SpringShare> limiting_springs(Index count) const;
+    std::vector<SpringShare> limiting_springs(Index count) const {
+        if (size() == 0) return {};
+        return detail::largest_shares(pencil_->spring_shares(limiting_mode().shape), count);
+    }
     /// The particles that hold most of its kinetic energy, the first one most.
-    std::vector<ParticleShare> limiting_particles(Index count) const;
+    std::vector<ParticleShare> limiting_particles(Index count) const {
+        if (size() == 0) return {};
+        return detail::largest_shares(pencil_->particle_shares(limiting_mode().shape), count);
+    }
 
     /// The largest factor on all stiffness (αK⁺ included) for which step h, s, is still certified
     /// by the bound, to nine digits; 0 if none is, infinity if every one is, of those that double
     /// holds.
-    double max_stiffness_scale(Method method, double h) const;
+    double max_stiffness_scale(Method method, double h) const {
+        require_positive("Stability::max_stiffness_scale", "h", h);
+        return detail::max_stiffness_scale(method, *pencil_, h);
+    }
     /// The least factor on all masses (d0·M included) for which step h, s, is certified by the
     /// bound, to nine digits; infinity if none is, 0 if every one is.
-    double min_mass_scale(Method method, double h) const;
+    double min_mass_scale(Method method, double h) const {
+        require_positive("Stability::min_mass_scale", "h", h);
+        return detail::min_mass_scale(method, *pencil_, h);
+    }
     /// The number of equal steps of a frame, s, that the bound certifies; nothing if no step is.
     std::optional<Index> substeps(Method method, double frame) const;
 
     /// Free degrees of freedom.
     Index size() const { return pencil_->size(); }
     /// What all answers are computed from.
-    const Pencil& pencil() const { return *pencil_; }
+    const ScenePencil& pencil() const { return *pencil_; }
 
 private:
     // Effort: detail::Bounds or detail::Factorisations.
     template <class Effort>
     StepLimit<Scalar> bracket(Method method, Effort effort) const;
-    // Of a whole method, by what limits it.
+    // A method's bracket, by what limits it.
     template <class Effort>
-    StepLimit<Scalar> limit_by(method::LimitedByDamping, Effort& effort) const;
-    template <class Effort>
-    StepLimit<Scalar> limit_by(method::LimitedByStiffness, Effort& effort) const;
-    template <class Effort>
-    StepLimit<Scalar> limit_by(method::LimitedByIndefiniteness, Effort&) const;
-    template <class Effort>
-    void add_growth(Method method, StepLimit<Scalar>& limit, Effort& effort) const;
-    static bool claims(const StepLimit<Scalar>& limit) {
-        return limit.certified > 0 || limit.certified_up_to > 0;
+    detail::UnroundedLimit limit_by(method::LimitedByDamping, Effort& effort) const {
+        return detail::explicit_limit(*pencil_, effort, stiffest_);
     }
-    static void admit(Method method, double rate, StepLimit<Scalar>& limit);
-    void admit_negative_damping(Method method, StepLimit<Scalar>& limit) const;
-    double certified_when_scaled(Method method, double stiffness, double mass) const;
-    StepLimit<Scalar> limit(double certified, double refuted, Cause cause) const {
-        StepLimit<Scalar> answer;
-        answer.certified = detail::round_down<Scalar>(certified);
-        answer.refuted = detail::round_up<Scalar>(refuted);
-        answer.cause = cause;
-        answer.revision = revision_;
-        return answer;
+    template <class Effort>
+    detail::UnroundedLimit limit_by(method::LimitedByStiffness, Effort& effort) const {
+        // A bound within 3 % of the Ritz value's step needs no improvement.
+        return detail::symplectic_limit(*pencil_, effort, 1.06 * stiffest_.value,
+                                        [this](double) { return stiffest_.vector; });
+    }
+    template <class Effort>
+    detail::UnroundedLimit limit_by(method::LimitedByIndefiniteness, Effort&) const {
+        return detail::implicit_limit(*pencil_);
     }
 
-    std::shared_ptr<const Pencil> pencil_;  // immutable, so copies may share it
+    std::shared_ptr<const ScenePencil> pencil_;  // immutable, so copies may share it
     std::uint64_t revision_ = 0;
     RitzPair stiffest_;  // of K⁺: where every search begins
 };
@@ -197,10 +200,30 @@ void Stability<Scalar, Cholesky>::update(const SpringSystem<Scalar, Dim, Laws...
         SpringPencil<Dim>::at_pose(system, state.x.template cast<TangentReal<Scalar>>()));
     pencil->require_range("Stability");
     if (pencil->size() > 0) {
-        stiffest_ = detail::leading_pair(*pencil, {0, 1, 0}, stiffest_.vector);
+        stiffest_ = detail::leading_pair(*pencil, matrices::K_plus, stiffest_.vector);
     }
     pencil_ = std::move(pencil);
     revision_ = system.revision();
+}
+
+template <class Scalar, class Cholesky>
+template <class Effort>
+StepLimit<Scalar> Stability<Scalar, Cholesky>::bracket(Method method, Effort effort) const {
+    if (size() == 0) {
+        return detail::rounded<Scalar>(
+            {detail::infinity, detail::infinity, Cause::nothing_to_limit}, revision_);
+    }
+    const auto limit = method::visit_limited("Stability", method, [&](auto descriptor) {
+        return limit_by(typename decltype(descriptor)::Limit{}, effort);
+    });
+    auto answer = detail::rounded<Scalar>(limit, revision_);
+    // An explicit step is claimed by D − hK ⪰ −δM, which needs no D ⪰ 0 beside it unless K is
+    // indefinite: there it says nothing of smaller steps.
+    if (!method::is_limited_by<method::LimitedByDamping>(method) || !detail::claims(answer) ||
+        !pencil_->stiffness_semidefinite())
+        detail::admit_negative_damping(method, *pencil_, answer);
+    detail::add_growth(method, *pencil_, answer, effort);
+    return answer;
 }
 
 template <class Scalar, class Cholesky>
@@ -215,21 +238,18 @@ Certificate Stability<Scalar, Cholesky>::certify(Method method, double h) const 
     // An h² that underflows would leave the stiffness out.
     if (method::is_limited_by<method::LimitedByStiffness>(method) &&
         h * h >= std::numeric_limits<double>::min() && pencil.damping_semidefinite() &&
-        (pencil.projects() || pencil.stiffness_semidefinite())) {
-        // [T19] at h itself; where K is indefinite hD ≺ 4M carries it to smaller steps.
+        pencil.projected_semidefinite()) {
         Prover<Cholesky> prover;
-        certificate.proved =
-            prove(prover, pencil, {4, -wide * wide, -2 * wide, false}).proved &&
-            (pencil.stiffness_semidefinite() || prove(prover, pencil, {4, 0, -wide}).proved);
+        certificate.proved = detail::proves_symplectic(pencil, prover, wide);
         return certificate;
     }
     // A bracket narrowed to its distance from h may still contain h: the refuting end moves too.
-    double room = std::min(1.0, static_cast<double>(bound.refuted) / h - 1);
+    double distance = std::min(1.0, static_cast<double>(bound.refuted) / h - 1);
     for (int repeat = 0; repeat < 8 && !certificate.proved; ++repeat) {
-        const StepLimit<Scalar> narrowed = max_step(method, std::max(room, 1e-9));
+        const StepLimit<Scalar> narrowed = max_step(method, std::max(distance, 1e-9));
         certificate.proved = h <= static_cast<double>(narrowed.certified);
-        if (!(h < static_cast<double>(narrowed.refuted)) || room < 1e-9) break;
-        room = std::min(room / 8, static_cast<double>(narrowed.refuted) / h - 1);
+        if (!(h < static_cast<double>(narrowed.refuted)) || distance < 1e-9) break;
+        distance = std::min(distance / 8, static_cast<double>(narrowed.refuted) / h - 1);
     }
     return certificate;
 }
@@ -239,15 +259,15 @@ StiffnessSpectrum Stability<Scalar, Cholesky>::stiffness_spectrum(bool count_zer
     StiffnessSpectrum spectrum;
     if (size() == 0) return spectrum;
     const Pencil& pencil = *pencil_;
-    spectrum.k_max.upper = std::max(0.0, pencil.upper_bound({0, 1, 0}));
+    spectrum.k_max.upper = std::max(0.0, pencil.upper_bound(matrices::K_plus));
     spectrum.k_max.lower =
-        std::max(0.0, detail::quotients(pencil, stiffest_.vector, true).k.lower());
+        std::max(0.0, detail::quotients(pencil, stiffest_.vector, matrices::K_plus).k.lower());
     const RitzPair softest = detail::softest(pencil);
-    spectrum.k_min.upper = detail::quotients(pencil, softest.vector, true).k.upper();
+    spectrum.k_min.upper = detail::quotients(pencil, softest.vector, matrices::K_plus).k.upper();
     if (std::isnan(spectrum.k_min.upper)) spectrum.k_min.upper = detail::infinity;  // overflow
     // Springs: K⁺ ⪰ 0 by construction. Bare matrices: proved so, or bounded.
-    spectrum.k_min.lower = -std::max(0.0, pencil.upper_bound({0, -1, 0}));
-    if (pencil.projects() || pencil.stiffness_semidefinite()) spectrum.k_min.lower = 0;
+    spectrum.k_min.lower = -std::max(0.0, pencil.upper_bound(-matrices::K_plus));
+    if (pencil.projected_semidefinite()) spectrum.k_min.lower = 0;
     spectrum.k_min.upper = std::max(spectrum.k_min.upper, spectrum.k_min.lower);
     if (count_zero_modes)
         spectrum.zero_modes = detail::count_zero_modes(pencil, spectrum.k_max.upper);
@@ -263,8 +283,8 @@ double Stability<Scalar, Cholesky>::spectral_radius(Method method, double h) con
     // ends of the spectrum decide.
     double radius = 0;
     for (const double sign : {1.0, -1.0}) {
-        const RitzPair end = largest_ritz_pair(*pencil_, {0, sign, 0});
-        const auto [k, d] = detail::quotients(*pencil_, end.vector, true);
+        const RitzPair end = largest_ritz_pair(*pencil_, sign * matrices::K_plus);
+        const auto [k, d] = detail::quotients(*pencil_, end.vector, matrices::K_plus);
         if (std::abs(k.value) <= k.error && std::abs(d.value) <= d.error) continue;  // a zero mode
         radius = std::max(radius, taut::spectral_radius(method, k.value, d.value, h));
     }
@@ -277,12 +297,18 @@ LimitingMode Stability<Scalar, Cholesky>::limiting_mode() const {
     LanczosOptions options;
     options.basis = 60;
     options.tolerance = 1e-6;
-    RitzPair pair = largest_ritz_pair(*pencil_, {0, 1, 0}, options, stiffest_.vector);
-    const auto [k, d] = detail::quotients(*pencil_, pair.vector, true);
+    RitzPair pair = largest_ritz_pair(*pencil_, matrices::K_plus, options, stiffest_.vector);
+    const auto [k, d] = detail::quotients(*pencil_, pair.vector, matrices::K_plus);
     return {k.value, d.value, std::move(pair.vector)};
 }
 
-}  // namespace taut
+template <class Scalar, class Cholesky>
+std::optional<Index> Stability<Scalar, Cholesky>::substeps(Method method, double frame) const {
+    require_positive("Stability::substeps", "frame", frame);
+    const double certified = static_cast<double>(max_step(method).certified);
+    // Beyond 1e15 the count is no longer exact, and no frame was meant.
+    if (!(certified > 0) || !(frame / certified < 1e15)) return std::nullopt;
+    return std::max<Index>(1, static_cast<Index>(std::ceil(frame / certified)));
+}
 
-#include "detail/stability_blame.ipp"
-#include "detail/stability_limits.ipp"
+}  // namespace taut

@@ -66,9 +66,9 @@ std::vector<Mode> lowest_modes(const SpringSystem<Scalar, Dim, Laws...>& system,
     for (Index j = 0; j < std::min<Index>(count, shapes.cols()); ++j) {
         Mode mode;
         mode.shape = shapes.col(j);
-        pencil.multiply({0, 1, 0}, mode.shape, y);
+        pencil.multiply(matrices::K_plus, mode.shape, y);
         mode.omega = std::sqrt(std::max(0.0, mode.shape.dot(y)));
-        pencil.multiply({0, 0, 1}, mode.shape, y);
+        pencil.multiply(matrices::D, mode.shape, y);
         mode.zeta = mode.shape.dot(y) / (2 * mode.omega);
         modes.push_back(std::move(mode));
     }

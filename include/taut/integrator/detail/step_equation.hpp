@@ -89,7 +89,8 @@ public:
     }
     bool update_values(const System& system, const State& state, Scalar tau) {
         const double step = static_cast<double>(tau);
-        pattern_->assemble(system, state.x, {1, step * step, step}, A_);
+        pattern_->assemble(system, state.x,
+                           matrices::M + step * matrices::D + step * step * matrices::K_plus, A_);
         return true;
     }
     /// A ← M + hD(x₀) + h²K(x), the second derivative of the step's objective at x; K⁺ for K if
@@ -98,8 +99,8 @@ public:
                        const Points<Scalar, Dim>& x, Scalar h, bool project) {
         const double step = static_cast<double>(h);
         if (B_.nonZeros() != A_.nonZeros()) B_ = A_;
-        pattern_->assemble(system, x0, {1, 0, step}, B_);
-        pattern_->assemble(system, x, {0, step * step, 0, project}, A_);
+        pattern_->assemble(system, x0, matrices::M + step * matrices::D, B_);
+        pattern_->assemble(system, x, step * step * (project ? matrices::K_plus : matrices::K), A_);
         Eigen::Map<VectorX<Scalar>>(A_.valuePtr(), A_.nonZeros()) +=
             Eigen::Map<const VectorX<Scalar>>(B_.valuePtr(), B_.nonZeros());
     }

@@ -102,8 +102,8 @@ LinearSystem<Scalar> SpringSystem<Scalar, Dim, Laws...>::linearize(const State& 
     const TangentMatrix<Scalar, Dim> tangent(*this);
     auto K = tangent.zero();
     auto D = tangent.zero();
-    tangent.assemble(*this, state.x, {0, 1, 0, false}, K);
-    tangent.assemble(*this, state.x, {0, 0, 1}, D);
+    tangent.assemble(*this, state.x, matrices::K, K);
+    tangent.assemble(*this, state.x, matrices::D, D);
 
     State still = state;
     still.v.setZero();

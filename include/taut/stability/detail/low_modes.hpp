@@ -42,15 +42,16 @@ Eigen::MatrixXd low_modes(const Pencil& pencil) {
     constexpr Index steps = 80;
     constexpr Index most = 20;
     constexpr double good = 1e-4;  // residual over value
-    const double sigma = 1e-7 * std::max(0.0, pencil.upper_bound({0, 1, 0}));
+    const double sigma = 1e-7 * std::max(0.0, pencil.upper_bound(matrices::K_plus));
     if (!(sigma > 0)) return {};
-    const Eigen::SimplicialLLT<SparseMatrix<double>> shifted(pencil.assemble({sigma, 1, 0}));
+    const Eigen::SimplicialLLT<SparseMatrix<double>> shifted(
+        pencil.assemble(matrices::K_plus + sigma * matrices::M));
     if (shifted.info() != Eigen::Success) return {};
     const auto B = [&](const Eigen::VectorXd& q) {
         Eigen::VectorXd x = shifted.solve(Eigen::VectorXd(root.cwiseProduct(q)));
         x = shifted.solve(Eigen::VectorXd(pencil.mass().cwiseProduct(x)));
         Eigen::VectorXd y;
-        pencil.multiply({0, 1, 0}, x, y);
+        pencil.multiply(matrices::K_plus, x, y);
         return Eigen::VectorXd(y.cwiseQuotient(root));
     };
     const auto pairs = arnoldi(B, N, steps);
@@ -91,7 +92,7 @@ std::vector<double> frequency_changes(const Pencil& before, const Pencil& after)
     Eigen::MatrixXd KU(U.rows(), U.cols());
     Eigen::VectorXd y;
     for (Index j = 0; j < U.cols(); ++j) {
-        before.multiply({0, 1, 0}, U.col(j), y);
+        before.multiply(matrices::K_plus, U.col(j), y);
         KU.col(j) = y;
     }
     const Eigen::MatrixXd K = U.transpose() * KU;

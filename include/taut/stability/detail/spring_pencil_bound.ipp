@@ -14,14 +14,14 @@ auto SpringPencil<Dim>::splitting(const Combination& c, const std::vector<double
     split.rounding.assign(degree_.size(), 0);
     // The factor of every K⁺: where it is not positive, neither is any transverse coefficient but
     // for graph damping, whatever the rounding of the tangents.
-    const double factor = c.stiffness + c.damping * rayleigh_.stiffness_proportional;
+    const double factor = c.projected() + c.damping() * rayleigh_.stiffness_proportional;
     const double eps = std::numeric_limits<double>::epsilon();
     for (const Link& link : links_) {
         const auto [axial, transverse] = extreme_coefficients(c, link, 1);
         const double size = magnitude(c, link);
         const auto negative = [&](double part) { return part < -64 * eps * size; };
-        if (c.project && factor <= 0 &&
-            (c.damping <= 0 || (negative(axial) && (link.graph == 0 || negative(transverse))))) {
+        if (c.stiffness() == 0 && factor <= 0 &&
+            (c.damping() <= 0 || (negative(axial) && (link.graph == 0 || negative(transverse))))) {
             continue;  // not positive for certain
         }
         const Block P = spring_block(link.d, std::max(axial, 0.0), std::max(transverse, 0.0));
@@ -59,9 +59,9 @@ template <int Dim>
 double SpringPencil<Dim>::largest_quotient(const Splitting& split) const {
     double largest = 0;
     for (std::size_t i = 0; i < split.block.size(); ++i) {
-        const double room =
+        const double below =
             largest * mass_[static_cast<Index>(Dim * i)] * (1 - 1e-15) - split.rounding[i];
-        if (detail::proved_above<Dim>(split.block[i], room)) continue;
+        if (detail::proved_above<Dim>(split.block[i], below)) continue;
         const double r =
             quotient(detail::eigenvalue_upper_bound<Dim>(split.block[i]) + split.rounding[i], i);
         if (!(r <= largest)) largest = r;  // NaN and infinity stay

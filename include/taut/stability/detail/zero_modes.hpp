@@ -14,7 +14,8 @@ template <class Real = double>  // a template: only its callers compile the fact
 Index count_zero_modes(const Pencil& pencil, double k_max) {
     if (!(k_max > 0)) return pencil.size();
     const double epsilon = 1e-10 * k_max;
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt(pencil.assemble({-epsilon, 1, 0}));
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt(
+        pencil.assemble(matrices::K_plus - epsilon * matrices::M));
     return (ldlt.vectorD().array() < 0).count();
 }
 

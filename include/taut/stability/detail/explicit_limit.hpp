@@ -1,0 +1,249 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "../../core/detail/bisection.hpp"
+#include "../../method/mode.hpp"
+#include "../dense.hpp"
+#include "../explicit_estimate.hpp"
+#include "effort.hpp"
+
+// Explicit Euler: D − hK⁺ ≻ 0 and 4M − 2hD + h²K ≻ 0, or mode by mode where M, D and K commute.
+
+namespace taut::detail {
+
+/// Whether the two sufficient conditions of explicit Euler hold at h by the bound [T17]:
+/// D − hK⁺ ≻ 0 and 4M − 2hD + h²K ≻ 0. The second one needs the true K, since K ⪯ K⁺.
+inline bool certifies_explicit(const Pencil& pencil, double h) {
+    const double strict = h * (1 + 1e-9);
+    return pencil.upper_bound(strict * K_plus - D) <= 0 &&
+           pencil.upper_bound(2 * h * D - h * h * K) < 4;
+}
+
+/// The limit of explicit Euler on one mode [T9], from below and from above.
+struct ModeLimit {
+    double lower = 0;
+    double upper = infinity;
+};
+
+/// @param k, d  1/s², 1/s, each as computed. Near critical damping, d² = 4k, the limit moves by the
+///              root of what their rounding moves d² − 4k by: 1e-8.
+inline ModeLimit explicit_mode_limit(double k, double d) {
+    constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+    const double softer = k - rounding * std::abs(k);
+    const double stiffer = k + rounding * std::abs(k);
+    const double less = d - rounding * std::abs(d);
+    const double more = d + rounding * std::abs(d);
+    const auto overdamped = [](double k_mode, double d_mode) {
+        return d_mode >= 2 * std::sqrt(std::max(k_mode, 0.0));
+    };
+    // It rises with k and falls with d on one side of critical damping, the other way round on the
+    // other, so that corners decide; in between it is largest where d² = 4k, 4/d.
+    const double one = critical_step(Method::explicit_euler, stiffer, less);
+    const double other = critical_step(Method::explicit_euler, softer, more);
+    const bool across = overdamped(stiffer, less) != overdamped(softer, more);
+    return {std::min(one, other), across ? 4 / less : std::max(one, other)};
+}
+
+/// The largest limit of explicit Euler that a mode with k in [low, high], 1/s², can have. The modes
+/// that are stable at one step are an interval of k (section 4), so the limit has one peak: at
+/// critical damping, √k = d0/(1 + √(1 − αd0)), as far as d0 > 0.
+inline double largest_explicit_limit(const RayleighDamping& rayleigh, double low, double high) {
+    const auto [d0, alpha] = rayleigh;
+    if (d0 == 0 && low <= 0 && high >= 0) return infinity;  // it may be a zero mode
+    double largest = std::max(explicit_mode_limit(low, d0 + alpha * low).upper,
+                              explicit_mode_limit(high, d0 + alpha * high).upper);
+    if (d0 > 0 && alpha * d0 < 1) {
+        const double root = d0 / (1 + std::sqrt(1 - alpha * d0));
+        if (root * root > low && root * root < high) {
+            // 1 − αd0 rounds as well.
+            const double from = 1 - alpha * d0 + 4 * std::numeric_limits<double>::epsilon();
+            largest = std::max(largest, 2 * (1 + std::sqrt(from)) / d0);
+        }
+    }
+    return largest;
+}
+
+/// The largest step that proved bounds k on k_max and d on the largest eigenvalue of D' certify for
+/// explicit Euler, or else the bound at each step tried; 0: none.
+inline double certified_explicit(const Pencil& pencil, double k, double d) {
+    if (!std::isfinite(k)) return 0;
+    const auto [d0, alpha] = pencil.rayleigh();
+    if (pencil.is_rayleigh() && pencil.stiffness_semidefinite()) {
+        // k may be anything in (0, k_max]: as k → 0 the limit is 2/d0, or α when d0 = 0 [T9],
+        // [T13]. Where rounding leaves springs slightly compressed, by κ: 4 − 2hd0 − h²κ ≥ 0 [T17].
+        if (!(k > 0)) return critical_step(Method::explicit_euler, 0, d0);
+        const double at_zero = critical_step(Method::symplectic_euler, pencil.compression(), d0);
+        return std::min(
+            {at_zero, d0 > 0 ? infinity : alpha, explicit_mode_limit(k, d0 + alpha * k).lower});
+    }
+    // The stable steps are an interval (0, h_max) [T18]. Where damping is weak it ends near the
+    // limit that K alone sets for any commuting damping [T12].
+    const auto certifies = [&](double h) { return certifies_explicit(pencil, h); };
+    if (!certifies(std::numeric_limits<double>::min())) return 0;
+    return last_that_passes(k > 0 ? 2 / std::sqrt(k) : 4 / d, 1e-4, certifies);
+}
+
+/// uᵀ(4M − 2hD + h²K)u ≤ 0 proves a multiplier ≤ −1 of explicit Euler, for any symmetric D and K.
+inline double refuted_by_damping(const Pencil& pencil, const Eigen::VectorXd& u) {
+    const auto [k_enclosed, d_enclosed] = quotients(pencil, u, K);
+    const double k = k_enclosed.upper();
+    const double d = std::max(0.0, d_enclosed.lower());
+    const double root = discriminant_root(d, -k);
+    return d > 0 && root >= 0 ? 2 / (d / 2 + root / 2) : infinity;
+}
+
+/// @param commutes  whether M, D and the stepper's K share their eigenvectors
+template <class Real = double>
+double refuted_explicit(const Pencil& pencil, const RitzPair& stiffest, bool commutes) {
+    const RitzPair most_damped = largest_ritz_pair(pencil, D);
+    double h = std::min(refuted_by_damping(pencil, stiffest.vector),
+                        refuted_by_damping(pencil, most_damped.vector));
+    if (!commutes) return h;
+    // Every Rayleigh quotient of K' lies in [k_min, k_max], and where [T8] fails at one of these it
+    // fails at an end of the spectrum [T13].
+    const auto refuted_by = [&](const RitzPair& mode) {
+        const Enclosed k = quotients(pencil, mode.vector, K).k;
+        return largest_explicit_limit(pencil.rayleigh(), k.lower(), k.upper());
+    };
+    h = std::min(h, refuted_by(stiffest));
+    if (pencil.rayleigh().mass_proportional > 0) {
+        h = std::min(h, refuted_by(largest_ritz_pair(pencil, -K)));
+    }
+    return h;
+}
+
+/// k_max of K'⁺ as a bracket {refuted lower value, proved upper one}, by σM − K⁺ ≻ 0.
+struct ProvedMaximum {
+    double lower = 0;
+    double upper = 0;
+    Eigen::VectorXd vector;
+};
+
+template <class Cholesky>
+ProvedMaximum narrow_maximum(const Pencil& pencil, Prover<Cholesky>& prover, double tightness) {
+    ProvedMaximum k;
+    k.upper = std::max(0.0, pencil.upper_bound(K_plus));
+    // narrow() works on steps: 1/k is a step's square, up to a factor.
+    Bracket inverse{k.upper > 0 ? 1 / k.upper : infinity, infinity, {}};
+    const auto sharpen = [&](Bracket& b, double share) {
+        RitzPair pair = largest_ritz_pair(pencil, K_plus, sharp(share), b.vector);
+        const double value = quotients(pencil, pair.vector, K_plus).k.lower();
+        if (value > 0) b.refuted = std::min(b.refuted, 1 / value);
+        b.vector = std::move(pair.vector);
+    };
+    narrow(inverse, tightness, sharpen,
+           [&](double share) { return prove(prover, pencil, 1 / share * M - K_plus).proved; });
+    k.upper = std::min(k.upper, 1 / inverse.certified * (1 + 4e-16));
+    k.lower = std::isfinite(inverse.refuted) ? 1 / inverse.refuted : 0;
+    k.vector = std::move(inverse.vector);
+    return k;
+}
+
+/// Explicit Euler where M, D and K commute [T9]: near critical damping the step moves faster than
+/// k_max does, so k_max is narrowed until the step's bracket fits.
+/// @param d     a bound on the largest eigenvalue of D', 1/s
+/// @param mode  the stiffest one known
+template <class Cholesky>
+void narrow_commuting(const Pencil& pencil, Factorisations<Cholesky>& effort, double d,
+                      RitzPair mode, UnroundedLimit& limit) {
+    for (double share = effort.tightness; share > 1e-14 && !within(limit, effort.tightness);
+         share /= 16) {
+        auto proved = narrow_maximum(pencil, effort.prover, share);
+        limit.certified = std::max(limit.certified, certified_explicit(pencil, proved.upper, d));
+        if (proved.vector.size() > 0) mode.vector = std::move(proved.vector);
+        limit.refuted = refuted_explicit(pencil, mode, true);
+        if (proved.upper > proved.lower * (1 + share)) break;
+    }
+}
+
+/// Explicit Euler with a D that does not commute: [T17] by two factorisations, as far as D − hK⁺ is
+/// definite up to −δM. Raises `certified` where δ = 0 suffices, else `certified_up_to`
+/// with δ for `admitted_growth`.
+/// @param k     a bound on k_max, 1/s²
+/// @param high  no limit is above this step, s
+template <class Cholesky>
+void narrow_explicit(const Pencil& pencil, Factorisations<Cholesky>& effort, double k, double high,
+                     UnroundedLimit& limit) {
+    Prover<Cholesky>& prover = effort.prover;
+    const auto second = [&](double h) {
+        return prove(prover, pencil, 4 * M - 2 * h * D + h * h * K).proved;
+    };
+    // The largest h with D − hK⁺ ⪰ −δM, δ tiny beside hK⁺.
+    double shown = 0;
+    const auto proves = [&](double h) {
+        const double tiny = 1e-9 * h * k;
+        const bool strict = prove(prover, pencil, D - h * K_plus).proved;
+        const bool weak = strict || prove(prover, pencil, tiny * M + D - h * K_plus).proved;
+        if (!weak || !second(h)) return false;
+        shown = strict ? 0 : tiny;
+        if (strict) limit.certified = h;
+        return true;
+    };
+    // Far below the limit the rounding of D hides so small a δ: a first proof is sought from above.
+    double top = std::min(high, limit.refuted);
+    double low = limit.certified;
+    for (int repeat = 0; low == 0 && repeat < 10; ++repeat) {
+        const double h = top / 16;
+        (proves(h) ? low : top) = h;
+    }
+    if (low == 0) return;
+    Bisection<double> search(low, top, effort.tightness);
+    while (search.open()) search.narrow(proves(search.middle()));
+    if (search.passes() > limit.certified) {
+        limit.certified_up_to = search.passes();
+        limit.admitted_growth = shown;
+    }
+}
+
+/// The bracket of the largest stable step. @param stiffest  the stiffest mode of K⁺ known
+template <class Effort>
+UnroundedLimit explicit_limit(const Pencil& pencil, Effort& effort, const RitzPair& stiffest) {
+    const double k = pencil.upper_bound(K_plus);
+    const double d = pencil.upper_bound(D);
+    // A negative K or D of bare matrices is not nothing.
+    if (!(k > 0) && !(d > 0) && pencil.upper_bound(-K) <= 0 && pencil.upper_bound(-D) <= 0) {
+        return {infinity, infinity, Cause::nothing_to_limit};
+    }
+    if (!std::isfinite(k) || !std::isfinite(d)) return {0, infinity, Cause::overflow};
+    if (!(d > 0)) {
+        // One mode with k > 0 refutes every step; buckled modes alone do not.
+        const bool vibrates = quotients(pencil, stiffest.vector, K).k.lower() > 0;
+        return {0, vibrates ? 0 : infinity, Cause::undamped};
+    }
+    // α K⁺ is not a function of an indefinite K, so only d0·M commutes with it.
+    const bool commutes = pencil.is_rayleigh() && (pencil.stiffness_semidefinite() ||
+                                                   pencil.rayleigh().stiffness_proportional == 0);
+    UnroundedLimit limit;
+    limit.certified = certified_explicit(pencil, k, d);
+    limit.refuted = refuted_explicit(pencil, stiffest, commutes);
+    if constexpr (Effort::factorises) {
+        if (pencil.is_rayleigh() && pencil.stiffness_semidefinite()) {
+            narrow_commuting(pencil, effort, d, stiffest, limit);
+        }
+        if (!commutes && pencil.size() <= DenseAnalysis<>::good_size) {
+            const DenseAnalysis<> dense(pencil, K);
+            limit.refuted = std::min(limit.refuted, dense.explicit_limit_above());
+            limit.estimate = dense.explicit_limit();
+        } else if (!commutes && k > 0) {
+            limit.estimate = explicit_estimate(pencil, k);
+        }
+        if (!within(limit, effort.tightness) && !pencil.is_rayleigh()) {
+            // No limit is above that of the best commuting damping by much [T12].
+            const double high = k > 0 ? 4 / std::sqrt(k) : 4 / d;
+            narrow_explicit(pencil, effort, k, high, limit);
+        }
+    }
+    const bool by_damping = k <= 0 || limit.certified * limit.certified * k < 4 * (1 - 1e-3);
+    limit.refuted = std::max(limit.refuted, limit.certified);
+    limit.cause = limit.certified > 0
+                      ? (by_damping ? Cause::damping : Cause::stiffness)
+                      : (limit.certified_up_to > 0 ? Cause::rounding : Cause::undamped_modes);
+    return limit;
+}
+
+}  // namespace taut::detail
