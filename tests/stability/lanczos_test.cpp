@@ -68,7 +68,11 @@ TEST_CASE("lanczos: the small eigensolver's vectors are orthonormal and diagonal
                 A(i, j) = A(j, i) = scale * (size * random.uniform(-1, 1));
             }
         }
-        const auto [values, vectors] = taut::detail::small_spectrum(A);
+        const auto spectrum = taut::detail::small_spectrum({A.data(), A.data() + A.size()},
+                                                           static_cast<std::size_t>(m));
+        const Eigen::VectorXd values = Eigen::Map<const Eigen::VectorXd>(spectrum.values.data(), m);
+        const Eigen::MatrixXd vectors =
+            Eigen::Map<const Eigen::MatrixXd>(spectrum.vectors.data(), m, m);
         const double room = rounding * static_cast<double>(m);
         const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(m, m);
         CHECK((vectors.transpose() * vectors - I).cwiseAbs().maxCoeff() < room);
@@ -76,7 +80,8 @@ TEST_CASE("lanczos: the small eigensolver's vectors are orthonormal and diagonal
         CHECK(left.cwiseAbs().maxCoeff() < room);
         for (Index i = 1; i < m; ++i) CHECK(values[i] >= values[i - 1]);
     }
-    CHECK(taut::detail::small_spectrum(Eigen::MatrixXd::Zero(3, 3)).values.isZero(0));
+    CHECK(taut::detail::small_spectrum(std::vector<double>(9, 0), 3).values ==
+          std::vector<double>(3, 0));
 }
 
 TEST_CASE("lanczos: never above the largest eigenvalue, and there when the basis is whole",
@@ -96,7 +101,7 @@ TEST_CASE("lanczos: never above the largest eigenvalue, and there when the basis
         const auto pair = largest_ritz_pair(pencil, matrices::K_plus, whole);
         INFO("system " << repeat << ", " << n << " unknowns");
         CHECK_THAT(pair.value, WithinAbs(k.maxCoeff(), rounding * k.cwiseAbs().maxCoeff()));
-        check_consistent(pencil, {0, 1, 0}, pair);
+        check_consistent(pencil, matrices::K_plus, pair);
         const auto smallest = largest_ritz_pair(pencil, -matrices::K_plus, whole);
         CHECK_THAT(-smallest.value, WithinAbs(k.minCoeff(), rounding * k.cwiseAbs().maxCoeff()));
     }
@@ -153,7 +158,7 @@ TEST_CASE("lanczos: an exact eigenvector of a lower mode does not trap it", "[st
             const Eigen::VectorXd start = Eigen::VectorXd::Unit(n, mode);
             const auto pair = largest_ritz_pair(pencil, matrices::K_plus, options, start);
             CHECK_THAT(pair.value, WithinRel(k[n - 1], 1e-9));
-            check_consistent(pencil, {0, 1, 0}, pair);
+            check_consistent(pencil, matrices::K_plus, pair);
         }
     }
     // Nor does a subspace: two chains that know nothing of each other.

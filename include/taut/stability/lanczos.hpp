@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
+#include "detail/small_spectrum.hpp"
 #include "pencil.hpp"
 
 namespace taut {
@@ -42,46 +44,50 @@ inline Eigen::VectorXd scattered_vector(Index N, Index seed = 0) {
     return q;
 }
 
-/// Eigenvalues, ascending, and eigenvectors of a small symmetric matrix.
-struct SmallSpectrum {
-    Eigen::VectorXd values;
-    Eigen::MatrixXd vectors;
-};
-
-/// Householder's reduction, column by column, and Eigen's QR iteration: Eigen's own reduction is
-/// blocked, and compiling that takes longer than everything else that max_step needs.
-template <class Real = double>  // a template: only its callers compile the eigensolver
-SmallSpectrum small_spectrum(Eigen::MatrixXd A) {
-    const Index m = A.rows();
-    double scale = A.cwiseAbs().maxCoeff();
-    if (!(scale > 0)) scale = 1;
-    A /= scale;
-    Eigen::MatrixXd V = Eigen::MatrixXd::Identity(m, m);
-    Eigen::VectorXd v(m);
-    Eigen::VectorXd w(m);
-    for (Index k = 0; k + 2 < m; ++k) {
-        v = A.col(k);
-        v.head(k + 1).setZero();
-        const double norm = v.norm();
-        if (!(norm > 1e-150)) continue;  // its squares would lose digits, and it changes nothing
-        v[k + 1] += v[k + 1] < 0 ? -norm : norm;
-        v.normalize();
-        // (I − 2vvᵀ)A(I − 2vvᵀ) = A − vwᵀ − wvᵀ.
-        w.noalias() = A * v;
-        w = 2 * (w - v.dot(w) * v);
-        for (Index j = 0; j < m; ++j) A.col(j) -= w[j] * v + v[j] * w;
-        w.noalias() = V * v;
-        for (Index j = 0; j < m; ++j) V.col(j) -= 2 * v[j] * w;
-    }
-    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> tridiagonal;
-    const Eigen::VectorXd beside = A.diagonal<-1>();
-    tridiagonal.computeFromTridiagonal(A.diagonal(), beside);
-    SmallSpectrum spectrum{scale * tridiagonal.eigenvalues(), std::move(A)};
-    for (Index j = 0; j < m; ++j) {
-        spectrum.vectors.col(j).noalias() = V * tridiagonal.eigenvectors().col(j);
-    }
-    return spectrum;
+/// aᵀb. With add_scaled() the whole of a search's arithmetic on long vectors, so that Eigen's
+/// expressions are compiled once.
+template <class Real>
+Real dot(const Real* a, const Real* b, Index n) {
+    using Map = Eigen::Map<const VectorX<Real>>;
+    return Map(a, n).dot(Map(b, n));
 }
+
+/// y ← y + factor·x
+template <class Real>
+void add_scaled(Real* y, Real factor, const Real* x, Index n) {
+    Eigen::Map<VectorX<Real>>(y, n) += factor * Eigen::Map<const VectorX<Real>>(x, n);
+}
+
+/// Vectors of N numbers, side by side.
+template <class Real>
+class Basis {
+public:
+    Basis(Index N, Index most) : size_(N), numbers_(static_cast<std::size_t>(N * most)) {}
+
+    Real* operator[](Index j) { return numbers_.data() + j * size_; }
+    void set(Index j, const VectorX<Real>& q) {
+        std::copy_n(q.data(), size_, numbers_.data() + j * size_);
+    }
+    /// w ← w − QQᵀw with the first `used` vectors, which must be orthonormal. @returns  Qᵀw
+    std::vector<Real> remove_from(VectorX<Real>& w, Index used) {
+        std::vector<Real> h;
+        for (Index j = 0; j < used; ++j) h.push_back(dot((*this)[j], w.data(), size_));
+        for (Index j = 0; j < used; ++j) add_scaled(w.data(), -h[j], (*this)[j], size_);
+        return h;
+    }
+    /// Σ shares_j q_j of the first `used`.
+    template <class Share>
+    VectorX<Real> sum(const Share* shares, Index used) {
+        VectorX<Real> q = VectorX<Real>::Zero(size_);
+        for (Index j = 0; j < used; ++j)
+            add_scaled(q.data(), static_cast<Real>(shares[j]), (*this)[j], size_);
+        return q;
+    }
+
+private:
+    Index size_;
+    std::vector<Real> numbers_;
+};
 
 }  // namespace detail
 
@@ -89,20 +95,22 @@ SmallSpectrum small_spectrum(Eigen::MatrixXd A) {
 /// restart (K. Wu and H. Simon, Thick-restart Lanczos method for large symmetric eigenvalue
 /// problems, 2000). Negate the factors of `c` for the smallest one.
 /// @param start  an approximate eigenvector to begin with, N; empty: a fixed scattered vector
-template <class Real = double>  // a template: only its callers compile the eigensolver
+template <class Real = double>  // a template: only its callers compile it
 RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
                            const LanczosOptions& options = {}, const Eigen::VectorXd& start = {}) {
     const Index N = pencil.size();
     const Index m = std::min<Index>(options.basis, N);
-    const Eigen::VectorXd root = pencil.mass().cwiseSqrt();
-    Eigen::MatrixXd Q(N, m);                          // orthonormal basis
-    Eigen::MatrixXd H = Eigen::MatrixXd::Zero(m, m);  // QᵀAQ with A = M⁻½SM⁻½
-    Eigen::MatrixXd best;                             // what a restart keeps
-    Eigen::VectorXd w(N);
-    Eigen::VectorXd h(m);
-    Eigen::VectorXd q =
-        start.size() == N ? Eigen::VectorXd(root.cwiseProduct(start)) : detail::scattered_vector(N);
-    q.normalize();
+    VectorX<Real> root(N);
+    for (Index i = 0; i < N; ++i) root[i] = std::sqrt(pencil.mass()[i]);
+    detail::Basis<Real> Q(N, m);                                // orthonormal
+    std::vector<double> H(static_cast<std::size_t>(m * m), 0);  // QᵀAQ with A = M⁻½SM⁻½
+    VectorX<Real> u(N);
+    VectorX<Real> w(N);
+    VectorX<Real> q = detail::scattered_vector(N);
+    if (start.size() == N) {
+        for (Index i = 0; i < N; ++i) q[i] = root[i] * start[i];
+    }
+    q /= std::sqrt(detail::dot(q.data(), q.data(), N));
     RitzPair pair;
     Index kept = 0;
     for (int run = 0; run <= options.restarts; ++run) {
@@ -110,48 +118,55 @@ RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
         double beta = 0;
         while (used < m) {
             const Index j = used++;
-            Q.col(j) = q;
-            pencil.multiply(c, q.cwiseQuotient(root), w);
+            Q.set(j, q);
+            for (Index i = 0; i < N; ++i) u[i] = q[i] / root[i];
+            pencil.multiply(c, u, w);
             ++pair.products;
-            w.array() /= root.array();
-            h.head(used).noalias() = Q.leftCols(used).transpose() * w;
-            H.col(j).head(used) = h.head(used);
-            H.row(j).head(used) = h.head(used);
-            w.noalias() -= Q.leftCols(used) * h.head(used);
+            for (Index i = 0; i < N; ++i) w[i] /= root[i];
+            const std::vector<double> h = Q.remove_from(w, used);
+            double norm = 0;
+            for (Index i = 0; i < used; ++i) {
+                H[j * m + i] = H[i * m + j] = h[i];
+                norm = std::hypot(norm, h[i]);
+            }
             // Twice is enough (Parlett): the basis stays orthogonal to rounding.
-            h.head(used).noalias() = Q.leftCols(used).transpose() * w;
-            w.noalias() -= Q.leftCols(used) * h.head(used);
-            beta = w.norm();
-            if (!(beta > 1e-14 * H.col(j).head(used).norm())) {
+            Q.remove_from(w, used);
+            beta = std::sqrt(detail::dot(w.data(), w.data(), N));
+            if (!(beta > 1e-14 * norm)) {
                 // An invariant subspace, maybe not that of the largest eigenvalue.
                 beta = 0;
                 w = detail::scattered_vector(N, used);
-                for (int pass = 0; pass < 2; ++pass) {
-                    h.head(used).noalias() = Q.leftCols(used).transpose() * w;
-                    w.noalias() -= Q.leftCols(used) * h.head(used);
-                }
+                for (int pass = 0; pass < 2; ++pass) Q.remove_from(w, used);
             }
-            q = w.normalized();
+            q = w / std::sqrt(detail::dot(w.data(), w.data(), N));
         }
-        const auto projected = detail::small_spectrum(H.topLeftCorner(used, used));
+        std::vector<double> projected;
+        for (Index j = 0; j < used; ++j) {
+            projected.insert(projected.end(), H.begin() + j * m, H.begin() + j * m + used);
+        }
+        const auto ritz =
+            detail::small_spectrum(std::move(projected), static_cast<std::size_t>(used));
         const double earlier = pair.value;
-        pair.value = projected.values[used - 1];
-        pair.residual = beta * std::abs(projected.vectors(used - 1, used - 1));
+        pair.value = ritz.values[used - 1];
+        pair.residual = beta * std::abs(ritz.vector(used - 1)[used - 1]);
         const bool settled =
             run > 0 && pair.value - earlier <= options.settled * std::abs(pair.value);
         const bool last = run == options.restarts || m == N || settled ||
                           pair.residual <= options.tolerance * std::abs(pair.value);
         kept = last ? 1 : std::max<Index>(1, used / 3);
-        best.resize(N, kept);
-        for (Index j = 0; j < kept; ++j) {
-            best.col(j).noalias() = Q.leftCols(used) * projected.vectors.col(used - kept + j);
-        }
-        Q.leftCols(kept) = best;
+        std::vector<VectorX<Real>> best;  // what a restart keeps
+        for (Index j = 0; j < kept; ++j) best.push_back(Q.sum(ritz.vector(used - kept + j), used));
+        for (Index j = 0; j < kept; ++j) Q.set(j, best[j]);
         if (last) break;
-        H.topLeftCorner(kept, kept).setZero();
-        H.diagonal().head(kept) = projected.values.tail(kept);
+        for (Index j = 0; j < kept; ++j) {
+            for (Index i = 0; i < kept; ++i) H[j * m + i] = 0;
+            H[j * m + j] = ritz.values[used - kept + j];
+        }
     }
-    pair.vector = Q.col(kept - 1).normalized().cwiseQuotient(root);
+    const double* shape = Q[kept - 1];
+    const double length = std::sqrt(detail::dot(shape, shape, N));
+    pair.vector.resize(N);
+    for (Index i = 0; i < N; ++i) pair.vector[i] = shape[i] / length / root[i];
     return pair;
 }
 

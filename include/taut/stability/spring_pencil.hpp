@@ -247,11 +247,10 @@ SpringPencil<Dim> SpringPencil<Dim>::any_pose(const System& system, Damping coun
 
 template <int Dim>
 auto SpringPencil<Dim>::coefficients(const Combination& c, const Link& link) const -> Coefficients {
-    const double on_rayleigh = c.damping() * rayleigh_.stiffness_proportional;
+    const double on_plus = c.projected() + c.damping() * rayleigh_.stiffness_proportional;
     const double graph = c.damping() * link.graph;
     const auto elastic = [&](double slope) {
-        const double plus = std::max(slope, 0.0);
-        return c.stiffness() * slope + c.projected() * plus + on_rayleigh * plus;
+        return c.stiffness() * slope + on_plus * std::max(slope, 0.0);
     };
     return {elastic(link.axial) + c.damping() * link.damping + graph,
             elastic(link.transverse) + graph};

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -117,35 +116,37 @@ Eigen::VectorXd SinglePrecisionSprings<Dim>::shape(const Eigen::VectorXf& q) con
 /// @param multiply  y ← A q
 /// @param q  where to begin, of unit length
 /// @returns the vector, or an empty one when the steps were not enough
-template <class Real = double>  // a template: only its callers compile the eigensolver
+template <class Real = float>  // a template: only its callers compile it
 Eigen::VectorXf quick_vector(
     const std::function<void(const Eigen::VectorXf& q, Eigen::VectorXf& y)>& multiply,
     Eigen::VectorXf q) {
     constexpr int most = 24;
     constexpr int least = 8;  // steps before the first look
     constexpr double tolerance = 2e-2;
-    Eigen::MatrixXf Q(q.size(), most);
-    Eigen::VectorXd alpha(most);  // diagonal of the tridiagonal QᵀAQ
-    Eigen::VectorXd beta(most);   // beside it
-    Eigen::VectorXf w;
-    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> projected;
+    const Index N = q.size();
+    Basis<float> Q(N, most);
+    std::vector<double> alpha;  // diagonal of the tridiagonal QᵀAQ
+    std::vector<double> beta;   // beside it
+    VectorX<Real> w;
     for (int j = 0; j < most; ++j) {
-        Q.col(j) = q;
+        Q.set(j, q);
         multiply(q, w);
-        const float along = q.dot(w);
-        w -= along * q;
-        if (j > 0) w -= static_cast<float>(beta[j - 1]) * Q.col(j - 1);
-        const float beside = w.norm();
-        if (!(beside > 0) || !std::isfinite(beside)) return {};
-        q = w / beside;
-        alpha[j] = along;
-        beta[j] = beside;
+        const float along = dot(q.data(), w.data(), N);
+        add_scaled(w.data(), -along, q.data(), N);
+        if (j > 0) add_scaled(w.data(), -static_cast<float>(beta.back()), Q[j - 1], N);
+        const float norm = std::sqrt(dot(w.data(), w.data(), N));
+        if (!(norm > 0) || !std::isfinite(norm)) return {};
+        q = w / norm;
+        alpha.push_back(along);
+        beta.push_back(norm);
         if (j % 2 == 0 || j + 1 < least) continue;
-        projected.computeFromTridiagonal(alpha.head(j + 1), beta.head(j));
-        const Eigen::VectorXd leading = projected.eigenvectors().col(j);
-        if (beta[j] * std::abs(leading[j]) <= tolerance * projected.eigenvalues()[j]) {
-            const Eigen::VectorXf shares = leading.cast<float>();
-            return Q.leftCols(j + 1) * shares;
+        const std::vector<double> beside(beta.begin(), beta.end() - 1);
+        std::vector<double> last_row(alpha.size(), 0);
+        last_row.back() = 1;
+        const auto ends = tridiagonal_spectrum(alpha, beside, last_row);
+        if (beta.back() * std::abs(*ends.vector(j)) <= tolerance * ends.values.back()) {
+            const auto ritz = tridiagonal_spectrum(alpha, beside, small_identity(alpha.size()));
+            return Q.sum(ritz.vector(j), j + 1);
         }
     }
     return {};
