@@ -23,7 +23,7 @@ int main() {
                         static_cast<int>(report.substeps), report.retries);
         }
         if (!report) {
-            std::printf("given up: particle %d, spring %d\n", static_cast<int>(report.particle),
+            std::printf("given up: particle %d, spring %d\n", static_cast<int>(report.where),
                         static_cast<int>(report.spring));
             return 1;
         }

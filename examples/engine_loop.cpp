@@ -78,7 +78,7 @@ int main() {
             const auto report = guard.advance(view, tick);
             if (!report) {
                 std::printf("tick %d: %s, near particle %d\n", ticks, describe(report.status),
-                            static_cast<int>(report.particle));
+                            static_cast<int>(report.where));
                 return 1;
             }
             substeps += report.substeps;

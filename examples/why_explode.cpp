@@ -321,18 +321,7 @@ Rise energy_rise(const Threads& net, double h, const taut::StepDamping& damping)
 }
 
 void only_if_it_cannot_push() {
-    const Net pushing = cloth();
-    const auto start = pushing.initial_state();
-    Threads net;
-    for (Index i = 0; i < pushing.size(); ++i) {
-        net.add_particle(start.x.col(i), pushing.mass(i));
-        if (pushing.is_pinned(i)) net.pin(i);
-    }
-    const auto& set = pushing.springs();
-    for (Index s = 0; s < pushing.spring_count(); ++s)
-        net.add_spring<taut::TensionOnly>(set.a[s], set.b[s], {set.parameters[s].stiffness});
-    net.set_gravity(pushing.gravity());
-
+    const Threads net = taut::with_law<taut::TensionOnly>(cloth());
     const double limit = taut::any_pose_limit(net).certified;
     const Rise bare = energy_rise(net, 0.95 * limit, {});
     const Rise recipe = energy_rise(net, taut::recipe.safety * limit, taut::recipe.damping);

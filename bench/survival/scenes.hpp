@@ -190,22 +190,11 @@ struct ChoiKo {
 
 template <class Law, int Dim>
 typename Law::template System<Dim> with_law(const Scene<Dim>& scene) {
-    typename Law::template System<Dim> system;
-    const auto start = scene.net.initial_state();
-    for (Index i = 0; i < scene.net.size(); ++i) {
-        system.add_particle(start.x.col(i), scene.net.mass(i));
-        if (scene.net.is_pinned(i)) system.pin(i);
-    }
-    const auto& springs = scene.net.springs();
-    for (Index s = 0; s < springs.size(); ++s) {
-        const auto at = static_cast<std::size_t>(s);
-        Law::add(system,
-                 taut::Spring<double, taut::Hookean>{
-                     springs.a[at], springs.b[at], springs.parameters[at], springs.rest_length[at]},
-                 s >= scene.bends_from);
-    }
-    system.set_gravity(scene.net.gravity());
-    return system;
+    using System = typename Law::template System<Dim>;
+    return taut::with_springs<System>(
+        scene.net, [&](System& system, const taut::Spring<double, taut::Hookean>& spring, Index s) {
+            Law::add(system, spring, s >= scene.bends_from);
+        });
 }
 
 /// Under gravity one start in eight is the scene as it was built. The others are disturbed by a

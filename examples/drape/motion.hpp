@@ -58,7 +58,7 @@ Advance by_stepper(const Scene& scene, std::shared_ptr<Stepper> stepper) {
 template <class Report>
 std::string name_trouble(const Report& report) {
     if (report) return {};
-    std::string text = name_particle(report.status, report.particle);
+    std::string text = name_particle(report.status, report.where);
     if (report.spring >= 0) text += ", spring " + std::to_string(report.spring);
     return text + "; given up after " + std::to_string(report.retries) + " retries";
 }

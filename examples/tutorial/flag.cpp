@@ -58,7 +58,7 @@ int main() {
         const auto report = guard.advance(view, 1.0f / 60);
         if (!report) {
             std::printf("frame %d: %s at particle %d\n", frame, describe(report.status),
-                        int(report.particle));
+                        int(report.where));
             return 1;
         }
         const Index torn = flag.remove_springs(too_long);

@@ -30,6 +30,7 @@
 #include "scene/contact.hpp"
 #include "scene/mesh.hpp"
 #include "scene/obstacle.hpp"
+#include "scene/with_law.hpp"
 #include "solver/conjugate_gradient.hpp"
 #include "solver/interleaved_llt.hpp"
 #include "solver/static_equilibrium.hpp"

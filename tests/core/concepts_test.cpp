@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <taut/core/concepts.hpp>
 #include <taut/model/spring_system.hpp>
+#include <taut/scene/obstacle.hpp>
 
 #include "../support/catch.hpp"
+#include "../support/laws.hpp"
 
 namespace taut_test::concepts_test {
 
@@ -42,6 +44,49 @@ TEST_CASE("concepts: Eigen's sparse solvers are Solvers, and symmetric ones are 
     CHECK(taut::is_symmetric_solver_v<Eigen::SimplicialLLT<Matrix>>);
     CHECK(taut::is_symmetric_solver_v<Eigen::SimplicialLDLT<Matrix, Eigen::Upper>>);
     CHECK_FALSE(taut::is_symmetric_solver_v<Eigen::SparseLU<Matrix>>);
+}
+
+namespace {
+
+/// A law in double alone, as a user may write one, with slopes between two lengths.
+struct InDouble {
+    static constexpr bool convex = false;
+    template <class Scalar>
+    using Parameters = taut::Hookean::Parameters<Scalar>;
+    using P = Parameters<double>;
+    static double tension(const P& p, double L, double l) { return p.stiffness * (l - L); }
+    static double tension_slope(const P& p, double, double) { return p.stiffness; }
+    static double energy(const P& p, double L, double l) {
+        return p.stiffness * (l - L) * (l - L) / 2;
+    }
+    static double stiffness_bound(const P& p, double) { return p.stiffness; }
+};
+
+/// An engine's own ground, with its own name for what it answers.
+struct Ground {
+    struct Hit {
+        float distance;
+        Eigen::Vector3f normal;
+    };
+    Hit surface(const Eigen::Vector3f& x) const { return {x.z(), Eigen::Vector3f::UnitZ()}; }
+};
+
+}  // namespace
+
+TEST_CASE("concepts: the library's laws and a user's own are Laws", "[core]") {
+    taut::require_law<taut::Hookean, float>();
+    taut::require_law<taut::TensionOnly, double>();
+    taut::require_law<taut::Buckling, float>();
+    taut::require_law<taut_test::Glue, double>();
+    taut::require_law<InDouble, double>();
+    SUCCEED();
+}
+
+TEST_CASE("concepts: the library's obstacles and a user's own are Obstacles", "[core]") {
+    taut::require_obstacle<taut::HalfSpace<float, 2>, Eigen::Vector2f>();
+    taut::require_obstacle<taut::Sphere<double, 3>, Eigen::Vector3d>();
+    taut::require_obstacle<Ground, Eigen::Vector3f>();
+    SUCCEED();
 }
 
 }  // namespace taut_test::concepts_test

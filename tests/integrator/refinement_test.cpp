@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 // What a guard spends on frames that it gives up.
 #include <taut/integrator/guarded.hpp>
-#include <taut/integrator/symplectic_euler.hpp>
 
 #include "../support/catch.hpp"
+#include "../support/leaking.hpp"
 #include "../support/random_system.hpp"
 
 namespace taut_test::refinement_test {
@@ -15,36 +15,6 @@ using taut::Status;
 namespace {
 
 constexpr Index plain = 4;  // substeps of a frame that is not refined
-
-/// Where the scene explodes, and what was spent on it.
-struct Leak {
-    double above = 0;  // s; steps that are longer gain energy
-    Index substeps = 0;
-};
-
-/// Symplectic Euler that gains a fifth of the kinetic energy in a frame of 1/60 s.
-template <class System>
-class Leaking {
-public:
-    using Scalar = typename System::Scalar;
-    using State = typename System::State;
-    static constexpr taut::Method method = taut::Method::symplectic_euler;
-
-    Leaking(const System& system, Leak& leak) : stepper_(system), leak_(&leak) {}
-    taut::Report step(State& state, Scalar h, Index count = 1) {
-        taut::Report report;
-        for (Index i = 0; i < count && report; ++i) {
-            report = stepper_.step(state, h);
-            if (static_cast<double>(h) > leak_->above) state.v *= 1 + 6 * h;
-        }
-        leak_->substeps += count;
-        return report;
-    }
-
-private:
-    taut::SymplecticEuler<System> stepper_;
-    Leak* leak_;
-};
 
 /// A scene that flies, and its guard.
 template <class Scalar>
@@ -65,9 +35,9 @@ struct Flight {
     }
     /// Substeps that the next frame takes, whatever becomes of it.
     Index spent(Guard& guard) {
-        leak.substeps = 0;
+        leak.steps = 0;
         ok = bool(guard.advance(state, frame));
-        return leak.substeps;
+        return leak.steps;
     }
     /// The longest step that does not leak any more is that of `level`.
     void mend(int level) {
@@ -78,7 +48,7 @@ struct Flight {
     System system;
     typename System::State state;
     typename Guard::Options options_of_guard;
-    Leak leak;
+    Leak leak{6};  // a fifth of the kinetic energy in a frame of 1/60 s
     Scalar frame = 0;
     bool ok = false;
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -24,6 +25,11 @@ struct TemporaryFile {
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
 
+    /// Replaces what is in it.
+    void write(const void* data, std::size_t size) const {
+        std::ofstream file(path, std::ios::binary);
+        file.write(static_cast<const char*>(data), static_cast<std::streamsize>(size));
+    }
     std::string bytes() const {
         std::ifstream file(path, std::ios::binary);
         return {std::istreambuf_iterator<char>(file), {}};

@@ -3,6 +3,7 @@
 #include <taut/model/tension_only.hpp>
 #include <taut/scene/chain.hpp>
 #include <taut/scene/cloth.hpp>
+#include <taut/scene/with_law.hpp>
 #include <taut/tradeoff/recommend.hpp>
 
 #include "../support/catch.hpp"
@@ -82,18 +83,7 @@ TEST_CASE("feasible_plans: the scene's damping counts", "[tradeoff]") {
 
 TEST_CASE("feasible_plans: the explicit plan keeps the energy of a net that only pulls",
           "[tradeoff]") {
-    using Threads = taut::SpringSystem<double, 3, taut::TensionOnly>;
-    const Cloth pushing = cloth(1000);
-    auto start = pushing.initial_state();
-    Threads net;
-    for (Index i = 0; i < pushing.size(); ++i) {
-        net.add_particle(start.x.col(i), pushing.mass(i));
-        if (pushing.is_pinned(i)) net.pin(i);
-    }
-    const auto& set = pushing.springs();
-    for (Index s = 0; s < pushing.spring_count(); ++s)
-        net.add_spring<taut::TensionOnly>(set.a[s], set.b[s], {set.parameters[s].stiffness});
-    net.set_gravity(pushing.gravity());
+    const auto net = taut::with_law<taut::TensionOnly>(cloth(1000));
     const auto plans = taut::feasible_plans(net, {}, taut::recommended_candidates({}));
     const taut::Plan& plan = plans.front();
     const Candidate& candidate = plan.candidate;

@@ -44,6 +44,95 @@ using solve_of = decltype(std::declval<const Solver&>().solve(std::declval<const
 template <class Solver>
 using up_lo_of = decltype(Solver::UpLo);
 
+template <class Law, class Scalar>
+using parameters_of = typename Law::template Parameters<Scalar>;
+template <class Parameters>
+using require_valid_of = decltype(std::declval<const Parameters&>().require_valid(""));
+template <class Parameters, class Law, class Other>
+using cast_of = std::enable_if_t<std::is_convertible_v<
+    decltype(std::declval<const Parameters&>().template cast<Other>()), parameters_of<Law, Other>>>;
+template <class Number, class Scalar>
+using number_of = std::enable_if_t<std::is_convertible_v<Number, Scalar>>;
+template <class Law, class P, class S>
+using tension_of = number_of<
+    decltype(Law::tension(std::declval<const P&>(), std::declval<S>(), std::declval<S>())), S>;
+template <class Law, class P, class S>
+using tension_slope_of =
+    number_of<decltype(Law::tension_slope(std::declval<const P&>(), std::declval<S>(),
+                                          std::declval<S>())),
+              S>;
+template <class Law, class P, class S>
+using energy_of =
+    number_of<decltype(Law::energy(std::declval<const P&>(), std::declval<S>(), std::declval<S>())),
+              S>;
+template <class Law, class P, class S>
+using stiffness_bound_of =
+    number_of<decltype(Law::stiffness_bound(std::declval<const P&>(), std::declval<S>())), S>;
+template <class Law>
+using convex_of = std::bool_constant<static_cast<bool>(Law::convex)>;
+template <class Law, class P, class S>
+using slope_range_of = std::enable_if_t<
+    std::is_convertible_v<decltype(Law::slope_range(std::declval<const P&>(), std::declval<S>(),
+                                                    std::declval<S>(), std::declval<S>())),
+                          std::pair<S, S>>>;
+template <class Law, class Scalar>
+using slope_range_name_of = decltype(&Law::template slope_range<Scalar>);
+
+/// What a law has of the Law concept for a system in Scalar, whose analysis is in double. Without
+/// Parameters nothing else can be asked, and nothing else counts as missing.
+template <class Law, class Scalar,
+          bool =
+              is_detected_v<parameters_of, Law, Scalar>&& is_detected_v<parameters_of, Law, double>>
+struct LawHas {
+    using P = parameters_of<Law, Scalar>;
+    template <template <class...> class Operation>
+    static constexpr bool function = is_detected_v<Operation, Law, P, Scalar>&&
+        is_detected_v<Operation, Law, parameters_of<Law, double>, double>;
+
+    static constexpr bool parameters = true;
+    static constexpr bool require_valid = is_detected_v<require_valid_of, P>;
+    static constexpr bool cast =
+        is_detected_v<cast_of, P, Law, float> && is_detected_v<cast_of, P, Law, double>;
+    static constexpr bool tension = function<tension_of>;
+    static constexpr bool tension_slope = function<tension_slope_of>;
+    static constexpr bool energy = function<energy_of>;
+    static constexpr bool stiffness_bound = function<stiffness_bound_of>;
+    static constexpr bool convex = is_detected_v<convex_of, Law>;
+    // One that is there and cannot be called would be passed over, and its slopes with it.
+    static constexpr bool slope_range =
+        !is_detected_v<slope_range_name_of, Law, Scalar> || function<slope_range_of>;
+    static constexpr bool all = require_valid && cast && tension && tension_slope && energy &&
+                                stiffness_bound && convex && slope_range;
+};
+template <class Law, class Scalar>
+struct LawHas<Law, Scalar, false> {
+    static constexpr bool parameters = false, all = false;
+    static constexpr bool require_valid = true, cast = true, tension = true, tension_slope = true,
+                          energy = true, stiffness_bound = true, convex = true, slope_range = true;
+};
+
+template <class Obstacle, class Vector>
+using surface_of = decltype(std::declval<const Obstacle&>().surface(std::declval<const Vector&>()));
+template <class Surface, class Scalar>
+using distance_of = number_of<decltype(std::declval<Surface>().distance), Scalar>;
+template <class Surface, class Vector>
+using normal_of = number_of<decltype(std::declval<Surface>().normal), Vector>;
+
+/// What an obstacle has of the Obstacle concept.
+template <class Obstacle, class Vector, bool = is_detected_v<surface_of, Obstacle, Vector>>
+struct ObstacleHas {
+    using Surface = surface_of<Obstacle, Vector>;
+    static constexpr bool surface = true;
+    static constexpr bool distance = is_detected_v<distance_of, Surface, typename Vector::Scalar>;
+    static constexpr bool normal = is_detected_v<normal_of, Surface, Vector>;
+    static constexpr bool all = distance && normal;
+};
+template <class Obstacle, class Vector>
+struct ObstacleHas<Obstacle, Vector, false> {
+    static constexpr bool surface = false, all = false;
+    static constexpr bool distance = true, normal = true;
+};
+
 }  // namespace detail
 
 /// The System concept (docs/concepts.md): one readable sentence for each missing member.
@@ -76,6 +165,57 @@ constexpr void require_solver() {
                   "taut::Solver: needs `factorize(const SparseMatrix&)`");
     static_assert(detail::is_detected_v<detail::solve_of, Solver, VectorX<Scalar>>,
                   "taut::Solver: needs `solve(const VectorX&) const`");
+}
+
+/// The Law concept (docs/concepts.md), for one Scalar: one readable sentence for each missing
+/// member. SpringSystem asks it of each of its laws.
+template <class Law, class Scalar>
+constexpr void require_law() {
+    using Has = detail::LawHas<Law, Scalar>;
+    static_assert(Has::parameters,
+                  "taut::Law: needs `template <class Scalar> Parameters`, what one spring of the "
+                  "law holds (docs/concepts.md, Law)");
+    static_assert(Has::require_valid,
+                  "taut::Law: Parameters needs `void require_valid(const char* where) const`, "
+                  "which fails for values out of range (docs/concepts.md, Law)");
+    static_assert(Has::cast,
+                  "taut::Law: Parameters needs `template <class Other> Parameters<Other> cast() "
+                  "const`, the same in another precision (docs/concepts.md, Law)");
+    static_assert(Has::tension,
+                  "taut::Law: needs `static Scalar tension(const Parameters<Scalar>& p, Scalar L, "
+                  "Scalar l)`, N, for every Scalar (docs/concepts.md, Law)");
+    static_assert(Has::tension_slope,
+                  "taut::Law: needs `static Scalar tension_slope(const Parameters<Scalar>& p, "
+                  "Scalar L, Scalar l)`, N/m, for every Scalar (docs/concepts.md, Law)");
+    static_assert(Has::energy,
+                  "taut::Law: needs `static Scalar energy(const Parameters<Scalar>& p, Scalar L, "
+                  "Scalar l)`, J, for every Scalar (docs/concepts.md, Law)");
+    static_assert(Has::stiffness_bound,
+                  "taut::Law: needs `static Scalar stiffness_bound(const Parameters<Scalar>& p, "
+                  "Scalar L)`, N/m, for every Scalar (docs/concepts.md, Law)");
+    static_assert(Has::convex,
+                  "taut::Law: needs `static constexpr bool convex`, whether the energy is convex "
+                  "in the positions (docs/concepts.md, Law)");
+    static_assert(Has::slope_range,
+                  "taut::Law: slope_range must be `static std::pair<Scalar, Scalar> "
+                  "slope_range(const Parameters<Scalar>& p, Scalar L, Scalar low, Scalar high)`, "
+                  "N/m, for every Scalar (docs/concepts.md, Law)");
+}
+
+/// The Obstacle concept (docs/concepts.md), for points of the type Vector: one readable sentence
+/// for each missing member. resolve_contacts asks it.
+template <class Obstacle, class Vector>
+constexpr void require_obstacle() {
+    using Has = detail::ObstacleHas<Obstacle, Vector>;
+    static_assert(Has::surface,
+                  "taut::Obstacle: needs `Surface<Scalar, Dim> surface(const Vector& point) "
+                  "const` (docs/concepts.md, Obstacle)");
+    static_assert(Has::distance,
+                  "taut::Obstacle: what surface(point) returns needs `Scalar distance`, m, < 0 "
+                  "inside (docs/concepts.md, Obstacle)");
+    static_assert(Has::normal,
+                  "taut::Obstacle: what surface(point) returns needs `Vector normal`, unit, the "
+                  "way out (docs/concepts.md, Obstacle)");
 }
 
 /// Whether a solver reads one triangle only, as Eigen's symmetric solvers declare by `UpLo`.

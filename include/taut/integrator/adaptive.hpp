@@ -8,6 +8,7 @@
 
 #include "../core/error.hpp"
 #include "../core/status.hpp"
+#include "detail/wrapper.hpp"
 
 namespace taut {
 
@@ -20,7 +21,7 @@ struct [[nodiscard]] AdaptiveReport {
     Index rejected = 0;   ///< failed, or stretched a spring too much
     Scalar advanced = 0;  ///< s
     Scalar h = 0;         ///< that the next step will try, s
-    Index where = -1;     ///< particle of the last failure, or −1
+    Index where = -1;     ///< on failure: the particle that the stepper names, or −1
     Index spring = -1;    ///< the one whose change of length rejected a step last, or −1
 
     /// Whether status is ok.
@@ -34,7 +35,8 @@ struct [[nodiscard]] AdaptiveReport {
 ///
 /// It bounds how wrong a linearised step can be, not its order of error. Bdf2 restarts after a step
 /// taken back.
-template <class Stepper, class System>
+/// @tparam Stepper  any of a SpringSystem
+template <class Stepper, class System = typename detail::stepped_system<Stepper>::type>
 class Adaptive {
 public:
     using Scalar = typename System::Scalar;
@@ -48,29 +50,59 @@ public:
         int successes = 4;                                ///< in a row before h doubles, ≥ 1
     };
 
-    /// Keeps references: both must outlive this. Options out of range go to fail().
-    Adaptive(const System& system, Stepper& stepper, const Options& options = {});
+    /// Keeps a reference: the system must outlive this, which makes a stepper of its own. Options
+    /// out of range go to fail().
+    /// @param arguments  further ones of the stepper's constructor, such as its Options
+    template <class... Arguments>
+    explicit Adaptive(const System& system, const Options& options = {}, Arguments&&... arguments)
+        : system_(&system),
+          stepper_(std::in_place, system, std::forward<Arguments>(arguments)...),
+          options_(options),
+          h_(options.max_step) {
+        require_valid(options);
+    }
+    template <class... Arguments>
+    explicit Adaptive(const System&&, const Options& = {}, Arguments&&...) = delete;
+    /// Adapts the steps of a stepper of yours. Keeps references: both must outlive this.
+    Adaptive(const System& system, Stepper& stepper, const Options& options = {})
+        : system_(&system), stepper_(stepper), options_(options), h_(options.max_step) {
+        require_valid(options);
+    }
     Adaptive(const System&&, Stepper&, const Options& = {}) = delete;
 
     /// Advances by `duration`, s, finite and > 0, in as many steps as it takes.
     AdaptiveReport<Scalar> advance(State& state, Scalar duration);
+    /// Advances an engine's own arrays by `duration`, s: copied back once a call, and there if they
+    /// are not what the last call left.
+    template <class Stored>
+    AdaptiveReport<Scalar> advance(StateView<Stored, System::Dim>& view, Scalar duration) {
+        return viewed_.advance(view, [&](State& state) { return advance(state, duration); });
+    }
+
+    /// The stepper, to set its constraints or its solver.
+    Stepper& stepper() { return stepper_.get(); }
+    /// The stepper, to ask it.
+    const Stepper& stepper() const { return stepper_.get(); }
+    /// What this was made with.
+    const Options& options() const { return options_; }
 
 private:
+    static void require_valid(const Options& options);
     /// The spring that changed its length by too much from before_ to `state`, the worst, or −1.
     /// Springs of rest length 0 have no stretch and are not judged.
     Index overstretched(const State& state) const;
 
     const System* system_;
-    Stepper* stepper_;
+    detail::HeldStepper<Stepper> stepper_;
     Options options_;
     Scalar h_;           // to try next, s
     int successes_ = 0;  // in a row
     State before_;       // the step's start
+    detail::ViewedState<State> viewed_;
 };
 
 template <class Stepper, class System>
-Adaptive<Stepper, System>::Adaptive(const System& system, Stepper& stepper, const Options& options)
-    : system_(&system), stepper_(&stepper), options_(options), h_(options.max_step) {
+void Adaptive<Stepper, System>::require_valid(const Options& options) {
     require_positive("Adaptive", "max_step", options.max_step);
     require_positive("Adaptive", "min_step", options.min_step);
     require_positive("Adaptive", "max_stretch_change", options.max_stretch_change);
@@ -107,10 +139,10 @@ AdaptiveReport<typename System::Scalar> Adaptive<Stepper, System>::advance(State
                                                                            Scalar duration) {
     AdaptiveReport<Scalar> report;
     report.h = h_;
-    if (!(duration > 0) || !std::isfinite(duration)) {
-        report.status = Status::invalid_step;
-        return report;
-    }
+    const Report refused = detail::StepLoop<State>::check(*system_, state, duration);
+    report.status = refused.status;
+    report.where = refused.where;
+    if (!report) return report;
     double advanced = 0;  // in float a small step would be lost beside a long time
     while (advanced < static_cast<double>(duration)) {
         const auto left = static_cast<Scalar>(static_cast<double>(duration) - advanced);
@@ -118,7 +150,7 @@ AdaptiveReport<typename System::Scalar> Adaptive<Stepper, System>::advance(State
         const bool last = left <= h_ * (1 + 16 * std::numeric_limits<Scalar>::epsilon());
         const Scalar h = last ? left : h_;
         before_ = state;
-        const Report step = stepper_->step(state, h);
+        const Report step = stepper().step(state, h);
         const Index spring = step ? overstretched(state) : Index(-1);
         if (step && spring < 0) {
             ++report.steps;
@@ -130,7 +162,6 @@ AdaptiveReport<typename System::Scalar> Adaptive<Stepper, System>::advance(State
             continue;
         }
         ++report.rejected;
-        report.where = step.where;
         report.spring = spring;
         successes_ = 0;
         const bool bad_input = step.status == Status::invalid_state;
@@ -142,6 +173,7 @@ AdaptiveReport<typename System::Scalar> Adaptive<Stepper, System>::advance(State
                 continue;
             }
             report.status = step.status;
+            report.where = step.where;
             break;
         }
         state = before_;

@@ -16,7 +16,8 @@
 #include "detail/last_state.hpp"
 #include "detail/refinement.hpp"
 #include "detail/work_meter.hpp"
-#include "explicit_options.hpp"
+#include "detail/wrapper.hpp"
+#include "guarded_options.hpp"
 #include "guarded_report.hpp"
 
 namespace taut {
@@ -56,32 +57,18 @@ public:
                   "taut::Guarded: the stepper's method, like explicit Euler, has no limit that "
                   "holds at every pose; guard SymplecticEuler, which costs the same");
 
-    /// What a frame may cost, and what counts as a gain of energy.
-    struct Options {
-        /// The stepper's own damping, as shares of a substep, unless its options are given:
-        /// explicit steppers only. The scene's stays as it is.
-        StepDamping damping = recipe.damping;
-        /// Of the any-pose limit, in (0, 1]; at most 1/(1 + 2a) is used, with a of own damping. At
-        /// a half a linear spring under symplectic Euler swings threefold in energy, at 0.95
-        /// thirty-nine times, and tension-only cloth gains energy.
-        Scalar safety = static_cast<Scalar>(recipe.safety);
-        Scalar max_step = std::numeric_limits<Scalar>::infinity();  ///< s, > 0
-        /// A frame that needs more is shortened to this many steps, so that a late frame does not
-        /// make the next one later. Retries go beyond it.
-        Index max_substeps = 1000;
-        int max_retries = 6;  ///< each with twice the substeps, ≤ 30
-        /// Share of the largest kinetic and elastic energy of late by which the account may be
-        /// exceeded. What it admits once is not admitted again.
-        double energy_slack = 0.01;
-        double energy_drift = 0.003;  ///< 1/s, share of the same by which the account grows
-    };
+    using Options = GuardedOptions<Scalar>;
 
-    /// Keeps a reference: the system must outlive the guard. Options out of range go to fail().
+    /// Keeps a reference: the system must outlive the guard, which makes a stepper of its own.
+    /// Options out of range go to fail().
     /// @param arguments  further ones of the stepper's constructor, such as its Options
     template <class... Arguments>
     explicit Guarded(const System& system, const Options& options = {}, Arguments&&... arguments);
     template <class... Arguments>
     explicit Guarded(const System&&, const Options& = {}, Arguments&&...) = delete;
+    /// Guards a stepper of yours, as it is. Keeps references: both must outlive the guard.
+    Guarded(const System& system, Stepper& stepper, const Options& options = {});
+    Guarded(const System&&, Stepper&, const Options& = {}) = delete;
 
     /// Advances by `frame`, s, finite and > 0. No certified step (overflow) is invalid_step.
     /// What changes state or scene between frames moves the account by the energy that this adds
@@ -92,36 +79,30 @@ public:
     ///                 system as it is: tear and pin between frames.
     template <class Respond = detail::NoResponse>
     GuardedReport<Scalar> advance(State& state, Scalar frame, Respond&& respond = {});
-    /// The same on an engine's own arrays, copied back once a frame, and there if they are not what
-    /// the last frame left.
+    /// Advances an engine's own arrays by `frame`, s: copied back once a frame, and there if they
+    /// are not what the last frame left.
     template <class Stored, class Respond = detail::NoResponse>
     GuardedReport<Scalar> advance(StateView<Stored, System::Dim>& view, Scalar frame,
                                   Respond&& respond = {}) {
-        if (!holds(view)) view.copy_to(viewed_);
-        const auto report = advance(viewed_, frame, respond);
-        if (report) view.copy_from(viewed_);
-        return report;
+        return viewed_.advance(view, [&](State& state) { return advance(state, frame, respond); });
     }
 
     /// The guarded stepper, to set its constraints or its solver.
-    Stepper& stepper() { return stepper_; }
+    Stepper& stepper() { return stepper_.get(); }
+    /// The guarded stepper, to ask it.
+    const Stepper& stepper() const { return stepper_.get(); }
+    /// What the guard was made with.
+    const Options& options() const { return options_; }
     /// The limit in force; nothing before the first frame of an explicit stepper.
     const std::optional<StepLimit<Scalar>>& limit() const { return limit_; }
 
 private:
     static constexpr bool limited = method::Of<method>::any_pose == method::AnyPose::limited;
 
-    template <class Stored>
-    bool holds(const StateView<Stored, System::Dim>& view) const {
-        return view.x.cols() == viewed_.x.cols() && view.v.cols() == viewed_.v.cols() &&
-               view.time == static_cast<double>(viewed_.time) &&
-               view.x == viewed_.x.template cast<Stored>() &&
-               view.v == viewed_.v.template cast<Stored>();
-    }
     /// The stepper's own, as shares of its step.
     StepDamping damping() const {
         if constexpr (detail::is_detected_v<detail::damping_of, Stepper>) {
-            return stepper_.damping();
+            return stepper().damping();
         } else {
             return {};
         }
@@ -129,7 +110,8 @@ private:
     /// Of the any-pose limit: what substeps are cut to.
     double share() const { return share_of_limit(static_cast<double>(options_.safety), damping()); }
     template <class... Arguments>
-    static Stepper made(const System& system, const Options& options, Arguments&&... arguments);
+    static detail::HeldStepper<Stepper> made(const System& system, const Options& options,
+                                             Arguments&&... arguments);
     Scalar largest_step();
     const Points<Scalar, System::Dim>* constraint_forces() const;
     detail::EnergyTerms terms() const;
@@ -147,7 +129,7 @@ private:
 
     const System* system_;
     Options options_;
-    Stepper stepper_;
+    detail::HeldStepper<Stepper> stepper_;
     std::optional<StepLimit<Scalar>> limit_;
     detail::LastState<State> start_;  // the last good one
     detail::EnergyBooks start_books_;
@@ -156,7 +138,7 @@ private:
     detail::WorkMeter<System, method::Of<method>> meter_;
     detail::Refinement refinement_;
     Points<Scalar, System::Dim> forces_;  // workspace
-    State viewed_;                        // of a StateView
+    detail::ViewedState<State> viewed_;
 };
 
 template <class Stepper, class System>
@@ -167,35 +149,27 @@ Guarded<Stepper, System>::Guarded(const System& system, const Options& options,
       options_(options),
       stepper_(made(system, options, std::forward<Arguments>(arguments)...)),
       refinement_(options.max_retries) {
-    require_positive("Guarded", "safety", options.safety);
-    if (options.safety > 1) fail("Guarded: safety is ", options.safety, "; it must be <= 1");
-    if (!(options.max_step > 0)) {
-        fail("Guarded: max_step is ", options.max_step, "; it must be > 0");
-    }
-    if (options.max_substeps < 1) {
-        fail("Guarded: max_substeps is ", options.max_substeps, "; it must be >= 1");
-    }
-    if (options.max_retries < 0 || options.max_retries > 30) {
-        fail("Guarded: max_retries is ", options.max_retries, "; it must be within 0 and 30");
-    }
-    if (options.max_substeps > std::numeric_limits<Index>::max() >> options.max_retries) {
-        fail("Guarded: max_substeps is ", options.max_substeps, ", which overflows when ",
-             options.max_retries, " retries double it");
-    }
-    require_non_negative("Guarded", "energy_slack", options.energy_slack);
-    require_non_negative("Guarded", "energy_drift", options.energy_drift);
+    options.require_valid();
+}
+
+template <class Stepper, class System>
+Guarded<Stepper, System>::Guarded(const System& system, Stepper& stepper, const Options& options)
+    : system_(&system), options_(options), stepper_(stepper), refinement_(options.max_retries) {
+    options.require_valid();
 }
 
 template <class Stepper, class System>
 template <class... Arguments>
-Stepper Guarded<Stepper, System>::made(const System& system, const Options& options,
-                                       Arguments&&... arguments) {
+detail::HeldStepper<Stepper> Guarded<Stepper, System>::made(const System& system,
+                                                            const Options& options,
+                                                            Arguments&&... arguments) {
+    using Held = detail::HeldStepper<Stepper>;
     constexpr bool damps = detail::is_detected_v<detail::damping_of, Stepper> &&
                            std::is_constructible_v<Stepper, const System&, ExplicitOptions>;
     if constexpr (sizeof...(Arguments) == 0 && damps) {
-        return Stepper(system, ExplicitOptions{1, options.damping});
+        return Held(std::in_place, system, ExplicitOptions{1, options.damping});
     } else {
-        return Stepper(system, std::forward<Arguments>(arguments)...);
+        return Held(std::in_place, system, std::forward<Arguments>(arguments)...);
     }
 }
 
@@ -214,7 +188,7 @@ auto Guarded<Stepper, System>::largest_step() -> Scalar {
 template <class Stepper, class System>
 auto Guarded<Stepper, System>::constraint_forces() const -> const Points<Scalar, System::Dim>* {
     if constexpr (detail::is_detected_v<detail::constraint_forces_of, Stepper>) {
-        return &stepper_.constraint_forces();
+        return &stepper().constraint_forces();
     } else {
         return nullptr;
     }
@@ -236,12 +210,12 @@ Report Guarded<Stepper, System>::attempt(State& state, GuardedReport<Scalar>& re
     meter_.start(h, std::min(1.0, 2 * (1 - share() * share())), damping().times(h));
     report.response = 0;
     if (limited && !responds && !meter_.needed(*system_, state)) {
-        return stepper_.step(state, report.h, report.substeps);
+        return stepper().step(state, report.h, report.substeps);
     }
     Report step;
     for (Index i = 0; i < report.substeps; ++i) {
         meter_.depart(*system_, state, responds, constraint_forces() != nullptr);
-        step = stepper_.step(state, report.h);
+        step = stepper().step(state, report.h);
         if (!step) break;
         meter_.arrive(*system_, state, constraint_forces());
         if constexpr (responds) {
@@ -301,13 +275,14 @@ void Guarded<Stepper, System>::name_culprits(GuardedReport<Scalar>& report, cons
         last = start_.state();
         for (Index i = 0; i < report.substeps; ++i) {
             State next = last;
-            if (!stepper_.step(next, report.h)) break;
+            if (!stepper().step(next, report.h)) break;
             respond(next);
             if (!next.finite()) break;
             last = next;
         }
     }
-    if (report.particle < 0) report.particle = detail::fastest_particle(*system_, last);
+    if (report.where < 0) report.where = detail::fastest_particle(*system_, last);
+    report.particle = report.where;
     report.spring = detail::most_loaded_spring(*system_, last);
 }
 
@@ -315,12 +290,10 @@ void Guarded<Stepper, System>::name_culprits(GuardedReport<Scalar>& report, cons
 template <class Stepper, class System>
 Status Guarded<Stepper, System>::prepare(const State& state, Scalar frame, Scalar largest,
                                          GuardedReport<Scalar>& report) {
-    if (!(frame > 0) || !std::isfinite(frame) || !(largest > 0)) return Status::invalid_step;
-    const bool fits = state.x.cols() == system_->size() && state.v.cols() == system_->size();
-    if (!fits || !state.finite()) {
-        report.particle = fits ? state.first_not_finite() : -1;
-        return Status::invalid_state;
-    }
+    if (!(largest > 0)) return Status::invalid_step;
+    const Report refused = detail::StepLoop<State>::check(*system_, state, frame);
+    report.where = refused.where;
+    if (!refused) return refused.status;
     if (start_.is(*system_, state)) return Status::ok;
     const detail::EnergyBooks touched = books(state);
     if (account_.opened()) {
@@ -340,6 +313,7 @@ auto Guarded<Stepper, System>::advance(State& state, Scalar frame, Respond&& res
     GuardedReport<Scalar> report;
     const Scalar largest = largest_step();
     report.status = prepare(state, frame, largest, report);
+    report.particle = report.where;
     if (!report) return report;
     const double needed = std::ceil(static_cast<double>(frame) / static_cast<double>(largest));
     const bool late = needed > static_cast<double>(options_.max_substeps);
@@ -352,7 +326,7 @@ auto Guarded<Stepper, System>::advance(State& state, Scalar frame, Respond&& res
     for (;; ++report.retries, report.substeps *= 2, report.h /= 2) {
         const Report step = attempt(state, report, respond);
         report.status = step.status;
-        report.particle = step.where;
+        report.where = step.where;
         if (!step) report.alarm = Alarm::step_failed;
         if (step && admits(state, span, report)) break;
         if (step) report.status = Status::diverged;

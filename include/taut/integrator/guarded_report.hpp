@@ -29,7 +29,8 @@ struct [[nodiscard]] GuardedReport {
     double energy_rise = 0;  ///< J, by which the last attempt that finished exceeds the account
     double work = 0;         ///< J, by external forces, moving pins, constraints and claims in it
     double response = 0;     ///< J, unclaimed, by `respond`; counted once a frame was taken back
-    Index particle = -1;     ///< on failure: the first one not finite, or the fastest
+    Index where = -1;        ///< on failure: the first particle not finite, or the fastest
+    Index particle = -1;     ///< the same as `where`: its older name
     Index spring = -1;       ///< on failure: the one with the most energy
 
     /// Whether status is ok.

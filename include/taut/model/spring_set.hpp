@@ -10,6 +10,7 @@
 
 #include "../core/types.hpp"
 #include "damping.hpp"
+#include "detail/law_check.hpp"
 #include "detail/slope_range.hpp"
 
 namespace taut {
@@ -19,7 +20,7 @@ template <class Scalar, class Law>
 struct Spring {
     Index a;
     Index b;
-    typename Law::template Parameters<Scalar> parameters;
+    detail::usable_parameters<Law, Scalar> parameters;
     Scalar rest_length;  ///< L, m, ≥ 0
     Scalar damping = 0;  ///< axial, N·s/m, ≥ 0
 };
@@ -61,7 +62,8 @@ auto spring_block(const Vector& d, Scalar axial, Scalar transverse) {
     return P;
 }
 
-/// The springs of one law: structure of arrays, without damping until a damped one is added.
+/// The springs of one law, which has what require_law asks for: structure of arrays, without
+/// damping until a damped one is added.
 template <class Scalar, class Law_>
 struct SpringSet {
     using Law = Law_;
@@ -236,4 +238,11 @@ private:
     }
 };
 
+namespace detail {
+
+/// Where a system keeps the springs of a law.
+template <class Scalar, class Law>
+using SetOf = SpringSet<Scalar, usable_law<Law, Scalar>>;
+
+}  // namespace detail
 }  // namespace taut

@@ -43,6 +43,7 @@ class SpringSystem {
     static_assert(Dim_ >= 1 && Dim_ <= 3, "taut::SpringSystem<Scalar, Dim>: Dim must be 1, 2 or 3");
     static_assert(detail::all_different<Laws...>,
                   "taut::SpringSystem<Scalar, Dim, Laws...>: each law is named once");
+    static_assert((require_law<Laws, Scalar_>(), ..., true));
 
 public:
     using Scalar = Scalar_;
@@ -54,8 +55,8 @@ public:
     using ExternalForce = std::function<void(const State&, Force&)>;
     using SpringSets =
         std::conditional_t<sizeof...(Laws) == 0, std::tuple<SpringSet<Scalar, Hookean>>,
-                           std::tuple<SpringSet<Scalar, Laws>...>>;
-    using FirstLaw = typename std::tuple_element_t<0, SpringSets>::Law;
+                           std::tuple<detail::SetOf<Scalar, Laws>...>>;
+    using FirstLaw = std::tuple_element_t<0, std::tuple<Laws..., Hookean>>;
 
     // ---- building; every call is checked, wrong values go to fail() ----
 
@@ -65,7 +66,7 @@ public:
     Index add_spring(Index a, Index b, Scalar stiffness, Scalar damping = 0);
     /// A spring of any law of the system, at rest where its ends are now.
     template <class Law>
-    Index add_spring(Index a, Index b, const typename Law::template Parameters<Scalar>& parameters,
+    Index add_spring(Index a, Index b, const detail::usable_parameters<Law, Scalar>& parameters,
                      Scalar damping = 0);
     /// A spring with its rest length given. A debug build fails if the law exceeds its own
     /// stiffness_bound at one of some lengths. @returns its index within its law
@@ -86,7 +87,7 @@ public:
     Index remove_springs(Predicate&& goes);
     /// Of spring s of the law; rest length and damping stay. Cost: O(1).
     template <class Law = FirstLaw>
-    void set_parameters(Index s, const typename Law::template Parameters<Scalar>& parameters);
+    void set_parameters(Index s, const detail::usable_parameters<Law, Scalar>& parameters);
     /// Of a Hookean spring. @param stiffness N/m
     void set_stiffness(Index s, Scalar stiffness) { set_parameters<Hookean>(s, {stiffness}); }
 
@@ -138,8 +139,8 @@ public:
     const Vector& gravity() const { return gravity_; }
     /// The springs of one law.
     template <class Law = FirstLaw>
-    const SpringSet<Scalar, Law>& springs() const {
-        return std::get<SpringSet<Scalar, Law>>(sets_);
+    const detail::SetOf<Scalar, Law>& springs() const {
+        return std::get<detail::SetOf<Scalar, Law>>(sets_);
     }
     /// Changes whenever springs, masses, pins or damping do: whatever a step limit depends on.
     std::uint64_t revision() const { return revision_; }
@@ -200,7 +201,7 @@ private:
     void require_mass(const char* function, Index i, Scalar mass) const;
     void set_pinned(Index i, bool pinned);
     template <class Law>
-    SpringSet<Scalar, Law>& set_with(const char* function, Index s);
+    detail::SetOf<Scalar, Law>& set_with(const char* function, Index s);
     template <bool Dampers, bool Proportional, class Set>
     void add_spring_forces(const Set& set, const State& state, const StiffnessDamping<Scalar>& by,
                            Scalar ahead, Force& f) const;

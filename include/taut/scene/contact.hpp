@@ -4,9 +4,24 @@
 
 #include <algorithm>
 
+#include "../core/concepts.hpp"
 #include "obstacle.hpp"
 
 namespace taut {
+namespace detail {
+
+/// Where a point stands to an obstacle; of one that require_obstacle refuses far outside, so that
+/// the compiler has nothing to add to the sentence.
+template <class Obstacle, class Vector>
+auto surface_at(const Obstacle& obstacle, const Vector& point) {
+    if constexpr (ObstacleHas<Obstacle, Vector>::all) {
+        return obstacle.surface(point);
+    } else {
+        return Surface<typename Vector::Scalar, Vector::RowsAtCompileTime>{};
+    }
+}
+
+}  // namespace detail
 
 /// How resolve_contacts answers a contact.
 struct ContactOptions {
@@ -44,6 +59,7 @@ ContactReport<typename System::Scalar, System::Dim> resolve_contacts(
     const ContactOptions& options = {}) {
     using Scalar = typename System::Scalar;
     using Vector = Eigen::Matrix<Scalar, System::Dim, 1>;
+    require_obstacle<Obstacle, Vector>();
     require_non_negative("resolve_contacts", "friction", options.friction);
     require_non_negative("resolve_contacts", "thickness", options.thickness);
     if (state.x.cols() != system.size() || state.v.cols() != system.size()) {
@@ -55,7 +71,7 @@ ContactReport<typename System::Scalar, System::Dim> resolve_contacts(
     ContactReport<Scalar, System::Dim> report;
     for (Index i = 0; i < system.size(); ++i) {
         if (system.is_pinned(i)) continue;
-        const auto surface = obstacle.surface(state.x.col(i));
+        const auto surface = detail::surface_at<Obstacle, Vector>(obstacle, state.x.col(i));
         const Scalar depth = thickness - surface.distance;
         if (!(depth >= 0)) continue;
         ++report.contacts;

@@ -18,7 +18,7 @@ struct Surface {
 };
 
 // An obstacle is any class with `Surface<Scalar, Dim> surface(point) const`, so an engine's own
-// collision query fits resolve_contacts as well as these two.
+// collision query fits resolve_contacts as well as these two; require_obstacle names what it lacks.
 
 /// All points on the far side of a plane: distance = normal·(x − point).
 template <class Scalar, int Dim>

@@ -11,13 +11,6 @@
 namespace taut::detail {
 
 template <class Stepper>
-struct stepped_system;
-template <template <class...> class Stepper, class System, class... Policies>
-struct stepped_system<Stepper<System, Policies...>> {
-    using type = System;
-};
-
-template <class Stepper>
 using method_of = decltype(Stepper::method);
 template <class Stepper>
 using damping_of = decltype(std::declval<const Stepper&>().damping());

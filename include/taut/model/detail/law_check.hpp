@@ -5,10 +5,54 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <type_traits>
 
+#include "../../core/concepts.hpp"
 #include "../../core/error.hpp"
 
 namespace taut::detail {
+
+/// Takes the place of a law that require_law refuses, and answers whatever is asked, so that the
+/// compiler has nothing to add to the sentence.
+template <class Refused>
+struct AnyLaw {
+    static constexpr bool convex = false;
+
+    template <class Scalar>
+    struct Parameters {
+        template <class... Values>
+        Parameters(Values&&...) {}
+        void require_valid(const char*) const {}
+        template <class Other>
+        Parameters<Other> cast() const {
+            return {};
+        }
+    };
+    template <class P, class Scalar>
+    static Scalar tension(const P&, Scalar, Scalar) {
+        return {};
+    }
+    template <class P, class Scalar>
+    static Scalar tension_slope(const P&, Scalar, Scalar) {
+        return {};
+    }
+    template <class P, class Scalar>
+    static Scalar energy(const P&, Scalar, Scalar) {
+        return {};
+    }
+    template <class P, class Scalar>
+    static Scalar stiffness_bound(const P&, Scalar) {
+        return {};
+    }
+};
+
+/// The law itself, if require_law finds nothing missing.
+template <class Law, class Scalar>
+using usable_law = std::conditional_t<LawHas<Law, Scalar>::all, Law, AnyLaw<Law>>;
+
+/// What a spring of the law holds, in the public functions that take it.
+template <class Law, class Scalar>
+using usable_parameters = typename usable_law<Law, Scalar>::template Parameters<Scalar>;
 
 /// The law's name as its code spells it.
 template <class Law>
@@ -27,7 +71,7 @@ std::string law_name() {
 /// Fails by law and length if T/l or T′ exceeds the law's bound at one of 49 lengths from 1/4096 of
 /// the rest length to 4096 times it: every limit would be false. For debug builds.
 template <class Law, class Scalar>
-void check_law(const typename Law::template Parameters<Scalar>& p, Scalar L) {
+void check_law(const usable_parameters<Law, Scalar>& p, Scalar L) {
     const Scalar bound = Law::stiffness_bound(p, L);
     const Scalar most = bound * (1 + 65536 * std::numeric_limits<Scalar>::epsilon());
     const auto exceeds = [&](Scalar value) { return std::isfinite(value) && value > most; };

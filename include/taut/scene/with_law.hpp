@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "../model/spring_system.hpp"
+
+namespace taut {
+
+/// Makes a system of the type Copy with the particles, pins, gravity and damping of another, and
+/// the springs that `add` gives it. The external force stays behind.
+/// @param add  add(copy, spring, s) for each spring s of the given system, in index order, a
+///             `Spring` of its own law
+template <class Copy, class System, class Add>
+Copy with_springs(const System& system, Add&& add) {
+    using Scalar = typename System::Scalar;
+    Copy copy;
+    const auto start = system.initial_state();
+    for (Index i = 0; i < system.size(); ++i) {
+        copy.add_particle(start.x.col(i), system.mass(i));
+        if (system.is_pinned(i)) copy.pin(i);
+    }
+    Index index = 0;
+    system.for_each_set([&](const auto& set) {
+        using Law = typename std::decay_t<decltype(set)>::Law;
+        for (std::size_t s = 0; s < set.a.size(); ++s, ++index) {
+            add(copy,
+                Spring<Scalar, Law>{set.a[s], set.b[s], set.parameters[s], set.rest_length[s],
+                                    set.damping_of(s)},
+                index);
+        }
+    });
+    copy.set_gravity(system.gravity());
+    copy.set_rayleigh(system.rayleigh());
+    copy.set_graph_damping(system.graph_damping());
+    return copy;
+}
+
+/// Makes a system like another, by with_springs, whose springs all follow `Law` with the parameters
+/// that they have: with_law<TensionOnly>(cloth) does not push.
+template <class Law, class System>
+auto with_law(const System& system) {
+    using Scalar = typename System::Scalar;
+    using Copy = SpringSystem<Scalar, System::Dim, Law>;
+    return with_springs<Copy>(system, [](Copy& copy, const auto& spring, Index) {
+        copy.add_spring(Spring<Scalar, Law>{spring.a, spring.b, spring.parameters,
+                                            spring.rest_length, spring.damping});
+    });
+}
+
+}  // namespace taut

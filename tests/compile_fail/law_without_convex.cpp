@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+// EXPECT: taut::Law: needs `static constexpr bool convex`
+// ERRORS: 1
+
+#include <taut/integrator/symplectic_euler.hpp>
+#include <taut/model/spring_system.hpp>
+
+class NoConvex : public taut::Hookean {
+    using Hookean::convex;  // private: as good as absent
+};
+
+void use(taut::SpringSystem<double, 3, NoConvex>& system) {
+    system.add_spring<NoConvex>(0, 1, {10});
+    auto state = system.initial_state();
+    system.energy(state);
+    system.linearize(state);
+    taut::SymplecticEuler stepper(system);
+    if (!stepper.step(state, 0.01)) return;
+}

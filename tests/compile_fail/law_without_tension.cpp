@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+// EXPECT: taut::Law: needs `static Scalar tension(
+// ERRORS: 1
+
+#include <taut/integrator/symplectic_euler.hpp>
+#include <taut/model/spring_system.hpp>
+
+class NoTension : public taut::Hookean {
+    using Hookean::tension;  // private: as good as absent
+};
+
+void use(taut::SpringSystem<double, 3, NoTension>& system) {
+    system.add_spring<NoTension>(0, 1, {10});
+    auto state = system.initial_state();
+    system.energy(state);
+    system.linearize(state);
+    taut::SymplecticEuler stepper(system);
+    if (!stepper.step(state, 0.01)) return;
+}

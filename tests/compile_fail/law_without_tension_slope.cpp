@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+// EXPECT: taut::Law: needs `static Scalar tension_slope(
+// ERRORS: 1
+
+#include <taut/integrator/symplectic_euler.hpp>
+#include <taut/model/spring_system.hpp>
+
+class NoSlope : public taut::Hookean {
+    using Hookean::tension_slope;  // private: as good as absent
+};
+
+void use(taut::SpringSystem<double, 3, NoSlope>& system) {
+    system.add_spring<NoSlope>(0, 1, {10});
+    auto state = system.initial_state();
+    system.energy(state);
+    system.linearize(state);
+    taut::SymplecticEuler stepper(system);
+    if (!stepper.step(state, 0.01)) return;
+}

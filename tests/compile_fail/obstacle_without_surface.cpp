@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+// EXPECT: taut::Obstacle: needs `Surface<Scalar, Dim> surface(const Vector& point) const`
+// ERRORS: 1
+
+#include <taut/model/spring_system.hpp>
+#include <taut/scene/contact.hpp>
+
+struct Ground {
+    taut::Surface<double, 3> surface(const Eigen::Vector3d& x) {  // not const
+        return {x.z(), Eigen::Vector3d::UnitZ()};
+    }
+};
+
+void step(const taut::SpringSystem<double, 3>& system, taut::State<double, 3>& state) {
+    taut::resolve_contacts(system, Ground{}, state);
+}

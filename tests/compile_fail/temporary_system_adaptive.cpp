@@ -1,0 +1,12 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+// EXPECT: deleted
+
+#include <taut/integrator/adaptive.hpp>
+#include <taut/integrator/symplectic_euler.hpp>
+#include <taut/scene/cloth.hpp>
+
+using Cloth = taut::SpringSystem<double, 3>;
+void step() {
+    taut::Adaptive<taut::SymplecticEuler<Cloth>> adaptive(taut::hanging_cloth<double>({4, 4}));
+}
