@@ -130,9 +130,10 @@ public:
     const RayleighDamping& rayleigh() const { return rayleigh_; }
     /// α of set_graph_damping, s; 0 unless set.
     double graph_damping() const { return graph_damping_; }
-    /// All damping in proportion to stiffness.
-    StiffnessDamping<double> stiffness_damping() const {
-        return {rayleigh_.stiffness_proportional, graph_damping_};
+    /// All damping in proportion to stiffness, at the springs' ends as they are.
+    /// @param added  a stepper's own, StepDamping::times(h): its look_ahead moves the ends instead
+    StiffnessDamping<double> stiffness_damping(const StepDamping& added = {}) const {
+        return {rayleigh_.stiffness_proportional, graph_damping_ + added.graph};
     }
     /// m/s², 0 unless set.
     const Vector& gravity() const { return gravity_; }
@@ -181,6 +182,11 @@ public:
     /// visit(a, b) for every spring, in index order.
     template <class Visitor>
     void for_each_spring(Visitor&& visit) const;
+    /// visit(spring) for every Spring of whatever law, in index order.
+    template <class Visitor>
+    void visit_springs(Visitor&& visit) const {
+        for_each_set([&](const auto& set) { set.for_each(visit); });
+    }
     /// visit(SpringTangent<Real, Dim>) for every spring at x, in the precision of x.
     template <class Real, class Visitor>
     void for_each_tangent(const Points<Real, Dim>& x, Visitor&& visit) const;
@@ -201,7 +207,7 @@ private:
     void set_pinned(Index i, bool pinned);
     template <class Law>
     SpringSet<Scalar, Law>& set_with(const char* function, Index s);
-    template <bool Dampers, bool Proportional, class Set>
+    template <bool Dampers, Proportional Kind, class Set>
     void add_spring_forces(const Set& set, const State& state, const StiffnessDamping<Scalar>& by,
                            Scalar ahead, Force& f) const;
 

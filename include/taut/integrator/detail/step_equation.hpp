@@ -111,10 +111,10 @@ public:
         system.for_each_tangent(state.x, [&](const SpringTangent<Scalar, Dim>& raw) {
             const auto t = raw.projected();
             const Eigen::Matrix<Scalar, Dim, 1> du = u.col(t.b) - u.col(t.a);
-            const Eigen::Matrix<Scalar, Dim, 1> pull =
-                s * (t.transverse * du + (t.axial - t.transverse) * t.d.dot(du) * t.d);
-            f_.col(t.a) += pull;
-            f_.col(t.b) -= pull;
+            const Eigen::Matrix<Scalar, Dim, 1> force =
+                s * spring_product(t.d, t.axial, t.transverse, du);
+            f_.col(t.a) += force;
+            f_.col(t.b) -= force;
         });
         f_ *= tau;
         gather(f_, b);

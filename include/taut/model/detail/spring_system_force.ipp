@@ -22,21 +22,21 @@ void SpringSystem<Scalar, Dim, Laws...>::for_each_tangent(const Points<Real, Dim
 }
 
 template <class Scalar, int Dim, class... Laws>
-template <bool Dampers, bool Proportional, class Set>
+template <bool Dampers, Proportional Kind, class Set>
 void SpringSystem<Scalar, Dim, Laws...>::add_spring_forces(const Set& set, const State& state,
                                                            const StiffnessDamping<Scalar>& by,
                                                            Scalar ahead, Force& f) const {
-    for (std::size_t s = 0; s < set.a.size(); ++s) {
-        const int a = set.a[s];
-        const int b = set.b[s];
-        Vector dx = state.x.col(b) - state.x.col(a);
+    set.for_each([&](const auto& spring) {
+        Vector dx = state.x.col(spring.b) - state.x.col(spring.a);
         Vector dv = Vector::Zero();
-        if (Dampers || Proportional || ahead != 0) dv = state.v.col(b) - state.v.col(a);
+        if (Dampers || Kind != Proportional::none || ahead != 0) {
+            dv = state.v.col(spring.b) - state.v.col(spring.a);
+        }
         if (ahead != 0) dx += ahead * dv;
-        const Vector pull = set.template pull<Dampers, Proportional>(s, dx, dv, by);
-        f.col(a) += pull;
-        f.col(b) -= pull;
-    }
+        const Vector force = pull<Dampers, Kind>(spring, dx, dv, by);
+        f.col(spring.a) += force;
+        f.col(spring.b) -= force;
+    });
 }
 
 template <class Scalar, int Dim, class... Laws>
@@ -50,16 +50,17 @@ void SpringSystem<Scalar, Dim, Laws...>::force(const State& state, Force& f,
         const Scalar d0 = static_cast<Scalar>(rayleigh_.mass_proportional);
         f.array() -= state.v.array().rowwise() * (d0 * mass.transpose().array());
     }
-    const auto by =
-        (stiffness_damping() + StiffnessDamping<double>{0, added.graph}).template cast<Scalar>();
+    const auto by = stiffness_damping(added).template cast<Scalar>();
     const auto ahead = static_cast<Scalar>(added.look_ahead);
     const bool proportional(by);
     for_each_set([&](const auto& set) {
         const bool dampers = !set.damping.empty();
-        if (dampers && proportional) add_spring_forces<true, true>(set, state, by, ahead, f);
-        if (dampers && !proportional) add_spring_forces<true, false>(set, state, by, ahead, f);
-        if (!dampers && proportional) add_spring_forces<false, true>(set, state, by, ahead, f);
-        if (!dampers && !proportional) add_spring_forces<false, false>(set, state, by, ahead, f);
+        constexpr auto none = Proportional::none;
+        constexpr auto both = Proportional::projected;
+        if (dampers && proportional) add_spring_forces<true, both>(set, state, by, ahead, f);
+        if (dampers && !proportional) add_spring_forces<true, none>(set, state, by, ahead, f);
+        if (!dampers && proportional) add_spring_forces<false, both>(set, state, by, ahead, f);
+        if (!dampers && !proportional) add_spring_forces<false, none>(set, state, by, ahead, f);
     });
     if (external_force_) external_force_(state, f);
 }
@@ -79,12 +80,9 @@ Scalar SpringSystem<Scalar, Dim, Laws...>::potential_energy(const State& state) 
     require_state("potential_energy", state);
     Scalar energy = 0;
     for (Index i = 0; i < size(); ++i) energy -= mass_[i] * gravity_.dot(state.x.col(i));
-    for_each_set([&](const auto& set) {
-        using Law = typename std::decay_t<decltype(set)>::Law;
-        for (std::size_t s = 0; s < set.a.size(); ++s) {
-            const Vector dx = state.x.col(set.b[s]) - state.x.col(set.a[s]);
-            energy += Law::energy(set.parameters[s], set.rest_length[s], dx.norm());
-        }
+    visit_springs([&](const auto& spring) {
+        const Vector dx = state.x.col(spring.b) - state.x.col(spring.a);
+        energy += spring.energy(dx.norm());
     });
     return energy;
 }
