@@ -316,7 +316,7 @@ template <class Stepper, class System>
 Status Guarded<Stepper, System>::prepare(const State& state, Scalar frame, Scalar largest,
                                          GuardedReport<Scalar>& report) {
     if (!(frame > 0) || !std::isfinite(frame) || !(largest > 0)) return Status::invalid_step;
-    const bool fits = state.x.cols() == system_->size() && state.v.cols() == system_->size();
+    const bool fits = detail::fits(state, system_->size());
     if (!fits || !state.finite()) {
         report.particle = fits ? state.first_not_finite() : -1;
         return Status::invalid_state;

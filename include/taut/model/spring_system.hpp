@@ -181,7 +181,9 @@ public:
 
     /// visit(a, b) for every spring, in index order.
     template <class Visitor>
-    void for_each_spring(Visitor&& visit) const;
+    void for_each_spring(Visitor&& visit) const {
+        visit_springs([&](const auto& spring) { visit(spring.a, spring.b); });
+    }
     /// visit(spring) for every Spring of whatever law, in index order.
     template <class Visitor>
     void visit_springs(Visitor&& visit) const {
@@ -202,7 +204,6 @@ private:
                                     (std::is_same_v<Law, Laws> || ...);
 
     void require_particle(const char* function, const char* argument, Index i) const;
-    void require_state(const char* function, const State& state) const;
     void require_mass(const char* function, Index i, Scalar mass) const;
     void set_pinned(Index i, bool pinned);
     template <class Law>

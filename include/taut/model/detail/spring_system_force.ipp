@@ -5,14 +5,6 @@
 namespace taut {
 
 template <class Scalar, int Dim, class... Laws>
-template <class Visitor>
-void SpringSystem<Scalar, Dim, Laws...>::for_each_spring(Visitor&& visit) const {
-    for_each_set([&](const auto& set) {
-        for (std::size_t s = 0; s < set.a.size(); ++s) visit(Index(set.a[s]), Index(set.b[s]));
-    });
-}
-
-template <class Scalar, int Dim, class... Laws>
 template <class Real, class Visitor>
 void SpringSystem<Scalar, Dim, Laws...>::for_each_tangent(const Points<Real, Dim>& x,
                                                           Visitor&& visit) const {
@@ -42,7 +34,7 @@ void SpringSystem<Scalar, Dim, Laws...>::add_spring_forces(const Set& set, const
 template <class Scalar, int Dim, class... Laws>
 void SpringSystem<Scalar, Dim, Laws...>::force(const State& state, Force& f,
                                                const StepDamping& added) const {
-    require_state("force", state);
+    detail::require_fits("SpringSystem::force", state, size());
     const Eigen::Map<const VectorX<Scalar>> mass(mass_.data(), size());
     f.resize(Dim, size());
     f.noalias() = gravity_ * mass.transpose();
@@ -67,7 +59,7 @@ void SpringSystem<Scalar, Dim, Laws...>::force(const State& state, Force& f,
 
 template <class Scalar, int Dim, class... Laws>
 Scalar SpringSystem<Scalar, Dim, Laws...>::kinetic_energy(const State& state) const {
-    require_state("kinetic_energy", state);
+    detail::require_fits("SpringSystem::kinetic_energy", state, size());
     Scalar energy = 0;
     for (Index i = 0; i < size(); ++i) {
         if (!is_pinned(i)) energy += Scalar(0.5) * mass_[i] * state.v.col(i).squaredNorm();
@@ -77,7 +69,7 @@ Scalar SpringSystem<Scalar, Dim, Laws...>::kinetic_energy(const State& state) co
 
 template <class Scalar, int Dim, class... Laws>
 Scalar SpringSystem<Scalar, Dim, Laws...>::potential_energy(const State& state) const {
-    require_state("potential_energy", state);
+    detail::require_fits("SpringSystem::potential_energy", state, size());
     Scalar energy = 0;
     for (Index i = 0; i < size(); ++i) energy -= mass_[i] * gravity_.dot(state.x.col(i));
     visit_springs([&](const auto& spring) {
@@ -89,7 +81,7 @@ Scalar SpringSystem<Scalar, Dim, Laws...>::potential_energy(const State& state) 
 
 template <class Scalar, int Dim, class... Laws>
 LinearSystem<Scalar> SpringSystem<Scalar, Dim, Laws...>::linearize(const State& state) const {
-    require_state("linearize", state);
+    detail::require_fits("SpringSystem::linearize", state, size());
     if (!state.finite()) {
         fail("SpringSystem::linearize: particle ", state.first_not_finite(),
              " has a position or velocity that is not finite");
@@ -107,16 +99,12 @@ LinearSystem<Scalar> SpringSystem<Scalar, Dim, Laws...>::linearize(const State& 
     still.v.setZero();
     Force f;
     force(still, f);
-    const auto free = static_cast<Index>(tangent.free().size());
-    FreeMap<Scalar> map{Dim, size(), tangent.free(), VectorX<Scalar>(Dim * free)};
-    VectorX<Scalar> mass(Dim * free);
-    VectorX<Scalar> load(Dim * free);
-    for (Index j = 0; j < free; ++j) {
-        const Index i = tangent.free()[j];
-        mass.template segment<Dim>(Dim * j).setConstant(mass_[i]);
-        load.template segment<Dim>(Dim * j) = f.col(i);
-        map.pose.template segment<Dim>(Dim * j) = state.x.col(i);
-    }
+    FreeMap<Scalar> map{Dim, tangent.free(), {}};
+    map.free.gather(state.x, map.pose);
+    VectorX<Scalar> mass, load;
+    map.free.gather(f, load);
+    for (Index i = 0; i < size(); ++i) f.col(i).setConstant(mass_[i]);
+    map.free.gather(f, mass);
     LinearSystem<Scalar> linear(std::move(mass), std::move(D), std::move(K), std::move(load));
     linear.set_free_map(std::move(map));
     return linear;
