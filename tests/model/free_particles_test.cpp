@@ -79,7 +79,7 @@ TEST_CASE("free_particles: all are free where none is pinned", "[model]") {
     CHECK(FreeParticles().count() == 0);
     CHECK(FreeParticles::all(0).count() == 0);
     const auto free = FreeParticles::all(3);
-    CHECK(free.list() == std::vector<Index>{0, 1, 2});
+    CHECK(std::vector<Index>(free.begin(), free.end()) == std::vector<Index>{0, 1, 2});
     CHECK(free.particles() == 3);
     CHECK(free.place(2) == 2);
 }

@@ -10,7 +10,6 @@
 namespace taut_test::spring_mechanics_test {
 
 using taut::Hookean;
-using taut::Proportional;
 using taut::Spring;
 using taut::StiffnessDamping;
 
@@ -96,20 +95,18 @@ TEMPLATE_TEST_CASE("spring_mechanics: damping is D of the tangent's blocks", "[m
             const auto own = pull(drawn.spring, dx);
             const double rounding = Tolerance<Scalar>::rounding *
                                     (largest(own) + static_cast<double>(t.bound + t.damping) * 4);
-            const auto of = [&](auto dampers, auto kind) {
-                const auto force = taut::pull<decltype(dampers)::value, decltype(kind)::value>(
-                    drawn.spring, dx, dv, by);
-                return Vector(force - own);
+            auto undamped = drawn.spring;
+            undamped.damping = 0;
+            const auto of = [&](const Spring<Scalar, Law>& spring,
+                                const StiffnessDamping<Scalar>& factors) {
+                return Vector(pull(spring, dx, dv, factors) - own);
             };
-            using None = std::integral_constant<Proportional, Proportional::none>;
-            using Graph = std::integral_constant<Proportional, Proportional::graph>;
-            using Both = std::integral_constant<Proportional, Proportional::projected>;
             const Vector all = by.graph * graph + by.projected * projected;
-            CHECK(largest(of(std::false_type{}, None{})) == 0);
-            CHECK(distance(of(std::true_type{}, None{}), damper) <= rounding);
-            CHECK(distance(of(std::false_type{}, Graph{}), by.graph * graph) <= rounding);
-            CHECK(distance(of(std::false_type{}, Both{}), all) <= rounding);
-            CHECK(distance(of(std::true_type{}, Both{}), all + damper) <= rounding);
+            CHECK(largest(of(undamped, {})) == 0);
+            CHECK(distance(of(drawn.spring, {}), damper) <= rounding);
+            CHECK(distance(of(undamped, {0, by.graph}), by.graph * graph) <= rounding);
+            CHECK(distance(of(undamped, by), all) <= rounding);
+            CHECK(distance(of(drawn.spring, by), all + damper) <= rounding);
 
             const auto power = braking_of(drawn.spring, dx, dv, taut::spring_length(dx),
                                           static_cast<Scalar>(t.transverse));
@@ -149,8 +146,7 @@ TEMPLATE_TEST_CASE("spring_mechanics: ends that coincide pull by no force but th
         const Vector nothing = Vector::Zero();
         const Vector dv = random.vector<TestType, 3>(-1, 1);
         CHECK(pull(drawn.spring, nothing) == nothing);
-        const auto force =
-            taut::pull<true, Proportional::projected>(drawn.spring, nothing, dv, {2, 3});
+        const auto force = pull(drawn.spring, nothing, dv, {2, 3});
         CHECK(distance(force, 5 * drawn.spring.stiffness_bound() * dv) <=
               Tolerance<TestType>::rounding * largest(force));
     });

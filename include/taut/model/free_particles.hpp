@@ -33,11 +33,9 @@ public:
     Index operator[](Index j) const { return list_[j]; }
     /// The j of a particle, or −1 if it is pinned.
     Index place(Index particle) const { return place_[particle]; }
-    /// The free particles, ascending.
-    const std::vector<Index>& list() const { return list_; }
-    /// Of list(), for loops over the free particles.
+    /// The first free particle, for loops over them.
     auto begin() const { return list_.begin(); }
-    /// Of list().
+    /// The end of the free particles.
     auto end() const { return list_.end(); }
 
     /// values ← the columns of the free particles of `points`, Dim × particles().

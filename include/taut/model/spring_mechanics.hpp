@@ -142,39 +142,42 @@ EIGEN_ALWAYS_INLINE Pull<Real> pull_coefficients(const AnySpring& spring,
     const Real zero(Scalar(0));
     const SpringLength<Real> length(l2);
     const Real over_l = length.divide(spring.tension(length.l));
-    Pull<Real> pull{over_l, zero};
+    Real of_dx = over_l;
+    Real of_dv = zero;
     Real bound = zero;
     if constexpr (Kind != Proportional::none) {
         bound = spring.stiffness_bound();
-        pull.of_dv = Real(by.graph) * bound;
+        of_dv = Real(by.graph) * bound;
     }
     [[maybe_unused]] const Real strain_rate = length.divide(length.divide(dx_dv));  // 1/s
-    if constexpr (Dampers) pull.of_dx += spring.axial_damping() * strain_rate;
+    if constexpr (Dampers) of_dx += spring.axial_damping() * strain_rate;
     if constexpr (Kind == Proportional::projected) {
         const Real axial = k_plus(spring.tension_slope(length.l));
         const Real transverse = where_less(zero, l2, k_plus(over_l), bound);
-        pull.of_dv += Real(by.projected) * transverse;
-        pull.of_dx += Real(by.projected) * (axial - transverse) * strain_rate;
+        of_dv += Real(by.projected) * transverse;
+        of_dx += Real(by.projected) * (axial - transverse) * strain_rate;
     }
-    return pull;
+    return {of_dx, of_dv};
 }
 
-/// The force of a spring on its end a, N; the opposite acts on b. See pull_coefficients.
-/// @param dx  x_b − x_a, m   @param dv  v_b − v_a, m/s; read where there is damping
-template <bool Dampers, Proportional Kind, class Scalar, class Law, class Vector>
-Vector pull(const Spring<Scalar, Law>& spring, const Vector& dx, const Vector& dv,
-            const StiffnessDamping<Scalar>& by) {
-    const Scalar l2 = dx.squaredNorm();
-    const auto by_coefficient = pull_coefficients<Dampers, Kind>(spring, by, l2, dx.dot(dv));
-    Vector force = Vector::Zero();
-    if (l2 > 0) force = by_coefficient.of_dx * dx;
-    if constexpr (Kind != Proportional::none) force += by_coefficient.of_dv * dv;
-    return force;
-}
-/// The force of a spring without any damping on its end a, N.
+/// The force of a spring and its damper on its end a, N; the opposite acts on b.
+/// @param dx  x_b − x_a, m   @param dv  v_b − v_a, m/s
+/// @param by  damping in proportion to stiffness, s
 template <class Scalar, class Law, class Vector>
-Vector pull(const Spring<Scalar, Law>& spring, const Vector& dx) {
-    return pull<false, Proportional::none>(spring, dx, dx, {});
+Vector pull(const Spring<Scalar, Law>& spring, const Vector& dx, const Vector& dv = Vector::Zero(),
+            const StiffnessDamping<Scalar>& by = {}) {
+    constexpr auto none = Proportional::none;
+    const Scalar l2 = dx.squaredNorm();
+    const Scalar dx_dv = dx.dot(dv);
+    const bool proportional(by);
+    const Pull<Scalar> c =
+        proportional ? pull_coefficients<true, Proportional::projected>(spring, by, l2, dx_dv)
+        : spring.damping > 0 ? pull_coefficients<true, none>(spring, by, l2, dx_dv)
+                             : pull_coefficients<false, none>(spring, by, l2, dx_dv);
+    Vector force = Vector::Zero();
+    if (l2 > 0) force = c.of_dx * dx;
+    if (proportional) force += c.of_dv * dv;
+    return force;
 }
 
 /// The power that damping takes from one spring, vᵀDv, W, by the factors of its sum.

@@ -191,7 +191,11 @@ public:
     }
     /// visit(SpringTangent<Real, Dim>) for every spring at x, in the precision of x.
     template <class Real, class Visitor>
-    void for_each_tangent(const Points<Real, Dim>& x, Visitor&& visit) const;
+    void for_each_tangent(const Points<Real, Dim>& x, Visitor&& visit) const {
+        for_each_set([&](const auto& set) {
+            for (std::size_t s = 0; s < set.a.size(); ++s) visit(set.tangent(s, x));
+        });
+    }
     /// visit(set) for the SpringSet of every law.
     template <class Visitor>
     void for_each_set(Visitor&& visit) const {
@@ -208,9 +212,6 @@ private:
     void set_pinned(Index i, bool pinned);
     template <class Law>
     SpringSet<Scalar, Law>& set_with(const char* function, Index s);
-    template <bool Dampers, Proportional Kind, class Set>
-    void add_spring_forces(const Set& set, const State& state, const StiffnessDamping<Scalar>& by,
-                           Scalar ahead, Force& f) const;
 
     std::vector<Vector> position_;      // where add_particle put each particle, m
     std::vector<Scalar> mass_;          // kg, of pinned particles too

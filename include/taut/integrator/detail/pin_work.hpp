@@ -38,7 +38,7 @@ public:
         const auto ahead = static_cast<Scalar>(added.look_ahead);
         return power(system, state, [&](const auto& spring, const Vector& dx, const Vector& dv) {
             const Vector then = dx + ahead * dv;
-            return pull<true, Proportional::projected>(spring, then, dv, by);
+            return pull(spring, then, dv, by);
         });
     }
 

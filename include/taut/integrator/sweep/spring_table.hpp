@@ -131,27 +131,23 @@ public:
         }
         // The springs here, as Spring has it for one.
         EIGEN_ALWAYS_INLINE Register tension(const Register& l) const {
-            return evaluate([](const auto& p, auto L, auto at) { return Law::tension(p, L, at); },
-                            l);
+            return evaluate([](const auto&... of) { return Law::tension(of...); }, l);
         }
         EIGEN_ALWAYS_INLINE Register tension_slope(const Register& l) const {
-            return evaluate(
-                [](const auto& p, auto L, auto at) { return Law::tension_slope(p, L, at); }, l);
+            return evaluate([](const auto&... of) { return Law::tension_slope(of...); }, l);
         }
         EIGEN_ALWAYS_INLINE Register stiffness_bound() const {
-            return evaluate([](const auto& p, auto L) { return Law::stiffness_bound(p, L); });
+            return evaluate([](const auto&... of) { return Law::stiffness_bound(of...); });
         }
         EIGEN_ALWAYS_INLINE Register axial_damping() const { return damping_.load(); }
         /// The pull of the springs here, 0 in the gaps: see pull_coefficients.
         template <bool Dampers, Proportional Kind>
         EIGEN_ALWAYS_INLINE Pull<Register> pull(const StiffnessDamping<Scalar>& by,
                                                 const Register& l2, const Register& dx_dv) const {
-            const auto all = pull_coefficients<Dampers, Kind>(*this, by, l2, dx_dv);
+            const auto pull = pull_coefficients<Dampers, Kind>(*this, by, l2, dx_dv);
             const Register L = rest_length_.load();
-            if constexpr (Kind == Proportional::none) {
-                return {unless_negative(L, all.of_dx), all.of_dv};
-            }
-            return {unless_negative(L, all.of_dx), unless_negative(L, all.of_dv)};
+            return {unless_negative(L, pull.of_dx),
+                    Kind == Proportional::none ? pull.of_dv : unless_negative(L, pull.of_dv)};
         }
 
     private:

@@ -5,33 +5,6 @@
 namespace taut {
 
 template <class Scalar, int Dim, class... Laws>
-template <class Real, class Visitor>
-void SpringSystem<Scalar, Dim, Laws...>::for_each_tangent(const Points<Real, Dim>& x,
-                                                          Visitor&& visit) const {
-    for_each_set([&](const auto& set) {
-        for (std::size_t s = 0; s < set.a.size(); ++s) visit(set.tangent(s, x));
-    });
-}
-
-template <class Scalar, int Dim, class... Laws>
-template <bool Dampers, Proportional Kind, class Set>
-void SpringSystem<Scalar, Dim, Laws...>::add_spring_forces(const Set& set, const State& state,
-                                                           const StiffnessDamping<Scalar>& by,
-                                                           Scalar ahead, Force& f) const {
-    set.for_each([&](const auto& spring) {
-        Vector dx = state.x.col(spring.b) - state.x.col(spring.a);
-        Vector dv = Vector::Zero();
-        if (Dampers || Kind != Proportional::none || ahead != 0) {
-            dv = state.v.col(spring.b) - state.v.col(spring.a);
-        }
-        if (ahead != 0) dx += ahead * dv;
-        const Vector force = pull<Dampers, Kind>(spring, dx, dv, by);
-        f.col(spring.a) += force;
-        f.col(spring.b) -= force;
-    });
-}
-
-template <class Scalar, int Dim, class... Laws>
 void SpringSystem<Scalar, Dim, Laws...>::force(const State& state, Force& f,
                                                const StepDamping& added) const {
     detail::require_fits("SpringSystem::force", state, size());
@@ -44,15 +17,17 @@ void SpringSystem<Scalar, Dim, Laws...>::force(const State& state, Force& f,
     }
     const auto by = stiffness_damping(added).template cast<Scalar>();
     const auto ahead = static_cast<Scalar>(added.look_ahead);
-    const bool proportional(by);
     for_each_set([&](const auto& set) {
-        const bool dampers = !set.damping.empty();
-        constexpr auto none = Proportional::none;
-        constexpr auto both = Proportional::projected;
-        if (dampers && proportional) add_spring_forces<true, both>(set, state, by, ahead, f);
-        if (dampers && !proportional) add_spring_forces<true, none>(set, state, by, ahead, f);
-        if (!dampers && proportional) add_spring_forces<false, both>(set, state, by, ahead, f);
-        if (!dampers && !proportional) add_spring_forces<false, none>(set, state, by, ahead, f);
+        const bool moving = by || ahead != 0 || !set.damping.empty();
+        set.for_each([&](const auto& spring) {
+            Vector dx = state.x.col(spring.b) - state.x.col(spring.a);
+            Vector dv = Vector::Zero();
+            if (moving) dv = state.v.col(spring.b) - state.v.col(spring.a);
+            if (ahead != 0) dx += ahead * dv;
+            const Vector force = pull(spring, dx, dv, by);
+            f.col(spring.a) += force;
+            f.col(spring.b) -= force;
+        });
     });
     if (external_force_) external_force_(state, f);
 }
