@@ -196,7 +196,7 @@ Report ImplicitEuler<System, Solver>::solve_linearised(const State& state, Scala
     const auto& A = equation_.matrix();
     if (equation_.update_pattern(*system_)) {
         factors_.forget_pattern();
-        projection_.update_pattern(equation_, system_->size());
+        projection_.update_pattern(equation_.free());
         dv_.setZero(A.rows());
     }
     projection_.begin(constraints_, state.v);

@@ -67,7 +67,6 @@ private:
     void expand(const Eigen::ArrayXd& amplitudes, const Points<Shape, Dim>* offset,
                 Points<Shape, Dim>& out) const;
     void set_step(double h);
-    void require_size(const char* function, Index particles) const;
     /// ΦᵀM of `values`, or Φᵀ alone.
     Eigen::ArrayXd project(const Points<Shape, Dim>& values, bool with_mass) const;
 
@@ -92,7 +91,8 @@ ModalDynamics<Shape, Dim>::ModalDynamics(const LinearSystem<Real>& linear,
     : k_(basis.k), d_(basis.d), load_(basis.p) {
     const auto& map = linear.free_map();
     const bool springs = map.dim != 0;
-    const Index particles = springs ? map.particles : linear.size();
+    const FreeParticles free = springs ? map.free : FreeParticles::all(linear.size());
+    const Index particles = free.particles();
     if ((springs ? map.dim : 1) != Dim || pose.x.cols() != particles ||
         basis.shapes.rows() != linear.size() || basis.shapes.cols() != basis.size() ||
         basis.d.size() != basis.size() || basis.p.size() != basis.size()) {
@@ -103,8 +103,7 @@ ModalDynamics<Shape, Dim>::ModalDynamics(const LinearSystem<Real>& linear,
     shapes_ = Shapes::Zero(Dim * particles, basis.size());
     mass_ = Eigen::VectorXd::Zero(Dim * particles);
     for (Index row = 0; row < linear.size(); ++row) {
-        const Index to =
-            springs ? Dim * map.free[static_cast<std::size_t>(row / Dim)] + row % Dim : row;
+        const Index to = Dim * free[row / Dim] + row % Dim;
         shapes_.row(to) = basis.shapes.row(row).template cast<Shape>();
         mass_[to] = static_cast<double>(linear.mass()[row]);
     }
@@ -160,14 +159,6 @@ void ModalDynamics<Shape, Dim>::set_step(double h) {
 }
 
 template <class Shape, int Dim>
-void ModalDynamics<Shape, Dim>::require_size(const char* function, Index particles) const {
-    if (particles != pose_.cols()) {
-        fail("ModalDynamics::", function, ": ", particles, " particles; the scene has ",
-             pose_.cols());
-    }
-}
-
-template <class Shape, int Dim>
 Eigen::ArrayXd ModalDynamics<Shape, Dim>::project(const Points<Shape, Dim>& values,
                                                   bool with_mass) const {
     const Eigen::Map<const Flat> flat(values.data(), values.size());
@@ -178,8 +169,7 @@ Eigen::ArrayXd ModalDynamics<Shape, Dim>::project(const Points<Shape, Dim>& valu
 
 template <class Shape, int Dim>
 void ModalDynamics<Shape, Dim>::set_state(const State& state) {
-    require_size("set_state", state.x.cols());
-    require_size("set_state", state.v.cols());
+    detail::require_fits("ModalDynamics::set_state", state, pose_.cols(), "the scene has");
     if (!state.finite()) {
         fail("ModalDynamics::set_state: particle ", state.first_not_finite(),
              " has a position or velocity that is not finite");
@@ -191,7 +181,10 @@ void ModalDynamics<Shape, Dim>::set_state(const State& state) {
 
 template <class Shape, int Dim>
 void ModalDynamics<Shape, Dim>::set_force(const Points<Shape, Dim>& force) {
-    require_size("set_force", force.cols());
+    if (force.cols() != pose_.cols()) {
+        fail("ModalDynamics::set_force: ", force.cols(), " particles; the scene has ",
+             pose_.cols());
+    }
     if (!force.allFinite()) fail("ModalDynamics::set_force: a force is not finite");
     p_ = load_ + project(force, false);
 }

@@ -87,7 +87,7 @@ private:
     detail::StepObjective<System> objective_;
     detail::LimitedMemory<Points<Scalar, Dim>> memory_;
     detail::FactorCache<Solver, Scalar> factors_;  // of P
-    std::vector<Index> free_;                      // free particles, ascending: the rows of P
+    FreeParticles free_;                           // of the rows of P
     std::uint64_t topology_ = 0;
     std::uint64_t revision_ = 0;
     bool prepared_ = false;
@@ -119,11 +119,7 @@ ProjectiveDynamics<System, Solver>::ProjectiveDynamics(const System& system, con
 template <class System, class Solver>
 Status ProjectiveDynamics<System, Solver>::prepare(Scalar h) {
     if (!prepared_ || topology_ != system_->topology_revision()) {
-        free_.clear();
-        for (Index i = 0; i < system_->size(); ++i) {
-            if (!system_->is_pinned(i)) free_.push_back(i);
-        }
-        columns_.resize(static_cast<Index>(free_.size()), Dim);
+        free_ = FreeParticles(*system_);
         factors_.forget_pattern();
     } else if (revision_ != system_->revision()) {
         factors_.forget_values();
@@ -131,7 +127,7 @@ Status ProjectiveDynamics<System, Solver>::prepare(Scalar h) {
     prepared_ = true;
     topology_ = system_->topology_revision();
     revision_ = system_->revision();
-    if (free_.empty() || factors_.find(h)) return Status::ok;
+    if (free_.count() == 0 || factors_.find(h)) return Status::ok;
     const double step = static_cast<double>(h);
     const SparseMatrix<Scalar> P =
         SpringPencil<1>::any_pose(*system_)
@@ -142,13 +138,13 @@ Status ProjectiveDynamics<System, Solver>::prepare(Scalar h) {
 
 template <class System, class Solver>
 void ProjectiveDynamics<System, Solver>::solve(Points<Scalar, Dim>& q) {
-    for (std::size_t j = 0; j < free_.size(); ++j) {
-        columns_.row(static_cast<Index>(j)) = q.col(free_[j]).transpose();
-    }
+    // Rows are contiguous, so that the matrix is a vector over the free degrees of freedom, too.
+    const auto flat = [&] { return Eigen::Map<VectorX<Scalar>>(columns_.data(), columns_.size()); };
+    columns_.resize(free_.count(), Dim);
+    auto right = flat();
+    free_.gather(q, right);
     columns_ = factors_.solver().solve(columns_);
-    for (std::size_t j = 0; j < free_.size(); ++j) {
-        q.col(free_[j]) = columns_.row(static_cast<Index>(j)).transpose();
-    }
+    free_.scatter(flat(), q);
 }
 
 /// One iteration on u_, g_ and φ; false when no shorter step lowers φ: what is left is rounding.

@@ -58,10 +58,7 @@ void write_triples(std::FILE* file, const Points<Scalar, Dim>& values) {
 template <class System>
 FileReport write_vtk(const std::string& path, const System& system,
                      const typename System::State& state) {
-    if (state.x.cols() != system.size() || state.v.cols() != system.size()) {
-        fail("write_vtk: the state has ", state.x.cols(), " positions and ", state.v.cols(),
-             " velocities; the system has ", system.size(), " particles");
-    }
+    detail::require_fits("write_vtk", state, system.size());
     if (const Index i = detail::first_unwritable<double>(state.x); i >= 0) {
         return {FileStatus::not_finite, path, i};
     }

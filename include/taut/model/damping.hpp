@@ -20,10 +20,6 @@ struct StiffnessDamping {
     explicit operator bool() const { return projected > 0 || graph > 0; }
     /// What bounds both together, for K⁺ ⪯ L_k ⊗ I at every pose.
     Scalar total() const { return projected + graph; }
-    /// The sum of both kinds.
-    StiffnessDamping operator+(const StiffnessDamping& other) const {
-        return {projected + other.projected, graph + other.graph};
-    }
     /// Both times `factor`.
     StiffnessDamping times(Scalar factor) const { return {factor * projected, factor * graph}; }
     /// The same in another precision.

@@ -10,18 +10,18 @@
 
 #include "../core/error.hpp"
 #include "../core/revision.hpp"
+#include "free_particles.hpp"
 #include "state.hpp"
 
 namespace taut {
 
-/// Where a linearised system's degrees of freedom come from: free particle j of the list has the
-/// degrees of freedom dim·j … dim·j + dim − 1. Empty for a system of the user's own matrices.
+/// Where a linearised system's degrees of freedom come from: those of the free particles of a
+/// spring system. Empty for a system of the user's own matrices.
 template <class Scalar>
 struct FreeMap {
     int dim = 0;
-    Index particles = 0;      ///< of the spring system, pinned ones included
-    std::vector<Index> free;  ///< their indices, ascending
-    VectorX<Scalar> pose;     ///< N, m: the free coordinates that u = 0 stands for
+    FreeParticles free;
+    VectorX<Scalar> pose;  ///< N, m: the free coordinates that u = 0 stands for
 };
 
 /// The linear system M ü + D u̇ + K u = f [T1] with any sparse D and K, symmetric or not
@@ -179,10 +179,7 @@ GeneralLinearSystem<Scalar>::GeneralLinearSystem(Vector mass, Matrix damping, Ma
 
 template <class Scalar>
 void GeneralLinearSystem<Scalar>::require_state(const State& state) const {
-    if (state.x.cols() != size() || state.v.cols() != size()) {
-        fail("LinearSystem: the state has ", state.x.cols(), " positions and ", state.v.cols(),
-             " velocities; the system has ", size(), " degrees of freedom");
-    }
+    detail::require_fits("LinearSystem", state, size(), "the system has", "degrees of freedom");
 }
 
 template <class Scalar>
@@ -211,10 +208,7 @@ void GeneralLinearSystem<Scalar>::require_free_map(
         fail("LinearSystem: the system was not linearised from a SpringSystem of dimension ",
              SpringDim);
     }
-    if (state.x.cols() != map_.particles || state.v.cols() != map_.particles) {
-        fail("LinearSystem: the state has ", state.x.cols(), " positions and ", state.v.cols(),
-             " velocities; the spring system has ", map_.particles, " particles");
-    }
+    detail::require_fits("LinearSystem", state, map_.free.particles(), "the spring system has");
 }
 
 template <class Scalar>
@@ -224,13 +218,11 @@ auto GeneralLinearSystem<Scalar>::to_free(const taut::State<Scalar, SpringDim>& 
     require_free_map(state);
     State u = initial_state();
     u.time = state.time;
-    for (std::size_t j = 0; j < map_.free.size(); ++j) {
-        const Index first = SpringDim * static_cast<Index>(j);
-        u.x.template segment<SpringDim>(first) =
-            state.x.col(map_.free[j]).transpose() -
-            map_.pose.template segment<SpringDim>(first).transpose();
-        u.v.template segment<SpringDim>(first) = state.v.col(map_.free[j]).transpose();
-    }
+    Vector values;
+    map_.free.gather(state.x, values);
+    u.x = (values - map_.pose).transpose();
+    map_.free.gather(state.v, values);
+    u.v = values.transpose();
     return u;
 }
 
@@ -240,12 +232,8 @@ void GeneralLinearSystem<Scalar>::from_free(const State& u,
                                             taut::State<Scalar, SpringDim>& state) const {
     require_state(u);
     require_free_map(state);
-    for (std::size_t j = 0; j < map_.free.size(); ++j) {
-        const Index first = SpringDim * static_cast<Index>(j);
-        state.x.col(map_.free[j]) = map_.pose.template segment<SpringDim>(first) +
-                                    u.x.template segment<SpringDim>(first).transpose();
-        state.v.col(map_.free[j]) = u.v.template segment<SpringDim>(first).transpose();
-    }
+    map_.free.scatter(Vector(map_.pose + u.x.transpose()), state.x);
+    map_.free.scatter(Vector(u.v.transpose()), state.v);
     state.time = u.time;
 }
 

@@ -131,9 +131,10 @@ public:
     const RayleighDamping& rayleigh() const { return rayleigh_; }
     /// α of set_graph_damping, s; 0 unless set.
     double graph_damping() const { return graph_damping_; }
-    /// All damping in proportion to stiffness.
-    StiffnessDamping<double> stiffness_damping() const {
-        return {rayleigh_.stiffness_proportional, graph_damping_};
+    /// All damping in proportion to stiffness, at the springs' ends as they are.
+    /// @param added  a stepper's own, StepDamping::times(h): its look_ahead moves the ends instead
+    StiffnessDamping<double> stiffness_damping(const StepDamping& added = {}) const {
+        return {rayleigh_.stiffness_proportional, graph_damping_ + added.graph};
     }
     /// m/s², 0 unless set.
     const Vector& gravity() const { return gravity_; }
@@ -181,10 +182,21 @@ public:
 
     /// visit(a, b) for every spring, in index order.
     template <class Visitor>
-    void for_each_spring(Visitor&& visit) const;
+    void for_each_spring(Visitor&& visit) const {
+        visit_springs([&](const auto& spring) { visit(spring.a, spring.b); });
+    }
+    /// visit(spring) for every Spring of whatever law, in index order.
+    template <class Visitor>
+    void visit_springs(Visitor&& visit) const {
+        for_each_set([&](const auto& set) { set.for_each(visit); });
+    }
     /// visit(SpringTangent<Real, Dim>) for every spring at x, in the precision of x.
     template <class Real, class Visitor>
-    void for_each_tangent(const Points<Real, Dim>& x, Visitor&& visit) const;
+    void for_each_tangent(const Points<Real, Dim>& x, Visitor&& visit) const {
+        for_each_set([&](const auto& set) {
+            for (std::size_t s = 0; s < set.a.size(); ++s) visit(set.tangent(s, x));
+        });
+    }
     /// visit(set) for the SpringSet of every law.
     template <class Visitor>
     void for_each_set(Visitor&& visit) const {
@@ -197,14 +209,10 @@ private:
                                     (std::is_same_v<Law, Laws> || ...);
 
     void require_particle(const char* function, const char* argument, Index i) const;
-    void require_state(const char* function, const State& state) const;
     void require_mass(const char* function, Index i, Scalar mass) const;
     void set_pinned(Index i, bool pinned);
     template <class Law>
     detail::SetOf<Scalar, Law>& set_with(const char* function, Index s);
-    template <bool Dampers, bool Proportional, class Set>
-    void add_spring_forces(const Set& set, const State& state, const StiffnessDamping<Scalar>& by,
-                           Scalar ahead, Force& f) const;
 
     std::vector<Vector> position_;      // where add_particle put each particle, m
     std::vector<Scalar> mass_;          // kg, of pinned particles too

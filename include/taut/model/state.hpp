@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "../core/error.hpp"
 #include "../core/types.hpp"
 
 namespace taut {
@@ -14,6 +15,21 @@ Index first_not_finite(const Array& x, const Array& v) {
         if (!x.col(i).allFinite() || !v.col(i).allFinite()) return i;
     }
     return -1;
+}
+
+/// Whether a State or StateView has as many positions and velocities.
+template <class AnyState>
+bool fits(const AnyState& state, Index particles) {
+    return state.x.cols() == particles && state.v.cols() == particles;
+}
+/// Fails with a message that begins with `where` unless the state fits.
+/// @param has  what says how many: "the system has"   @param of  what a column is one of
+template <class AnyState>
+void require_fits(const char* where, const AnyState& state, Index particles,
+                  const char* has = "the system has", const char* of = "particles") {
+    if (fits(state, particles)) return;
+    fail(where, ": the state has ", state.x.cols(), " positions and ", state.v.cols(),
+         " velocities; ", has, " ", particles, " ", of);
 }
 
 }  // namespace detail

@@ -74,10 +74,7 @@ struct StateView {
     /// @param state  of as many particles
     template <class Scalar>
     void copy_from(const State<Scalar, Dim>& state) {
-        if (state.x.cols() != x.cols() || state.v.cols() != v.cols()) {
-            fail("StateView::copy_from: the state has ", state.x.cols(), " positions and ",
-                 state.v.cols(), " velocities; the view has ", x.cols(), " particles");
-        }
+        detail::require_fits("StateView::copy_from", state, x.cols(), "the view has");
         x = state.x.template cast<Stored>();
         v = state.v.template cast<Stored>();
         time = static_cast<double>(state.time);

@@ -9,6 +9,7 @@
 #include "../core/assert.hpp"
 #include "block_pattern.hpp"
 #include "combination.hpp"
+#include "free_particles.hpp"
 #include "spring_set.hpp"
 
 namespace taut {
@@ -28,10 +29,10 @@ public:
     template <class System>
     explicit TangentMatrix(const System& system);
 
-    /// The free particles, ascending: block j of the matrix belongs to particle free()[j].
-    const std::vector<Index>& free() const { return free_; }
+    /// The free particles: block j of the matrix belongs to particle free()[j].
+    const FreeParticles& free() const { return free_; }
     /// N, the free degrees of freedom.
-    Index size() const { return Dim * static_cast<Index>(free_.size()); }
+    Index size() const { return Dim * free_.count(); }
 
     /// An N × N matrix of zeros with this pattern.
     Matrix zero() const { return pattern_.template zero<Scalar, Dim>(); }
@@ -46,8 +47,7 @@ private:
         int ab;  // place of block (a, b) in column b, or -1 when an end is pinned
         int ba;  // place of block (b, a) in column a
     };
-    std::vector<Index> free_;    // free particles, ascending
-    std::vector<Index> column_;  // particle → block column, or -1
+    FreeParticles free_;
     BlockPattern pattern_;
     std::vector<int> diagonal_;  // block column → place of its diagonal block
     std::vector<Slots> slots_;   // one for each spring, in the order of for_each_spring
@@ -55,26 +55,19 @@ private:
 
 template <class Scalar, int Dim>
 template <class System>
-TangentMatrix<Scalar, Dim>::TangentMatrix(const System& system) {
-    column_.assign(static_cast<std::size_t>(system.size()), Index(-1));
-    for (Index i = 0; i < system.size(); ++i) {
-        if (system.is_pinned(i)) continue;
-        column_[i] = static_cast<Index>(free_.size());
-        free_.push_back(i);
-    }
-    const auto both_free = [this](Index a, Index b) { return column_[a] >= 0 && column_[b] >= 0; };
-    pattern_ = BlockPattern(static_cast<Index>(free_.size()), [&](const auto& visit) {
-        system.for_each_spring([&](Index a, Index b) {
-            if (both_free(a, b)) visit(column_[a], column_[b]);
+TangentMatrix<Scalar, Dim>::TangentMatrix(const System& system) : free_(system) {
+    const auto for_each_pair = [&](auto&& visit) {  // of columns, −1 for a pinned end
+        system.for_each_spring([&](Index a, Index b) { visit(free_.place(a), free_.place(b)); });
+    };
+    pattern_ = BlockPattern(free_.count(), [&](const auto& visit) {
+        for_each_pair([&](Index a, Index b) {
+            if (a >= 0 && b >= 0) visit(a, b);
         });
     });
-    for (std::size_t j = 0; j < free_.size(); ++j) {
-        diagonal_.push_back(pattern_.place(static_cast<Index>(j), static_cast<Index>(j)));
-    }
-    system.for_each_spring([&](Index a, Index b) {
-        slots_.push_back(both_free(a, b) ? Slots{pattern_.place(column_[a], column_[b]),
-                                                 pattern_.place(column_[b], column_[a])}
-                                         : Slots{-1, -1});
+    for (Index j = 0; j < free_.count(); ++j) diagonal_.push_back(pattern_.place(j, j));
+    for_each_pair([&](Index a, Index b) {
+        slots_.push_back(a >= 0 && b >= 0 ? Slots{pattern_.place(a, b), pattern_.place(b, a)}
+                                          : Slots{-1, -1});
     });
 }
 
@@ -94,8 +87,8 @@ void TangentMatrix<Scalar, Dim>::assemble(const System& system, const Points<Sca
     std::size_t s = 0;
     system.for_each_tangent(x, [&](const SpringTangent<Scalar, Dim>& raw) {
         const Slots slots = slots_[s++];
-        const Index a = column_[raw.a];
-        const Index b = column_[raw.b];
+        const Index a = free_.place(raw.a);
+        const Index b = free_.place(raw.b);
         const auto plus = raw.projected();
         const Scalar graph = on_bound * raw.bound;
         const Scalar axial = on_k * raw.axial + on_k_plus * plus.axial + on_rayleigh * plus.axial +
@@ -110,9 +103,9 @@ void TangentMatrix<Scalar, Dim>::assemble(const System& system, const Points<Sca
             pattern_.template add<Scalar, Dim>(A, slots.ba, a, -P);
         }
     });
-    for (std::size_t j = 0; j < free_.size(); ++j) {
+    for (Index j = 0; j < free_.count(); ++j) {
         const Block diagonal = on_mass * system.mass(free_[j]) * Block::Identity();
-        pattern_.add(A, diagonal_[j], static_cast<Index>(j), diagonal);
+        pattern_.add(A, diagonal_[j], j, diagonal);
     }
 }
 

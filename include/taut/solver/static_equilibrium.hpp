@@ -92,11 +92,7 @@ void EquilibriumSearch<System>::update_forces() {
     system_.external_force(state_, external_);
     rounding_ =
         4 * std::numeric_limits<Scalar>::epsilon() * stiffness_ * state_.x.cwiseAbs().maxCoeff();
-    const auto& free = tangent_.free();
-    residual_.resize(tangent_.size());
-    for (std::size_t j = 0; j < free.size(); ++j) {
-        residual_.template segment<Dim>(Dim * static_cast<Index>(j)) = f_.col(free[j]);
-    }
+    tangent_.free().gather(f_, residual_);
 }
 
 /// Halves the step until the energy falls or the forces do; moves state_ if one of them does.
@@ -111,10 +107,9 @@ bool EquilibriumSearch<System>::line_search(const VectorX<Scalar>& dx) {
         Scalar work = 0;  // of the external force, taken as constant
         Scalar force = 0;
         trial_.x = state_.x;
-        for (std::size_t j = 0; j < free.size(); ++j) {
-            const auto step = dx.template segment<Dim>(Dim * static_cast<Index>(j));
-            trial_.x.col(free[j]) += t * step;
-            work += t * external_.col(free[j]).dot(step);
+        free.add(t, dx, trial_.x);
+        for (Index j = 0; j < free.count(); ++j) {
+            work += t * external_.col(free[j]).dot(dx.template segment<Dim>(Dim * j));
         }
         system_.force(trial_, f);
         for (const Index i : free) force += f.col(i).squaredNorm();
@@ -165,9 +160,7 @@ Status EquilibriumSearch<System>::iterate() {
 template <class Scalar, int Dim, class... Laws>
 Report static_equilibrium(const SpringSystem<Scalar, Dim, Laws...>& system,
                           State<Scalar, Dim>& state, const EquilibriumOptions& options = {}) {
-    if (state.x.cols() != system.size() || state.v.cols() != system.size()) {
-        return {Status::invalid_state};
-    }
+    if (!detail::fits(state, system.size())) return {Status::invalid_state};
     if (!state.finite()) return {Status::invalid_state, 0, 0, state.first_not_finite()};
     if (system.pinned_count() == system.size()) {
         state.v.setZero();

@@ -45,13 +45,11 @@ AddedMass added_mass(const SpringSystem<Scalar, Dim, Laws...>& system,
     if (!(budget > 0)) return added;
     const auto pencil =
         SpringPencil<Dim>::at_pose(system, state.x.template cast<TangentReal<Scalar>>());
-    std::vector<Index> free;
-    for (Index i = 0; i < system.size(); ++i) {
-        if (!system.is_pinned(i)) free.push_back(i);
-    }
-    std::vector<double> mass(free.size());
-    std::vector<double> p(free.size());
-    for (std::size_t i = 0; i < free.size(); ++i) {
+    const FreeParticles free(system);
+    const auto count = static_cast<std::size_t>(free.count());
+    std::vector<double> mass(count);
+    std::vector<double> p(count);
+    for (std::size_t i = 0; i < count; ++i) {
         mass[i] = static_cast<double>(system.mass(free[i]));
         p[i] = 1 / std::sqrt(mass[i]);
     }
@@ -60,17 +58,17 @@ AddedMass added_mass(const SpringSystem<Scalar, Dim, Laws...>& system,
         const auto needed =
             pencil.particle_loads(2 * h * matrices::D + h * h * matrices::K_plus, p);  // N s²/m, kg
         double total = 0;
-        for (std::size_t i = 0; i < free.size(); ++i) {
+        for (std::size_t i = 0; i < count; ++i) {
             total += std::max(0.0, needed[i] / budget * margin - mass[i]);
         }
         if (total < best) {
             best = total;
-            for (std::size_t i = 0; i < free.size(); ++i) {
+            for (std::size_t i = 0; i < count; ++i) {
                 added.mass[free[i]] = std::max(0.0, needed[i] / budget * margin - mass[i]);
             }
         }
         // A particle with mass to spare takes over from its neighbours by a smaller weight.
-        for (std::size_t i = 0; i < free.size(); ++i) {
+        for (std::size_t i = 0; i < count; ++i) {
             const double use = needed[i] / (budget * mass[i]);
             p[i] *= std::sqrt(std::clamp(use, 1e-4, 1.0));
         }

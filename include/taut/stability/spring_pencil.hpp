@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "../model/block_pattern.hpp"
+#include "../model/free_particles.hpp"
+#include "../model/spring_mechanics.hpp"
 #include "detail/small_eigenvalue.hpp"
 #include "pencil.hpp"
 
@@ -123,7 +125,7 @@ private:
         return i < 0 ? Vector(Vector::Zero()) : Vector(u.segment<Dim>(Dim * i));
     }
 
-    std::vector<int> free_;                  // particle → free particle, or −1
+    FreeParticles free_;
     std::vector<int> degree_;                // springs at each free particle
     std::vector<Link> links_;                // springs with at least one free end
     std::vector<std::array<int, 3>> names_;  // of each link: spring, particle a, particle b
@@ -138,20 +140,14 @@ void SpringPencil<Dim>::set_particles(const System& system) {
     rayleigh_ = {held_as<Scalar>(system.rayleigh().mass_proportional),
                  held_as<Scalar>(system.rayleigh().stiffness_proportional)};
     graph_damping_ = held_as<Scalar>(system.graph_damping());
-    free_.assign(static_cast<std::size_t>(system.size()), -1);
-    int count = 0;
-    for (Index i = 0; i < system.size(); ++i) {
-        if (!system.is_pinned(i)) free_[i] = count++;
-    }
-    mass_.resize(Dim * count);
+    free_ = FreeParticles(system);
+    mass_.resize(Dim * free_.count());
     facts_ = {Dim,  true, true,
               true, true, 16 * static_cast<double>(std::numeric_limits<Scalar>::epsilon())};
-    degree_.assign(static_cast<std::size_t>(count), 0);
-    for (Index i = 0; i < system.size(); ++i) {
-        if (free_[i] >= 0) {
-            mass_.template segment<Dim>(Dim * free_[i])
-                .setConstant(in_range(system.mass(i), "mass of particle", i));
-        }
+    degree_.assign(static_cast<std::size_t>(free_.count()), 0);
+    for (Index j = 0; j < free_.count(); ++j) {
+        mass_.template segment<Dim>(Dim * j).setConstant(
+            in_range(system.mass(free_[j]), "mass of particle", free_[j]));
     }
     links_.reserve(static_cast<std::size_t>(system.spring_count()));
 }
@@ -161,8 +157,8 @@ template <int Dim>
 template <class Set, class Tangent>
 void SpringPencil<Dim>::add_link(const Set& set, std::size_t s, const Tangent& tangent) {
     const int index = springs_++;
-    const int a = free_[set.a[s]];
-    const int b = free_[set.b[s]];
+    const auto a = static_cast<int>(free_.place(set.a[s]));
+    const auto b = static_cast<int>(free_.place(set.b[s]));
     if (a < 0 && b < 0) return;
     Link link = tangent(index);
     link.a = a;
@@ -250,7 +246,7 @@ auto SpringPencil<Dim>::coefficients(const Combination& c, const Link& link) con
     const double on_plus = c.projected() + c.damping() * rayleigh_.stiffness_proportional;
     const double graph = c.damping() * link.graph;
     const auto elastic = [&](double slope) {
-        return c.stiffness() * slope + on_plus * std::max(slope, 0.0);
+        return c.stiffness() * slope + on_plus * k_plus(slope);
     };
     return {elastic(link.axial) + c.damping() * link.damping + graph,
             elastic(link.transverse) + graph};
@@ -278,7 +274,7 @@ void SpringPencil<Dim>::multiply(const Combination& c, const Eigen::VectorXd& u,
     for (const Link& link : links_) {
         const auto [axial, transverse] = coefficients(c, link);
         const Vector du = segment(u, link.a) - segment(u, link.b);
-        const Vector pull = transverse * du + (axial - transverse) * link.d.dot(du) * link.d;
+        const Vector pull = spring_product(link.d, axial, transverse, du);
         if (link.a >= 0) y.segment<Dim>(Dim * link.a) += pull;
         if (link.b >= 0) y.segment<Dim>(Dim * link.b) -= pull;
     }
@@ -334,11 +330,9 @@ template <int Dim>
 std::vector<ParticleShare> SpringPencil<Dim>::particle_shares(const Eigen::VectorXd& u) const {
     std::vector<ParticleShare> shares;
     const double total = mass_.dot(u.cwiseAbs2());
-    for (std::size_t i = 0; i < free_.size(); ++i) {
-        if (free_[i] < 0) continue;
-        const Index first = Dim * free_[i];
-        const double energy = mass_[first] * u.segment<Dim>(first).squaredNorm();
-        shares.push_back({static_cast<Index>(i), total > 0 ? energy / total : 0});
+    for (Index j = 0; j < free_.count(); ++j) {
+        const double energy = mass_[Dim * j] * u.segment<Dim>(Dim * j).squaredNorm();
+        shares.push_back({free_[j], total > 0 ? energy / total : 0});
     }
     return shares;
 }

@@ -188,10 +188,7 @@ template <class Scalar, class Cholesky>
 template <int Dim, class... Laws>
 void Stability<Scalar, Cholesky>::update(const SpringSystem<Scalar, Dim, Laws...>& system,
                                          const State<Scalar, Dim>& state) {
-    if (state.x.cols() != system.size() || state.v.cols() != system.size()) {
-        fail("Stability: the state has ", state.x.cols(), " positions and ", state.v.cols(),
-             " velocities; the system has ", system.size(), " particles");
-    }
+    detail::require_fits("Stability", state, system.size());
     if (!state.x.allFinite()) {
         const State<Scalar, Dim> still{state.x, State<Scalar, Dim>::zero(system.size()), 0};
         fail("Stability: the position of particle ", still.first_not_finite(), " is not finite");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "../../model/free_particles.hpp"
 #include "../../model/particle_constraints.hpp"
 
 namespace taut::detail {
@@ -19,15 +20,10 @@ class ConstraintProjection {
 public:
     using Constraints = ParticleConstraints<Scalar, Dim>;
 
-    /// For a new pattern of equation.matrix(), which must consist of full Dim × Dim blocks.
-    template <class Equation>
-    void update_pattern(const Equation& equation, Index particles) {
-        block_.assign(static_cast<std::size_t>(particles), Index(-1));
-        free_.resize(static_cast<std::size_t>(equation.matrix().rows() / Dim));
-        for (std::size_t j = 0; j < free_.size(); ++j) {
-            const Index particle = equation.particle(Dim * static_cast<Index>(j));
-            block_[static_cast<std::size_t>(particle)] = static_cast<Index>(j);
-        }
+    /// For a new pattern of A, which must consist of full Dim × Dim blocks, one for each of these.
+    void update_pattern(const FreeParticles& particles) {
+        particles_ = particles;
+        free_.resize(static_cast<std::size_t>(particles.count()));
     }
     /// For the next step, from velocities v, Dim × n. Those of pinned particles have no effect.
     void begin(const Constraints& constraints, const Points<Scalar, Dim>& v) {
@@ -36,7 +32,7 @@ public:
         std::fill(free_.begin(), free_.end(), Block(Block::Identity()));
         z_.setZero(Dim * static_cast<Index>(free_.size()));
         for (const auto& [particle, held] : constraints.held()) {
-            const Index j = block_[static_cast<std::size_t>(particle)];
+            const Index j = block(particle);
             if (j < 0) continue;
             z_.template segment<Dim>(Dim * j) =
                 held.velocity() - held.directions * (held.directions.transpose() * v.col(particle));
@@ -45,7 +41,7 @@ public:
     }
     bool active() const { return active_; }
     /// The particle's place among the blocks of the matrix, or −1.
-    Index block(Index particle) const { return block_[static_cast<std::size_t>(particle)]; }
+    Index block(Index particle) const { return particles_.place(particle); }
 
     /// S A S + I − S, kept until the next call.
     const SparseMatrix<Scalar>& matrix(const SparseMatrix<Scalar>& A);
@@ -74,7 +70,7 @@ private:
     using Vector = typename Constraints::Vector;
 
     bool active_ = false;
-    std::vector<Index> block_;     // particle → block of the matrix, or −1
+    FreeParticles particles_;      // of the blocks of the matrix
     std::vector<Block> free_;      // S of each block; identity where nothing is held
     VectorX<Scalar> z_;            // m/s
     SparseMatrix<Scalar> matrix_;  // S A S + I − S

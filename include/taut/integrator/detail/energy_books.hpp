@@ -81,7 +81,7 @@ void add_spring_books(const System& system, const State& state,
             elastic += static_cast<double>(Law::energy(p, L, l));
             const Scalar over_l = T / l;
             if (damped) {
-                const auto braking = set.braking(s, dx, dv, l, over_l);
+                const auto braking = braking_of(set[s], dx, dv, l, over_l);
                 dissipation += braking.damper + braking.of(own);
                 step_dissipation += braking.of(share);
             }

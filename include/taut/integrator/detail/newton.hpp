@@ -58,10 +58,10 @@ bool Newton<System>::line_search(const System& system, const StepEquation<System
     Bisection<Scalar> search(0, 1, 0, 39);
     for (Scalar t = 1; search.open(); t = search.middle()) {
         u1_ = u_;
-        equation.scatter(t, du_, u1_);
+        equation.free().add(t, du_, u1_);
         const Scalar next = objective_.evaluate(system, u1_, g1_);
         filter(g1_);
-        equation.gather(g1_, b_);
+        equation.free().gather(g1_, b_);
         const Scalar bent = b_.dot(du_);
         const bool below = objective_.not_above(next, value + rounding);
         if (below && bent < -slope / 2 && (bent > slope / 2 || t == 1)) {
@@ -83,7 +83,7 @@ Report Newton<System>::step(const System& system, State& state, const VectorX<Sc
     objective_.begin(system, state, h, filter);
     judge_.begin(system, state, h, objective_);
     u_ = h * state.v;
-    equation.scatter(h, dv, u_);
+    equation.free().add(h, dv, u_);
     Scalar value = objective_.evaluate(system, u_, g_);
     filter(g_);
     u1_ = objective_.inertial() - u_;
@@ -106,7 +106,7 @@ Report Newton<System>::step(const System& system, State& state, const VectorX<Sc
     while (report.solves < options.newton_iterations && !stuck && !verdict.solved) {
         ++report.solves;
         x_ = state.x + u_;
-        equation.gather(g_, b_);
+        equation.free().gather(g_, b_);
         b_ = -b_;
         du_.setZero(b_.size());
         // Close to the solution the true K is definite and converges quadratically, K⁺ linearly.
@@ -129,9 +129,7 @@ Report Newton<System>::step(const System& system, State& state, const VectorX<Sc
         report.status = Status::not_converged;
         return report;
     }
-    for (Index i = 0; i < system.size(); ++i) {
-        if (!system.is_pinned(i)) state.v.col(i) = u_.col(i) / h;
-    }
+    for (const Index i : equation.free()) state.v.col(i) = u_.col(i) / h;
     state.x += u_;
     return report;
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "../../core/types.hpp"
-#include "../../model/damping.hpp"
+#include "../../model/spring_mechanics.hpp"
 
 namespace taut::detail {
 
@@ -26,43 +26,39 @@ public:
     }
     /// v·f over the pinned particles, f of springs, W.
     double spring_power(const System& system, const State& state) {
-        return power(system, state,
-                     [](const auto& set, std::size_t s, const auto& dx, const auto& dv) {
-                         return set.template pull<false, false>(s, dx, dv, {});
-                     });
+        return power(system, state, [](const auto& spring, const Vector& dx, const Vector&) {
+            return pull(spring, dx);
+        });
     }
     /// The same with f of springs and of all that damps them, W.
     /// @param added  a stepper's own, StepDamping::times(h)
     double damped_power(const System& system, const State& state, const StepDamping& added) {
-        const auto by = (system.stiffness_damping() + StiffnessDamping<double>{0, added.graph})
-                            .template cast<typename System::Scalar>();
-        const auto ahead = static_cast<typename System::Scalar>(added.look_ahead);
-        return power(
-            system, state, [&](const auto& set, std::size_t s, const Vector& dx, const Vector& dv) {
-                const Vector then = dx + ahead * dv;
-                return set.damping.empty() ? set.template pull<false, true>(s, then, dv, by)
-                                           : set.template pull<true, true>(s, then, dv, by);
-            });
+        using Scalar = typename System::Scalar;
+        const auto by = system.stiffness_damping(added).template cast<Scalar>();
+        const auto ahead = static_cast<Scalar>(added.look_ahead);
+        return power(system, state, [&](const auto& spring, const Vector& dx, const Vector& dv) {
+            const Vector then = dx + ahead * dv;
+            return pull(spring, then, dv, by);
+        });
     }
 
 private:
     using Vector = typename System::Vector;
 
-    template <class Pull>
-    double power(const System& system, const State& state, Pull&& pull) {
+    template <class Force>
+    double power(const System& system, const State& state, Force&& force) {
         update(system);
         double sum = 0;
         std::size_t which = 0;
         system.for_each_set([&](const auto& set) {
             for (const std::size_t s : springs_[which++]) {
-                const int a = set.a[s];
-                const int b = set.b[s];
-                const Vector dx = state.x.col(b) - state.x.col(a);
-                const Vector dv = state.v.col(b) - state.v.col(a);
+                const auto spring = set[s];
+                const Vector dx = state.x.col(spring.b) - state.x.col(spring.a);
+                const Vector dv = state.v.col(spring.b) - state.v.col(spring.a);
                 Vector v = Vector::Zero();
-                if (system.is_pinned(a)) v += state.v.col(a);
-                if (system.is_pinned(b)) v -= state.v.col(b);
-                sum += static_cast<double>(pull(set, s, dx, dv).dot(v));
+                if (system.is_pinned(spring.a)) v += state.v.col(spring.a);
+                if (system.is_pinned(spring.b)) v -= state.v.col(spring.b);
+                sum += static_cast<double>(force(spring, dx, dv).dot(v));
             }
         });
         return sum;

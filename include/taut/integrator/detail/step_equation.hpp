@@ -25,6 +25,7 @@ public:
     /// @returns whether the sparsity pattern is new
     bool update_pattern(const System& system) {
         if (A_.rows() == system.size() && revision_ == system.revision()) return false;
+        free_ = FreeParticles::all(system.size());
         revision_ = system.revision();
         assemble(system, 1);
         tau_ = 0;
@@ -53,8 +54,8 @@ public:
     void add_to_velocity(const VectorX<Scalar>& dv, State& state) const {
         state.v += dv.transpose();
     }
-    /// The particle of a degree of freedom.
-    Index particle(Index dof) const { return dof; }
+    /// The particles of the blocks of matrix(): each degree of freedom is one.
+    const FreeParticles& free() const { return free_; }
 
 private:
     void assemble(const System& system, Scalar tau) {
@@ -66,6 +67,7 @@ private:
         A_.makeCompressed();
     }
 
+    FreeParticles free_;
     Scalar tau_ = 0;              // of the values in A_, s
     std::uint64_t revision_ = 0;  // the system's
     SparseMatrix<Scalar> A_;      // M + τD + τ²K
@@ -112,39 +114,25 @@ public:
         system.for_each_tangent(state.x, [&](const SpringTangent<Scalar, Dim>& raw) {
             const auto t = raw.projected();
             const Eigen::Matrix<Scalar, Dim, 1> du = u.col(t.b) - u.col(t.a);
-            const Eigen::Matrix<Scalar, Dim, 1> pull =
-                s * (t.transverse * du + (t.axial - t.transverse) * t.d.dot(du) * t.d);
-            f_.col(t.a) += pull;
-            f_.col(t.b) -= pull;
+            const Eigen::Matrix<Scalar, Dim, 1> force =
+                s * spring_product(t.d, t.axial, t.transverse, du);
+            f_.col(t.a) += force;
+            f_.col(t.b) -= force;
         });
         f_ *= tau;
-        gather(f_, b);
+        free().gather(f_, b);
     }
     void add_momentum(const System& system, const Points<Scalar, Dim>& p,
                       VectorX<Scalar>& b) const {
-        const auto& free = pattern_->free();
-        for (std::size_t j = 0; j < free.size(); ++j) {
-            b.template segment<Dim>(Dim * static_cast<Index>(j)) +=
-                system.mass(free[j]) * p.col(free[j]);
+        for (Index j = 0; j < free().count(); ++j) {
+            const Index i = free()[j];
+            b.template segment<Dim>(Dim * j) += system.mass(i) * p.col(i);
         }
     }
-    /// b ← the columns of the free particles.
-    void gather(const Points<Scalar, Dim>& p, VectorX<Scalar>& b) const {
-        const auto& free = pattern_->free();
-        b.resize(pattern_->size());
-        for (std::size_t j = 0; j < free.size(); ++j) {
-            b.template segment<Dim>(Dim * static_cast<Index>(j)) = p.col(free[j]);
-        }
+    void add_to_velocity(const VectorX<Scalar>& dv, State& state) const {
+        free().add(Scalar(1), dv, state.v);
     }
-    void add_to_velocity(const VectorX<Scalar>& dv, State& state) const { scatter(1, dv, state.v); }
-    /// p ← p + t b on the columns of the free particles.
-    void scatter(Scalar t, const VectorX<Scalar>& b, Points<Scalar, Dim>& p) const {
-        const auto& free = pattern_->free();
-        for (std::size_t j = 0; j < free.size(); ++j) {
-            p.col(free[j]) += t * b.template segment<Dim>(Dim * static_cast<Index>(j));
-        }
-    }
-    Index particle(Index dof) const { return pattern_->free()[dof / Dim]; }
+    const FreeParticles& free() const { return pattern_->free(); }
 
 private:
     std::optional<TangentMatrix<Scalar, Dim>> pattern_;
@@ -158,7 +146,7 @@ private:
 template <class System, class Scalar>
 Index first_not_finite(const StepEquation<System>& equation, const VectorX<Scalar>& b) {
     for (Index i = 0; i < b.size(); ++i) {
-        if (!std::isfinite(b[i])) return equation.particle(i);
+        if (!std::isfinite(b[i])) return equation.free()[i / System::Dim];
     }
     return -1;
 }

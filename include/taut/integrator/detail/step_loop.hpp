@@ -21,9 +21,7 @@ public:
     static Report check(const System& system, const AnyState& state, Scalar h) {
         static_assert((require_state<State, AnyState>(), true));
         if (!(h > 0) || !std::isfinite(h)) return {Status::invalid_step};
-        if (state.x.cols() != system.size() || state.v.cols() != system.size()) {
-            return {Status::invalid_state};
-        }
+        if (!fits(state, system.size())) return {Status::invalid_state};
         if (!state.finite()) return {Status::invalid_state, 0, 0, state.first_not_finite()};
         return {};
     }

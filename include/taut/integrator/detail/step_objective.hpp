@@ -114,28 +114,20 @@ auto StepObjective<System>::evaluate(const System& system, const Moves& u, Moves
     g.setZero(Dim, u.cols());
     const Scalar h2 = h_ * h_;
     Scalar energy = 0;  // J
-    system.for_each_set([&](const auto& set) {
-        using Law = typename std::decay_t<decltype(set)>::Law;
-        for (std::size_t s = 0; s < set.a.size(); ++s) {
-            const Vector dx = x_.col(set.b[s]) - x_.col(set.a[s]);
-            const Scalar l = dx.norm();
-            const Scalar L = set.rest_length[s];
-            energy += Law::energy(set.parameters[s], L, l);
-            if (!(l > 0)) continue;
-            const Vector pull = h2 * Law::tension(set.parameters[s], L, l) / l * dx;
-            g.col(set.a[s]) -= pull;
-            g.col(set.b[s]) += pull;
-        }
+    system.visit_springs([&](const auto& spring) {
+        const Vector dx = x_.col(spring.b) - x_.col(spring.a);
+        energy += spring.energy(dx.norm());
+        const Vector force = h2 * pull(spring, dx);
+        g.col(spring.a) -= force;
+        g.col(spring.b) += force;
     });
     Scalar value = h2 * energy;
     for (const Damper& damper : dampers_) {
         const Vector move = u.col(damper.b) - u.col(damper.a);
-        const Scalar along = damper.d.dot(move);
-        const Vector pull =
-            damper.transverse * move + (damper.axial - damper.transverse) * along * damper.d;
-        value += Scalar(0.5) * pull.dot(move);
-        g.col(damper.a) -= pull;
-        g.col(damper.b) += pull;
+        const Vector force = spring_product(damper.d, damper.axial, damper.transverse, move);
+        value += Scalar(0.5) * force.dot(move);
+        g.col(damper.a) -= force;
+        g.col(damper.b) += force;
     }
     const Scalar drag = h_ * static_cast<Scalar>(system.rayleigh().mass_proportional);
     for (Index i = 0; i < system.size(); ++i) {

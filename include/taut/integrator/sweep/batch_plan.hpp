@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "sorted_springs.hpp"
-#include "spring_force.hpp"
+#include "spring_table.hpp"
 #include "tile.hpp"
 
 namespace taut::detail::sweep {
@@ -164,10 +164,10 @@ void BatchPlan<Scalar, Dim, Law>::add_batch(const Table& table, const TileView<S
             }
         }
         for (int s = 0; s < count; s += Register::width, springs.next()) {
-            const Coefficients<Scalar> coefficient = coefficients<Law, Dampers, Kind>(
-                springs, view.damping, Register::load(l2 + s), Register::load(dx_dv + s));
-            coefficient.of_dx.store(l2 + s);
-            coefficient.of_dv.store(dx_dv + s);
+            const auto pull = springs.template pull<Dampers, Kind>(
+                view.damping, Register::load(l2 + s), Register::load(dx_dv + s));
+            pull.of_dx.store(l2 + s);
+            pull.of_dv.store(dx_dv + s);
         }
         for (int s = 0; s < count; ++s) {
             Vector force = l2[s] * dx[s];

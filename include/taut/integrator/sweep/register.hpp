@@ -117,6 +117,10 @@ struct VectorRegister {
     friend EIGEN_ALWAYS_INLINE VectorRegister sqrt(const VectorRegister& a) {
         return of(Eigen::internal::psqrt(a.packet));
     }
+    /// Lane by lane, the stiffness of K⁺: 0 where it is negative.
+    friend EIGEN_ALWAYS_INLINE VectorRegister k_plus(const VectorRegister& stiffness) {
+        return max(stiffness, VectorRegister(Scalar(0)));
+    }
     /// 1/√a of normal numbers, to a few ulp.
     friend EIGEN_ALWAYS_INLINE VectorRegister reciprocal_sqrt(const VectorRegister& a) {
         return of(rsqrt_packet(a.packet));

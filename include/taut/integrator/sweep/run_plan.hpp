@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sorted_springs.hpp"
-#include "spring_force.hpp"
+#include "spring_table.hpp"
 #include "tile.hpp"
 
 namespace taut::detail::sweep {
@@ -151,11 +151,10 @@ void RunPlan<Scalar, Dim, Law>::add_segment(const Table& table, const TileView<S
         });
         Register dx_dv(Scalar(0));
         if constexpr (Dampers || Kind == Proportional::projected) dx_dv = dot(dx, dv);
-        const Coefficients<Scalar> coefficient =
-            coefficients<Law, Dampers, Kind>(springs, view.damping, dot(dx, dx), dx_dv);
+        const auto pull = springs.template pull<Dampers, Kind>(view.damping, dot(dx, dx), dx_dv);
         for_each_axis<Dim>([&](int d) {
-            Register force = coefficient.of_dx * dx[d];
-            if constexpr (Kind != Proportional::none) force += coefficient.of_dv * dv[d];
+            Register force = pull.of_dx * dx[d];
+            if constexpr (Kind != Proportional::none) force += pull.of_dv * dv[d];
             Scalar* on_a = force_a[d] + i;
             Scalar* on_b = force_b[d] + i;
             (Register::load(on_a) + force).store(on_a);

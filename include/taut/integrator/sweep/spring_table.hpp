@@ -4,11 +4,29 @@
 
 #include <array>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 #include <vector>
 
 #include "../../model/spring_set.hpp"
 #include "register.hpp"
+
+namespace taut {
+
+/// The lengths of as many springs as a register has lanes; a division by them is a product.
+template <class Scalar>
+struct SpringLength<detail::sweep::VectorRegister<Scalar>> {
+    using Register = detail::sweep::VectorRegister<Scalar>;
+    Register l2, inverse, l;
+
+    explicit EIGEN_ALWAYS_INLINE SpringLength(const Register& square)
+        : l2(max(square, Register(std::numeric_limits<Scalar>::min()))),
+          inverse(reciprocal_sqrt(l2)),
+          l(l2 * inverse) {}
+    EIGEN_ALWAYS_INLINE Register divide(const Register& y) const { return y * inverse; }
+};
+
+}  // namespace taut
 
 namespace taut::detail::sweep {
 
@@ -111,12 +129,28 @@ public:
             for (auto& field : field_) field.next();
             if constexpr (!vectorizable) parameters_ += Register::width;
         }
-        /// N·s/m.
-        EIGEN_ALWAYS_INLINE Register damping() const { return damping_.load(); }
-        /// `value` where there is a spring and 0 in the gaps.
-        EIGEN_ALWAYS_INLINE Register unless_gap(const Register& value) const {
-            return unless_negative(rest_length_.load(), value);
+        // The springs here, as Spring has it for one.
+        EIGEN_ALWAYS_INLINE Register tension(const Register& l) const {
+            return evaluate([](const auto&... of) { return Law::tension(of...); }, l);
         }
+        EIGEN_ALWAYS_INLINE Register tension_slope(const Register& l) const {
+            return evaluate([](const auto&... of) { return Law::tension_slope(of...); }, l);
+        }
+        EIGEN_ALWAYS_INLINE Register stiffness_bound() const {
+            return evaluate([](const auto&... of) { return Law::stiffness_bound(of...); });
+        }
+        EIGEN_ALWAYS_INLINE Register axial_damping() const { return damping_.load(); }
+        /// The pull of the springs here, 0 in the gaps: see pull_coefficients.
+        template <bool Dampers, Proportional Kind>
+        EIGEN_ALWAYS_INLINE Pull<Register> pull(const StiffnessDamping<Scalar>& by,
+                                                const Register& l2, const Register& dx_dv) const {
+            const auto pull = pull_coefficients<Dampers, Kind>(*this, by, l2, dx_dv);
+            const Register L = rest_length_.load();
+            return {unless_negative(L, pull.of_dx),
+                    Kind == Proportional::none ? pull.of_dv : unless_negative(L, pull.of_dv)};
+        }
+
+    private:
         /// function(p, L, more…) of each spring.
         template <class Function, class... More>
         EIGEN_ALWAYS_INLINE Register evaluate(Function function, const More&... more) const {
@@ -133,8 +167,6 @@ public:
                                     Numbers(more)...);
             }
         }
-
-    private:
         template <class Function, class... More>
         Register lane_by_lane(Function function, const More&... more) const {
             std::array<Scalar, Register::width> result;

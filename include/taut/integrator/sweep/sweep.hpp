@@ -115,7 +115,7 @@
 //   width         the number of lanes
 //   padding       scalars beyond the last place, for whole registers
 //   dx, dv        x_b - x_a, v_b - v_a
-//   coefficients  of dx and dv in a spring's force                            spring_force.hpp
+//   coefficients  of dx and dv in a spring's pull               model/spring_mechanics.hpp
 //   plan          what is known of the springs before a step                     force_plan.hpp
 //   scratch       a thread's forces on one block
 //   sweep         one pass over all blocks: a step
@@ -202,8 +202,7 @@ template <class AnyState>
 void Sweep<System>::load(const System& system, const AnyState& state, const StepDamping& added) {
     gravity_ = system.gravity();
     drag_ = static_cast<Scalar>(system.rayleigh().mass_proportional);
-    damping_ = (system.stiffness_damping() + StiffnessDamping<double>{0, added.graph})
-                   .template cast<Scalar>();
+    damping_ = system.stiffness_damping(added).template cast<Scalar>();
     ahead_ = static_cast<Scalar>(added.look_ahead);
     plan_.update(system);
     state_.resize(plan_.size(), plan_.stride(), ahead_ > 0, plan_.damped() || bool(damping_));

@@ -181,15 +181,6 @@ void SpringSystem<Scalar, Dim, Laws...>::require_particle(const char* function,
 }
 
 template <class Scalar, int Dim, class... Laws>
-void SpringSystem<Scalar, Dim, Laws...>::require_state(const char* function,
-                                                       const State& state) const {
-    if (state.x.cols() != size() || state.v.cols() != size()) {
-        fail("SpringSystem::", function, ": the state has ", state.x.cols(), " positions and ",
-             state.v.cols(), " velocities; the system has ", size(), " particles");
-    }
-}
-
-template <class Scalar, int Dim, class... Laws>
 void SpringSystem<Scalar, Dim, Laws...>::require_mass(const char* function, Index i,
                                                       Scalar mass) const {
     // 1/mass must be finite too, or a step would divide by zero.

@@ -5,44 +5,9 @@
 namespace taut {
 
 template <class Scalar, int Dim, class... Laws>
-template <class Visitor>
-void SpringSystem<Scalar, Dim, Laws...>::for_each_spring(Visitor&& visit) const {
-    for_each_set([&](const auto& set) {
-        for (std::size_t s = 0; s < set.a.size(); ++s) visit(Index(set.a[s]), Index(set.b[s]));
-    });
-}
-
-template <class Scalar, int Dim, class... Laws>
-template <class Real, class Visitor>
-void SpringSystem<Scalar, Dim, Laws...>::for_each_tangent(const Points<Real, Dim>& x,
-                                                          Visitor&& visit) const {
-    for_each_set([&](const auto& set) {
-        for (std::size_t s = 0; s < set.a.size(); ++s) visit(set.tangent(s, x));
-    });
-}
-
-template <class Scalar, int Dim, class... Laws>
-template <bool Dampers, bool Proportional, class Set>
-void SpringSystem<Scalar, Dim, Laws...>::add_spring_forces(const Set& set, const State& state,
-                                                           const StiffnessDamping<Scalar>& by,
-                                                           Scalar ahead, Force& f) const {
-    for (std::size_t s = 0; s < set.a.size(); ++s) {
-        const int a = set.a[s];
-        const int b = set.b[s];
-        Vector dx = state.x.col(b) - state.x.col(a);
-        Vector dv = Vector::Zero();
-        if (Dampers || Proportional || ahead != 0) dv = state.v.col(b) - state.v.col(a);
-        if (ahead != 0) dx += ahead * dv;
-        const Vector pull = set.template pull<Dampers, Proportional>(s, dx, dv, by);
-        f.col(a) += pull;
-        f.col(b) -= pull;
-    }
-}
-
-template <class Scalar, int Dim, class... Laws>
 void SpringSystem<Scalar, Dim, Laws...>::force(const State& state, Force& f,
                                                const StepDamping& added) const {
-    require_state("force", state);
+    detail::require_fits("SpringSystem::force", state, size());
     const Eigen::Map<const VectorX<Scalar>> mass(mass_.data(), size());
     f.resize(Dim, size());
     f.noalias() = gravity_ * mass.transpose();
@@ -50,23 +15,26 @@ void SpringSystem<Scalar, Dim, Laws...>::force(const State& state, Force& f,
         const Scalar d0 = static_cast<Scalar>(rayleigh_.mass_proportional);
         f.array() -= state.v.array().rowwise() * (d0 * mass.transpose().array());
     }
-    const auto by =
-        (stiffness_damping() + StiffnessDamping<double>{0, added.graph}).template cast<Scalar>();
+    const auto by = stiffness_damping(added).template cast<Scalar>();
     const auto ahead = static_cast<Scalar>(added.look_ahead);
-    const bool proportional(by);
     for_each_set([&](const auto& set) {
-        const bool dampers = !set.damping.empty();
-        if (dampers && proportional) add_spring_forces<true, true>(set, state, by, ahead, f);
-        if (dampers && !proportional) add_spring_forces<true, false>(set, state, by, ahead, f);
-        if (!dampers && proportional) add_spring_forces<false, true>(set, state, by, ahead, f);
-        if (!dampers && !proportional) add_spring_forces<false, false>(set, state, by, ahead, f);
+        const bool moving = by || ahead != 0 || !set.damping.empty();
+        set.for_each([&](const auto& spring) {
+            Vector dx = state.x.col(spring.b) - state.x.col(spring.a);
+            Vector dv = Vector::Zero();
+            if (moving) dv = state.v.col(spring.b) - state.v.col(spring.a);
+            if (ahead != 0) dx += ahead * dv;
+            const Vector force = pull(spring, dx, dv, by);
+            f.col(spring.a) += force;
+            f.col(spring.b) -= force;
+        });
     });
     if (external_force_) external_force_(state, f);
 }
 
 template <class Scalar, int Dim, class... Laws>
 Scalar SpringSystem<Scalar, Dim, Laws...>::kinetic_energy(const State& state) const {
-    require_state("kinetic_energy", state);
+    detail::require_fits("SpringSystem::kinetic_energy", state, size());
     Scalar energy = 0;
     for (Index i = 0; i < size(); ++i) {
         if (!is_pinned(i)) energy += Scalar(0.5) * mass_[i] * state.v.col(i).squaredNorm();
@@ -76,22 +44,19 @@ Scalar SpringSystem<Scalar, Dim, Laws...>::kinetic_energy(const State& state) co
 
 template <class Scalar, int Dim, class... Laws>
 Scalar SpringSystem<Scalar, Dim, Laws...>::potential_energy(const State& state) const {
-    require_state("potential_energy", state);
+    detail::require_fits("SpringSystem::potential_energy", state, size());
     Scalar energy = 0;
     for (Index i = 0; i < size(); ++i) energy -= mass_[i] * gravity_.dot(state.x.col(i));
-    for_each_set([&](const auto& set) {
-        using Law = typename std::decay_t<decltype(set)>::Law;
-        for (std::size_t s = 0; s < set.a.size(); ++s) {
-            const Vector dx = state.x.col(set.b[s]) - state.x.col(set.a[s]);
-            energy += Law::energy(set.parameters[s], set.rest_length[s], dx.norm());
-        }
+    visit_springs([&](const auto& spring) {
+        const Vector dx = state.x.col(spring.b) - state.x.col(spring.a);
+        energy += spring.energy(dx.norm());
     });
     return energy;
 }
 
 template <class Scalar, int Dim, class... Laws>
 LinearSystem<Scalar> SpringSystem<Scalar, Dim, Laws...>::linearize(const State& state) const {
-    require_state("linearize", state);
+    detail::require_fits("SpringSystem::linearize", state, size());
     if (!state.finite()) {
         fail("SpringSystem::linearize: particle ", state.first_not_finite(),
              " has a position or velocity that is not finite");
@@ -109,16 +74,12 @@ LinearSystem<Scalar> SpringSystem<Scalar, Dim, Laws...>::linearize(const State& 
     still.v.setZero();
     Force f;
     force(still, f);
-    const auto free = static_cast<Index>(tangent.free().size());
-    FreeMap<Scalar> map{Dim, size(), tangent.free(), VectorX<Scalar>(Dim * free)};
-    VectorX<Scalar> mass(Dim * free);
-    VectorX<Scalar> load(Dim * free);
-    for (Index j = 0; j < free; ++j) {
-        const Index i = tangent.free()[j];
-        mass.template segment<Dim>(Dim * j).setConstant(mass_[i]);
-        load.template segment<Dim>(Dim * j) = f.col(i);
-        map.pose.template segment<Dim>(Dim * j) = state.x.col(i);
-    }
+    FreeMap<Scalar> map{Dim, tangent.free(), {}};
+    map.free.gather(state.x, map.pose);
+    VectorX<Scalar> mass, load;
+    map.free.gather(f, load);
+    for (Index i = 0; i < size(); ++i) f.col(i).setConstant(mass_[i]);
+    map.free.gather(f, mass);
     LinearSystem<Scalar> linear(std::move(mass), std::move(D), std::move(K), std::move(load));
     linear.set_free_map(std::move(map));
     return linear;

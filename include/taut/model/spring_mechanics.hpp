@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "../core/types.hpp"
+#include "damping.hpp"
+#include "detail/law_check.hpp"
+
+namespace taut {
+
+/// One spring of a law: what SpringSystem::add_spring takes, and what its visit_springs gives.
+template <class Scalar, class Law_>
+struct Spring {
+    using Law = Law_;
+
+    Index a;
+    Index b;
+    detail::usable_parameters<Law, Scalar> parameters;
+    Scalar rest_length;  ///< L, m, ≥ 0
+    Scalar damping = 0;  ///< axial, N·s/m, ≥ 0
+
+    /// T(l), N, at the length l > 0, m; positive pulls the ends together.
+    Scalar tension(Scalar l) const { return Law::tension(parameters, rest_length, l); }
+    /// T′(l), N/m.
+    Scalar tension_slope(Scalar l) const { return Law::tension_slope(parameters, rest_length, l); }
+    /// The law's bound on T′ and T/l over all lengths, N/m.
+    Scalar stiffness_bound() const { return Law::stiffness_bound(parameters, rest_length); }
+    /// Energy at the length l, J.
+    Scalar energy(Scalar l) const { return Law::energy(parameters, rest_length, l); }
+    /// The damper's strength, N·s/m.
+    Scalar axial_damping() const { return damping; }
+    /// The same spring in another precision.
+    template <class Real>
+    Spring<Real, Law> cast() const {
+        return {a, b, parameters.template cast<Real>(), static_cast<Real>(rest_length),
+                static_cast<Real>(damping)};
+    }
+};
+
+/// A spring's stiffness along or across its axis as K⁺ has it, N/m: 0 where it is negative [T27],
+/// [T28]. What is not a number stays so.
+template <class Real>
+Real k_plus(const Real& stiffness) {
+    return stiffness < 0 ? Real(0) : stiffness;
+}
+
+/// What one spring adds to K at a pose: H = axial·d dᵀ + transverse·(I − d dᵀ)  [T2].
+template <class Scalar, int Dim>
+struct SpringTangent {
+    Index a;
+    Index b;
+    Eigen::Matrix<Scalar, Dim, 1> d;  ///< unit vector from a to b; zero when they coincide
+    Scalar axial;                     ///< T′(l), N/m
+    Scalar transverse;                ///< T(l)/l, N/m; negative in a compressed spring
+    Scalar bound;                     ///< the law's bound on both, over all lengths, N/m
+    Scalar damping;                   ///< axial, N·s/m
+
+    /// The same spring without negative stiffness: a block of K⁺ [T27], [T28].
+    SpringTangent projected() const {
+        SpringTangent p = *this;
+        p.axial = k_plus(axial);
+        p.transverse = k_plus(transverse);
+        return p;
+    }
+};
+
+/// The block axial·d dᵀ + transverse·(I − d dᵀ) of a spring, Dim × Dim, symmetric to the bit [T2].
+template <class Vector, class Scalar = typename Vector::Scalar>
+auto spring_block(const Vector& d, Scalar axial, Scalar transverse) {
+    using Block = Eigen::Matrix<Scalar, Vector::RowsAtCompileTime, Vector::RowsAtCompileTime>;
+    Block P = d * d.transpose();  // before the factor, which would round the two triangles apart
+    P *= axial - transverse;
+    P.diagonal().array() += transverse;
+    return P;
+}
+
+/// That block times the vector u, which is u_b − u_a of the spring's ends [T2].
+template <class Vector, class Scalar = typename Vector::Scalar>
+Vector spring_product(const Vector& d, Scalar axial, Scalar transverse, const Vector& u) {
+    return transverse * u + (axial - transverse) * d.dot(u) * d;
+}
+
+/// A spring's length by its square l², m, but never below √η, with η the least normal number
+/// (1.5e-154 m in double, 1.1e-19 m in float): nearer ends coincide, since the squares that the
+/// length is made of vanish. Registers have their own (integrator/sweep/spring_table.hpp).
+template <class Real>
+struct SpringLength {
+    Real l;  ///< m
+
+    /// @param l2  dx·dx, m²
+    explicit SpringLength(const Real& l2)
+        : l(std::sqrt(std::max(l2, std::numeric_limits<Real>::min()))) {}
+    /// y/l.
+    Real divide(const Real& y) const { return y / l; }
+};
+
+/// The length |dx| of a spring with dx = x_b − x_a, m, not below that of SpringLength.
+template <class Vector, class Scalar = typename Vector::Scalar>
+Scalar spring_length(const Vector& dx) {
+    return SpringLength<Scalar>(dx.squaredNorm()).l;
+}
+
+/// Which damping in proportion to stiffness a pull has; `projected` includes `graph`.
+enum class Proportional { none, graph, projected };
+
+/// The force of a spring on its end a, of_dx·dx + of_dv·dv, with dx = x_b − x_a, m, and
+/// dv = v_b − v_a, m/s; that on end b is its opposite.
+template <class Real>
+struct Pull {
+    Real of_dx;  ///< N/m
+    Real of_dv;  ///< N·s/m
+};
+
+namespace detail {
+
+/// `yes` where a < b, `no` elsewhere; registers have their own, lane by lane.
+template <class Real>
+Real where_less(const Real& a, const Real& b, const Real& yes, const Real& no) {
+    return a < b ? yes : no;
+}
+
+}  // namespace detail
+
+/// The pull of a spring, of its damper where Dampers, and of damping in proportion to stiffness,
+/// D = projected·K⁺ + graph·(L_k ⊗ I)  [T2], [T28], [T34]. Numbers, or registers of as many
+/// springs.
+///
+/// Ends that coincide (l² = 0) have no direction: of_dx then stands for nothing and must meet
+/// dx = 0, and K⁺ is the law's bound times the identity.
+/// @param spring  tension(l), tension_slope(l), stiffness_bound(), axial_damping(): Spring has them
+/// @param by      factors of the damping in proportion to stiffness, s
+/// @param l2      dx·dx, m²
+/// @param dx_dv   dx·dv, m²/s; read where Dampers, or Kind is `projected`
+template <bool Dampers, Proportional Kind, class AnySpring, class Scalar, class Real>
+EIGEN_ALWAYS_INLINE Pull<Real> pull_coefficients(const AnySpring& spring,
+                                                 const StiffnessDamping<Scalar>& by, const Real& l2,
+                                                 const Real& dx_dv) {
+    using detail::where_less;
+    const Real zero(Scalar(0));
+    const SpringLength<Real> length(l2);
+    const Real over_l = length.divide(spring.tension(length.l));
+    Real of_dx = over_l;
+    Real of_dv = zero;
+    Real bound = zero;
+    if constexpr (Kind != Proportional::none) {
+        bound = spring.stiffness_bound();
+        of_dv = Real(by.graph) * bound;
+    }
+    [[maybe_unused]] const Real strain_rate = length.divide(length.divide(dx_dv));  // 1/s
+    if constexpr (Dampers) of_dx += spring.axial_damping() * strain_rate;
+    if constexpr (Kind == Proportional::projected) {
+        const Real axial = k_plus(spring.tension_slope(length.l));
+        const Real transverse = where_less(zero, l2, k_plus(over_l), bound);
+        of_dv += Real(by.projected) * transverse;
+        of_dx += Real(by.projected) * (axial - transverse) * strain_rate;
+    }
+    return {of_dx, of_dv};
+}
+
+/// The force of a spring and its damper on its end a, N; the opposite acts on b.
+/// @param dx  x_b − x_a, m   @param dv  v_b − v_a, m/s
+/// @param by  damping in proportion to stiffness, s
+template <class Scalar, class Law, class Vector>
+Vector pull(const Spring<Scalar, Law>& spring, const Vector& dx, const Vector& dv = Vector::Zero(),
+            const StiffnessDamping<Scalar>& by = {}) {
+    constexpr auto none = Proportional::none;
+    const Scalar l2 = dx.squaredNorm();
+    const Scalar dx_dv = dx.dot(dv);
+    const bool proportional(by);
+    const Pull<Scalar> c =
+        proportional ? pull_coefficients<true, Proportional::projected>(spring, by, l2, dx_dv)
+        : spring.damping > 0 ? pull_coefficients<true, none>(spring, by, l2, dx_dv)
+                             : pull_coefficients<false, none>(spring, by, l2, dx_dv);
+    Vector force = Vector::Zero();
+    if (l2 > 0) force = c.of_dx * dx;
+    if (proportional) force += c.of_dv * dv;
+    return force;
+}
+
+/// The power that damping takes from one spring, vᵀDv, W, by the factors of its sum.
+struct Braking {
+    double damper = 0;     ///< of the spring's own damper, W
+    double projected = 0;  ///< of K⁺, W/s
+    double graph = 0;      ///< of L_k ⊗ I, W/s
+
+    /// The power of damping in proportion to stiffness, W.
+    double of(const StiffnessDamping<double>& by) const {
+        return by.projected * projected + by.graph * graph;
+    }
+};
+
+/// @param dx  x_b − x_a, m   @param dv  v_b − v_a, m/s   @param l  spring_length(dx)
+/// @param over_l  T/l, N/m
+template <class Scalar, class Law, class Vector>
+Braking braking_of(const Spring<Scalar, Law>& spring, const Vector& dx, const Vector& dv, Scalar l,
+                   Scalar over_l) {
+    Braking power;
+    const auto dv2 = static_cast<double>(dv.squaredNorm());
+    power.graph = static_cast<double>(spring.stiffness_bound()) * dv2;
+    power.projected = power.graph;
+    if (!(dx.squaredNorm() > 0)) return power;
+    const auto stretching = static_cast<double>(dx.dot(dv) / l);
+    const double along = stretching * stretching;
+    power.damper = static_cast<double>(spring.damping) * along;
+    power.projected = static_cast<double>(k_plus(spring.tension_slope(l))) * along +
+                      static_cast<double>(k_plus(over_l)) * (dv2 - along);
+    return power;
+}
+
+}  // namespace taut
