@@ -152,7 +152,7 @@ TEST_CASE("certificate: what is proved is definite, at any distance from singula
         const auto proof = proves_positive_definite(A.sparseView());
         if (proof.proved) {
             CHECK(eigenvalues(A.cast<Real>())[0] > 0);
-            CHECK(proof.room > 0);
+            CHECK(proof.least_pivot > 0);
             CHECK(proof.shift > 0);
         }
         ++(proof.proved ? proved : refused);
@@ -172,7 +172,7 @@ TEST_CASE("certificate: well-conditioned matrices are proved, whatever their sca
         const auto proof = proves_positive_definite(A);
         CHECK(proof.proved);
         CHECK(proof.shift < 1e-11);
-        CHECK(proof.room > 0);
+        CHECK(proof.least_pivot > 0);
         // The scale plays no part, not even of each row by itself.
         CHECK(proves_positive_definite(badly_scaled(random, A, 200)).proved);
     }

@@ -73,11 +73,11 @@ TEST_CASE("lanczos: the small eigensolver's vectors are orthonormal and diagonal
         const Eigen::VectorXd values = Eigen::Map<const Eigen::VectorXd>(spectrum.values.data(), m);
         const Eigen::MatrixXd vectors =
             Eigen::Map<const Eigen::MatrixXd>(spectrum.vectors.data(), m, m);
-        const double room = rounding * static_cast<double>(m);
+        const double tolerance = rounding * static_cast<double>(m);
         const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(m, m);
-        CHECK((vectors.transpose() * vectors - I).cwiseAbs().maxCoeff() < room);
+        CHECK((vectors.transpose() * vectors - I).cwiseAbs().maxCoeff() < tolerance);
         const Eigen::MatrixXd left = A / scale * vectors - vectors * (values / scale).asDiagonal();
-        CHECK(left.cwiseAbs().maxCoeff() < room);
+        CHECK(left.cwiseAbs().maxCoeff() < tolerance);
         for (Index i = 1; i < m; ++i) CHECK(values[i] >= values[i - 1]);
     }
     CHECK(taut::detail::small_spectrum(std::vector<double>(9, 0), 3).values ==

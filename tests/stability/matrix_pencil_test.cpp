@@ -194,10 +194,10 @@ TEST_CASE("matrix_pencil: multiply, quadratic, assemble and their errors", "[sta
                   64 * real_epsilon * v.cwiseAbs().dot(sizes * v.cwiseAbs()));
         Eigen::VectorXd y;
         pencil.multiply(c, u, y);
-        const RealVector room = sizes * v.cwiseAbs();
+        const RealVector magnitude = sizes * v.cwiseAbs();
         for (Index i = 0; i < y.size(); ++i) {
             CHECK(std::abs(static_cast<Real>(y[i]) - exact.row(i).dot(v)) <=
-                  static_cast<Real>(Tolerance<double>::rounding) * room[i]);
+                  static_cast<Real>(Tolerance<double>::rounding) * magnitude[i]);
         }
     }
 }

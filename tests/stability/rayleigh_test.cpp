@@ -20,7 +20,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Whether one mode is stable, by the 2 × 2 matrix's characteristic polynomial and Jury's
 /// conditions in long double; by a negative amount if not. A zero mode needs |1 − hd| ≤ 1 alone.
-Real room(Method method, double step, double mass_proportional, double alpha, double stiffness) {
+Real margin(Method method, double step, double mass_proportional, double alpha, double stiffness) {
     const Real h = step, k = stiffness;
     const Real d = static_cast<Real>(mass_proportional) + static_cast<Real>(alpha) * k;
     if (k == 0 && d == 0) return 1;
@@ -34,11 +34,11 @@ Real room(Method method, double step, double mass_proportional, double alpha, do
 }
 
 /// Over the whole spectrum; linear in k, yet looked at in between too.
-Real room(Method method, double h, double d0, double alpha, double k_min, double k_max) {
+Real margin(Method method, double h, double d0, double alpha, double k_min, double k_max) {
     Real least = 1e30L;
     for (const double part : {0.0, 1e-3, 0.1, 0.4, 0.8, 1.0}) {
         const double k = part == 1 ? k_max : k_min + part * (k_max - k_min);
-        least = std::min(least, room(method, h, d0, alpha, k));
+        least = std::min(least, margin(method, h, d0, alpha, k));
     }
     return least;
 }
@@ -81,7 +81,7 @@ TEST_CASE("rayleigh: every edge of the window, from both sides", "[stability]") 
                  << ", h = " << p.h << ", d0 = " << p.d0 << ", k in [" << p.k_min << ", " << p.k_max
                  << "]: " << window.lower << ", " << window.upper);
             const auto stable = [&](double alpha) {
-                return room(method, p.h, p.d0, alpha, p.k_min, p.k_max) > 0;
+                return margin(method, p.h, p.d0, alpha, p.k_min, p.k_max) > 0;
             };
             const double width = window.upper - window.lower;
             REQUIRE(width > 0);
@@ -115,7 +115,7 @@ TEST_CASE("rayleigh: every edge of the window, from both sides", "[stability]") 
             } else {
                 // Which end of the spectrum is it that fails first?
                 const double out = window.lower + (1 + 1e-6) * width;
-                ++(room(method, p.h, p.d0, out, p.k_max) < 0 ? upper_at_max : upper_at_min);
+                ++(margin(method, p.h, p.d0, out, p.k_max) < 0 ? upper_at_max : upper_at_min);
             }
         }
     });
@@ -164,7 +164,7 @@ TEST_CASE("rayleigh: an empty window has no stable alpha, and its reason is the 
             CHECK_FALSE(window.includes_zero);
             for (int i = 0; i <= 400; ++i) {
                 const double alpha = i == 0 ? 0 : p.h * std::exp2((i - 300) / 20.0);
-                CHECK_FALSE(room(method, p.h, p.d0, alpha, p.k_min, p.k_max) > 1e-12L);
+                CHECK_FALSE(margin(method, p.h, p.d0, alpha, p.k_min, p.k_max) > 1e-12L);
             }
             // A smaller step, or less of d0, is the cure that the reason names.
             if (window.empty == EmptyWindow::step_too_large) {
@@ -304,7 +304,7 @@ TEST_CASE("rayleigh: whatever a window contains is stable, to the last bit of it
                 if (!window.contains(alpha)) continue;
                 INFO(taut::name(method) << ", h = " << p.h << ", d0 = " << p.d0 << ", k in ["
                                         << p.k_min << ", " << p.k_max << "], alpha = " << alpha);
-                CHECK(room(method, p.h, p.d0, alpha, p.k_min, p.k_max) >= -noise);
+                CHECK(margin(method, p.h, p.d0, alpha, p.k_min, p.k_max) >= -noise);
             }
         }
     }

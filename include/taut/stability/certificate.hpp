@@ -14,7 +14,7 @@ namespace taut {
 struct DefinitenessProof {
     bool proved = false;  ///< false means not proved, never a disproof
     double shift = 0;     ///< subtracted from the diagonal to pay for all rounding, relative to it
-    double room = 0;  ///< least squared pivot of the unit-diagonal matrix: 1 is far from singular
+    double least_pivot = 0;  ///< squared, of the unit-diagonal matrix: 1 is far from singular
 };
 
 namespace detail {
@@ -85,7 +85,7 @@ DefinitenessProof Prover<Cholesky>::operator()(SparseMatrix<double>&& A, Error&&
     A.diagonal().array() -= proof.shift;
     ++factorizations_;
     proof.proved = cholesky_.factorize(A);
-    if (proof.proved) proof.room = cholesky_.least_pivot();
+    if (proof.proved) proof.least_pivot = cholesky_.least_pivot();
     return proof;
 }
 

@@ -48,9 +48,9 @@ namespace detail {
 /// the share that makes 2C − h(1 + 1/τ)CM⁻¹C ⪰ 0 and leaves 2β − ηβ² ≥ hλ of B, β = d0 + αλ.
 inline GraphDampingRange graph_damping_range(double h, double stiffness, double drag,
                                              double dampers) {
-    const double room = 1 - h * dampers / 2;
-    if (!(room > 0)) return {};
-    const double eta = h / room;
+    const double share = 1 - h * dampers / 2;
+    if (!(share > 0)) return {};
+    const double eta = h / share;
     // β at λ = 0, where it is d0, and at λ = ℓ: the condition is concave between.
     const double square = 1 - eta * h * stiffness;
     if (!(square >= 0) || !(eta * drag <= 2)) return {};

@@ -137,8 +137,8 @@ bool MatrixPencil<Scalar>::diagonally_dominant(const SparseMatrix<Real>& A) {
                 others = sum;
             }
         }
-        const Real room = exact ? 0 : count * std::numeric_limits<Real>::epsilon() * others;
-        if (!(diagonal >= others + room)) return false;
+        const Real rounding = exact ? 0 : count * std::numeric_limits<Real>::epsilon() * others;
+        if (!(diagonal >= others + rounding)) return false;
     }
     return true;
 }

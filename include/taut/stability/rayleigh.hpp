@@ -68,14 +68,14 @@ inline bool explicit_ends(bool is_explicit, double h, double d0, double k_min, d
         is_explicit && compression > 0 ? above(d0 + above(above(h * compression) / 2)) : d0;
     // The mode k = 0 sees d0 alone; with d0 ≥ 2/h only k_min > 0 can leave a window [T15]. One
     // rounding keeps the sign, which two would not.
-    const double room = std::fma(-h, d0_above, 2.0);
-    if (k_min == 0 && !(room > 0)) return false;
+    const double budget = std::fma(-h, d0_above, 2.0);
+    if (k_min == 0 && !(budget > 0)) return false;
     if (k_max == 0) {
         window = {0, std::numeric_limits<double>::infinity(), EmptyWindow::none, true};
         return true;
     }
     const auto upper_at = [&](double k) {
-        const double quotient = below(below(below(room) / h) / k);  // (2/h − d0)/k
+        const double quotient = below(below(below(budget) / h) / k);  // (2/h − d0)/k
         return below(is_explicit ? below(h / 2) + quotient : quotient - above(h / 2));
     };
     window.upper = upper_at(k_max);

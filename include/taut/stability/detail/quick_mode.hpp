@@ -43,7 +43,7 @@ private:
     struct Link {
         int a;  // particles_ when pinned
         int b;
-        float beside;  // axial − transverse
+        float difference;  // axial − transverse
         float transverse;
         Slot d;
     };
@@ -90,7 +90,7 @@ void SinglePrecisionSprings<Dim>::multiply(const Eigen::VectorXf& q, Eigen::Vect
     f_.setZero(u_.size());
     for (const Link& link : links_) {
         const Slot du = slot(u_, link.a) - slot(u_, link.b);
-        const Slot pull = link.transverse * du + (link.beside * link.d.dot(du)) * link.d;
+        const Slot pull = link.transverse * du + (link.difference * link.d.dot(du)) * link.d;
         slot(f_, link.a) += pull;
         slot(f_, link.b) -= pull;
     }
@@ -126,7 +126,7 @@ Eigen::VectorXf quick_vector(
     const Index N = q.size();
     Basis<float> Q(N, most);
     std::vector<double> alpha;  // diagonal of the tridiagonal QᵀAQ
-    std::vector<double> beta;   // beside it
+    std::vector<double> beta;   // its off-diagonal
     VectorX<Real> w;
     for (int j = 0; j < most; ++j) {
         Q.set(j, q);
@@ -140,12 +140,13 @@ Eigen::VectorXf quick_vector(
         alpha.push_back(along);
         beta.push_back(norm);
         if (j % 2 == 0 || j + 1 < least) continue;
-        const std::vector<double> beside(beta.begin(), beta.end() - 1);
+        const std::vector<double> off_diagonal(beta.begin(), beta.end() - 1);
         std::vector<double> last_row(alpha.size(), 0);
         last_row.back() = 1;
-        const auto ends = tridiagonal_spectrum(alpha, beside, last_row);
+        const auto ends = tridiagonal_spectrum(alpha, off_diagonal, last_row);
         if (beta.back() * std::abs(*ends.vector(j)) <= tolerance * ends.values.back()) {
-            const auto ritz = tridiagonal_spectrum(alpha, beside, small_identity(alpha.size()));
+            const auto ritz =
+                tridiagonal_spectrum(alpha, off_diagonal, small_identity(alpha.size()));
             return Q.sum(ritz.vector(j), j + 1);
         }
     }

@@ -13,9 +13,9 @@ namespace taut::detail {
 template <int Dim>
 bool proved_above(const Eigen::Matrix<double, Dim, Dim>& A, double sigma) {
     if (!(sigma > 1e-150 && sigma < 1e150)) return false;
-    const double room = 64 * std::numeric_limits<double>::epsilon() * sigma;
+    const double margin = 64 * std::numeric_limits<double>::epsilon() * sigma;
     Eigen::Matrix<double, Dim, Dim> L = -A;
-    L.diagonal().array() += sigma - room;
+    L.diagonal().array() += sigma - margin;
     for (int j = 0; j < Dim; ++j) {
         for (int k = 0; k < j; ++k) L(j, j) -= L(j, k) * L(j, k);
         if (!(L(j, j) > 0)) return false;
@@ -49,8 +49,8 @@ inline double cosine_eigenvalue(const Eigen::Matrix3d& A) {
 /// within 1e-6 of it relative to the norm.
 template <int Dim>
 double eigenvalue_upper_bound(const Eigen::Matrix<double, Dim, Dim>& A) {
-    constexpr double room = 1 + 64 * std::numeric_limits<double>::epsilon();
-    const double trace = A.trace() * room;  // a bound too, since no eigenvalue is negative
+    constexpr double margin = 1 + 64 * std::numeric_limits<double>::epsilon();
+    const double trace = A.trace() * margin;  // a bound too, since no eigenvalue is negative
     if constexpr (Dim == 1) {
         return trace;
     } else {
