@@ -84,6 +84,38 @@ TEST_CASE("lanczos: the small eigensolver's vectors are orthonormal and diagonal
           std::vector<double>(3, 0));
 }
 
+TEST_CASE("lanczos: of a tridiagonal matrix some rows of the eigenvectors alone are the same",
+          "[stability]") {
+    Random random(807);
+    for (int repeat = 0; repeat < 200; ++repeat) {
+        const auto m = static_cast<std::size_t>(1 + random.below(24));
+        std::vector<double> diagonal;
+        std::vector<double> off_diagonal;
+        for (std::size_t j = 0; j < m; ++j) diagonal.push_back(random.uniform(-1, 1));
+        // Some of them nothing: the matrix falls apart.
+        for (std::size_t j = 0; j + 1 < m; ++j)
+            off_diagonal.push_back(random.below(4) == 0 ? 0 : random.uniform(-1, 1));
+        const auto all = taut::detail::tridiagonal_spectrum(diagonal, off_diagonal,
+                                                            taut::detail::small_identity(m));
+        std::vector<double> last_row(m, 0);
+        last_row.back() = 1;
+        const auto last = taut::detail::tridiagonal_spectrum(diagonal, off_diagonal, last_row);
+        CHECK(last.values == all.values);
+        for (Index j = 0; j < static_cast<Index>(m); ++j) {
+            const double* u = all.vector(j);
+            CHECK(*last.vector(j) == u[m - 1]);
+            for (std::size_t i = 0; i < m; ++i) {
+                double product = (diagonal[i] - all.values[j]) * u[i];
+                if (i > 0) product += off_diagonal[i - 1] * u[i - 1];
+                if (i + 1 < m) product += off_diagonal[i] * u[i + 1];
+                CHECK_THAT(product, WithinAbs(0, rounding * static_cast<double>(m)));
+            }
+        }
+    }
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    CHECK(taut::detail::tridiagonal_spectrum({1, nan, 1}, {1, 1}, {1, 0, 0}).values.size() == 3);
+}
+
 TEST_CASE("lanczos: never above the largest eigenvalue, and there when the basis is whole",
           "[stability]") {
     Random random(800);
