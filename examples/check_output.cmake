@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 
 # The program (or several, with commas between) succeeds, and prints every line that the page quotes
-# ("    > …"), its numbers apart: these depend on the compiler's rounding.
+# ("    > …"), its numbers apart.
+include(${CMAKE_CURRENT_LIST_DIR}/without_numbers.cmake)
 string(REPLACE "," ";" programs "${program}")
 set(output "")
 foreach(program IN LISTS programs)
@@ -12,11 +13,6 @@ foreach(program IN LISTS programs)
     endif()
     string(APPEND output "${printed}")
 endforeach()
-
-function(without_numbers text result)
-    string(REGEX REPLACE "[-+]?[0-9][0-9.]*(e[-+]?[0-9]+)?" "#" text "${text}")
-    set(${result} "${text}" PARENT_SCOPE)
-endfunction()
 
 without_numbers("${output}" printed)
 file(STRINGS ${page} quoted REGEX "^    > ")
