@@ -13,7 +13,7 @@ enum class Method {
     velocity_verlet,
     implicit_euler,
     bdf2,
-    last = bdf2  ///< another name of the last one; visit.hpp compares its list with it
+    last = bdf2  ///< the last method above; move it when you add one, at the end
 };
 
 /// The older name, of those whose cost and error are compared.
@@ -36,7 +36,8 @@ inline constexpr bool is_absent_v = std::is_same_v<std::remove_cv_t<T>, Absent>;
 
 // What holds a step down at one pose: a descriptor's `Limit`. Stability has one proof for each.
 
-/// Stable only where damping outweighs hK [T8], [T17].
+/// Explicit Euler's two conditions, D − hK ≻ 0 and 4M − 2hD + h²K ≻ 0 [T8], [T17]. Not those of
+/// other explicit methods.
 struct LimitedByDamping {};
 /// 4M − 2hD − h²K ≻ 0 [T10], [T19].
 struct LimitedByStiffness {};

@@ -42,7 +42,7 @@ struct StepDamping {
     double total() const { return look_ahead + graph; }
     /// At steps of h: both in s.
     StepDamping times(double h) const { return {h * look_ahead, h * graph}; }
-    /// The same to first order in the velocities, but for compressed springs, whose K is not K⁺.
+    /// As damping in proportion to K⁺: the same for small velocities, except in compressed springs.
     StiffnessDamping<double> linearized() const { return {look_ahead, graph}; }
 };
 

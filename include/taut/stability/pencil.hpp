@@ -49,7 +49,8 @@ template <class Scalar>
 using TangentReal = std::conditional_t<std::is_same_v<Scalar, float>, double, Scalar>;
 
 /// M, D, K of the free degrees of freedom, as the analysis needs them: in double, from springs or
-/// from matrices, as an operator, its quotients and its bounds. S stands for a Combination.
+/// from matrices, as an operator, its quotients and its bounds. S is a sum such as 4M − 2hD − h²K,
+/// see Combination.
 class Pencil {
 public:
     virtual ~Pencil() = default;

@@ -29,7 +29,7 @@ public:
     const StepDamping& damping() const { return options_.damping; }
 
     /// @param update  update(x, v, a, h): x and v, of one step, by the acceleration a = M⁻¹f(x, v);
-    ///                arrays or registers
+    ///                arrays or registers. A method that needs two accelerations cannot use this
     template <class AnyState, class Update>
     Report run(const System& system, AnyState& state, Scalar h, Index count, const Update& update) {
         [[maybe_unused]] const auto added = options_.damping.times(static_cast<double>(h));

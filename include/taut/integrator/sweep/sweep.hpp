@@ -29,9 +29,9 @@
 //            tile by tile
 //
 // A tile is what the first cache holds: the tile's springs put their forces there, and the update
-// takes them out again at once. A spring goes with the tile of its end a, the lower place, so when
-// a tile is done, so are all springs on it: they are its own and those of tiles before it. One that
-// comes from an earlier block goes with the first tile of the block.
+// takes them out again at once. A spring is computed with the tile of a, its lower end. So once a
+// tile is done, every spring that touches it has been computed: its own and those of tiles before.
+// One that comes from an earlier block goes with the first tile of the block.
 //
 //
 // 3. Runs, gaps, segments
@@ -44,10 +44,10 @@
 //
 // Springs of one offset b - a and ascending a are a run: their ends lie side by side and need no
 // index. A grid is a handful of runs. Where a row ends, the run goes on over a gap (.), which is
-// computed like a spring and gives no force; fewer than 16 springs (so small a grid has no run), or
-// more gaps than springs, are not worth it. A segment is what one tile takes of a run. Where
-// springs leave their block there are two: one adds the forces on the ends a, in the tile of a; the
-// other those on the ends b, in the block of b.
+// computed like a spring and gives no force; fewer than 16 springs make no run, nor
+// do springs with more gaps than springs between them. A segment is what one tile takes of a run.
+// Where springs leave their block there are two: one adds the forces on the ends a, in the tile of
+// a; the other those on the ends b, in the block of b.
 //
 //
 // 4. What a thread reads and writes

@@ -42,7 +42,7 @@ StepLimit<Scalar> rounded(const UnroundedLimit& limit, std::uint64_t revision) {
     return answer;
 }
 
-/// How much Stability::max_step may spend: bounds alone …
+/// An effort, which is how much a search may spend: bounds alone …
 struct Bounds {
     static constexpr bool factorises = false;
 };

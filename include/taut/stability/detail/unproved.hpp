@@ -17,9 +17,10 @@ bool claims(const StepLimit<Scalar>& limit) {
     return limit.certified > 0 || limit.certified_up_to > 0;
 }
 
-/// What is semi-definite but for `rate`, 1/s, is enough for an answer of another name: multipliers
-/// stay below 1 + h·rate [T17], those of implicit Euler below 1/(1 − h·rate), which is less than
-/// e^(2h·rate) while h·rate ≤ ½. Rates add up where they meet in one vector.
+/// Where a matrix is semi-definite only up to `rate`, 1/s, times M, the answer goes to
+/// certified_up_to in place of certified: multipliers stay below 1 + h·rate [T17], those of
+/// implicit Euler below 1/(1 − h·rate), which is less than e^(2h·rate) while h·rate ≤ ½. Rates add
+/// up where they meet in one vector.
 template <class Scalar>
 void admit(Method method, double rate, StepLimit<Scalar>& limit) {
     limit.admitted_growth += is_implicit(method) ? 2 * rate : rate;
