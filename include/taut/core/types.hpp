@@ -15,6 +15,8 @@ using Points = Eigen::Matrix<Scalar, Dim, Eigen::Dynamic>;
 
 template <class Scalar>
 using VectorX = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+template <class Scalar>
+using MatrixX = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// Compressed columns with 32-bit indices: what Eigen's and SuiteSparse's factorisations read.
 template <class Scalar>

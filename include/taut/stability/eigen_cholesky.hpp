@@ -11,33 +11,39 @@
 namespace taut {
 
 /// Eigen's simplicial LLᵀ as certificates use it: scalar operations only, in an order that [T22]
-/// covers, and the width of the factor's rows known before it is computed.
-class EigenCholesky : private Eigen::SimplicialLLT<SparseMatrix<double>> {
-    using Base = Eigen::SimplicialLLT<SparseMatrix<double>>;
+/// covers, and the width of the factor's rows known before it is computed. See EigenCholesky.
+template <class Real>  // a template: only its callers compile the factorisation
+class SimplicialCholesky : private Eigen::SimplicialLLT<SparseMatrix<Real>> {
+    using Base = Eigen::SimplicialLLT<SparseMatrix<Real>>;
+    using Base::m_matrix;
+    using Base::m_P;
 
 public:
     /// Analyses the pattern of a symmetric matrix, both triangles stored.
     /// @returns the most nonzeros in a row of the factor, the diagonal counted
-    Index analyze(const SparseMatrix<double>& A) {
+    Index analyze(const SparseMatrix<Real>& A) {
         Base::analyzePattern(A);
         const bool ordered = m_P.size() > 0;
         return detail::widest_factor_row(
             A, [&](Index i) { return ordered ? Index(m_P.indices()[i]) : i; });
     }
     /// @returns whether the factorisation ran to completion
-    bool factorize(const SparseMatrix<double>& A) {
+    bool factorize(const SparseMatrix<Real>& A) {
         Base::factorize(A);
         // A NaN passes Eigen's own test for a positive pivot.
         return Base::info() == Eigen::Success && m_matrix.diagonal().sum() > 0 &&
                std::isfinite(m_matrix.diagonal().sum());
     }
     /// The smallest squared pivot.
-    double least_pivot() const {
+    Real least_pivot() const {
         const auto diagonal = m_matrix.diagonal();
-        double least = diagonal[0];
+        Real least = diagonal[0];
         for (Index i = 1; i < diagonal.size(); ++i) least = std::min(least, diagonal[i]);
         return least * least;
     }
 };
+
+/// The default factorisation behind proofs.
+using EigenCholesky = SimplicialCholesky<double>;
 
 }  // namespace taut

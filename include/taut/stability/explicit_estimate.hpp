@@ -25,43 +25,43 @@ Real explicit_estimate(const Pencil& pencil, Real k_max) {
     constexpr double good = 0.1;   // residual over |λ| of the vectors that count
     constexpr double zero = 1e-5;  // |λ| of zero modes over √k_max
     const Index N = pencil.size();
-    const Eigen::VectorXd root = pencil.mass().cwiseSqrt();
+    const VectorX<Real> root = pencil.mass().cwiseSqrt();
     const double omega = std::sqrt(k_max);
     const double sigma = 0.1 * zero * omega;
     // y = (ωx; v) in the coordinates √M x: C = [[0, ω], [−K'/ω, −D']].
-    const auto times = [&](const Combination& c, const Eigen::VectorXd& x) {
-        Eigen::VectorXd y(N);
+    const auto times = [&](const Combination& c, const VectorX<Real>& x) {
+        VectorX<Real> y(N);
         pencil.multiply(c, x.cwiseQuotient(root), y);
-        return Eigen::VectorXd(y.cwiseQuotient(root));
+        return VectorX<Real>(y.cwiseQuotient(root));
     };
-    const auto forwards = [&](const Eigen::VectorXd& y) {
-        Eigen::VectorXd Cy(2 * N);
+    const auto forwards = [&](const VectorX<Real>& y) {
+        VectorX<Real> Cy(2 * N);
         Cy << omega * y.tail(N),
             -times(1 / omega * matrices::K, y.head(N)) - times(matrices::D, y.tail(N));
         return Cy;
     };
-    const Eigen::SimplicialLLT<SparseMatrix<double>> shifted(
+    const Eigen::SimplicialLLT<SparseMatrix<Real>> shifted(
         pencil.assemble(sigma * sigma * matrices::M + sigma * matrices::D + matrices::K));
     if (shifted.info() != Eigen::Success) return std::numeric_limits<double>::quiet_NaN();
-    const auto backwards = [&](const Eigen::VectorXd& y) {
+    const auto backwards = [&](const VectorX<Real>& y) {
         // (σ²M + σD + K)x = −(r + (D + σM)a) with v = a + σx, for (C − σ)(ωx; v) = (ωa; r).
-        const Eigen::VectorXd a = y.head(N) / omega;
-        const Eigen::VectorXd load = -y.tail(N) - times(sigma * matrices::M + matrices::D, a);
-        const Eigen::VectorXd x =
-            root.cwiseProduct(shifted.solve(Eigen::VectorXd(root.cwiseProduct(load))));
-        Eigen::VectorXd solution(2 * N);
+        const VectorX<Real> a = y.head(N) / omega;
+        const VectorX<Real> load = -y.tail(N) - times(sigma * matrices::M + matrices::D, a);
+        const VectorX<Real> x =
+            root.cwiseProduct(shifted.solve(VectorX<Real>(root.cwiseProduct(load))));
+        VectorX<Real> solution(2 * N);
         solution << omega * x, a + sigma * x;
         return solution;
     };
     double h = std::numeric_limits<double>::infinity();
-    const auto lower = [&](const detail::ComplexRitzPairs<double>& pairs, auto&& eigenvalue) {
+    const auto lower = [&](const detail::ComplexRitzPairs<Real>& pairs, auto&& eigenvalue) {
         for (Index j = 0; j < pairs.value.size(); ++j) {
-            const std::complex<double> lambda = eigenvalue(pairs.value[j]);
+            const std::complex<Real> lambda = eigenvalue(pairs.value[j]);
             if (!(std::abs(lambda) > zero * omega)) continue;
             if (pairs.residual[j] > good * std::abs(pairs.value[j])) continue;
             // The quotients of the vector are better than the real part of its value: they err in
             // proportion to themselves.
-            const Eigen::VectorXcd x = pairs.vector(j).head(N);
+            const VectorX<std::complex<Real>> x = pairs.vector(j).head(N);
             const auto form = [&](const Combination& c) {
                 return pencil.quadratic(c, x.real().cwiseQuotient(root)).value +
                        pencil.quadratic(c, x.imag().cwiseQuotient(root)).value;
@@ -71,10 +71,10 @@ Real explicit_estimate(const Pencil& pencil, Real k_max) {
                                           form(matrices::D) / m));
         }
     };
-    lower(detail::arnoldi(forwards, 2 * N, steps),
-          [](std::complex<double> value) { return value; });
-    lower(detail::arnoldi(backwards, 2 * N, steps),
-          [&](std::complex<double> value) { return sigma + 1.0 / value; });
+    lower(detail::arnoldi<Real>(forwards, 2 * N, steps),
+          [](std::complex<Real> value) { return value; });
+    lower(detail::arnoldi<Real>(backwards, 2 * N, steps),
+          [&](std::complex<Real> value) { return sigma + 1.0 / value; });
     return h;
 }
 

@@ -30,17 +30,18 @@ namespace detail {
 
 /// The multiplier μ, Im μ ≥ 0, that evenly spaced samples of one swing follow: least squares on
 /// a_{j+1} = t·a_j − q·a_{j−1} (R. de Prony, 1795). Nothing where the fit has real roots.
-inline std::optional<std::complex<double>> fitted_multiplier(const Eigen::VectorXd& samples) {
+template <class Real = double>  // a template: only its callers compile the expressions
+std::optional<std::complex<double>> fitted_multiplier(const VectorX<Real>& samples) {
     const Index rows = samples.size() - 2;
     if (rows < 2 || !samples.allFinite()) return std::nullopt;
     // In ε = μ − 1, from second and first differences, so that slow swings lose no digits.
-    const Eigen::VectorXd value = samples.segment(1, rows);
-    const Eigen::VectorXd first = value - samples.head(rows);
-    const Eigen::VectorXd second = samples.tail(rows) - value - first;
+    const VectorX<Real> value = samples.segment(1, rows);
+    const VectorX<Real> first = value - samples.head(rows);
+    const VectorX<Real> second = samples.tail(rows) - value - first;
     // a_{j+1} − 2a_j + a_{j−1} = a(a_j − a_{j−1}) + b·a_j with q = 1 + a, t = 2 + a + b, by Gram
     // and Schmidt.
     const double share = value.dot(first) / value.squaredNorm();
-    const Eigen::VectorXd rest = first - share * value;
+    const VectorX<Real> rest = first - share * value;
     const double a = rest.dot(second) / rest.squaredNorm();
     const double b = value.dot(second - a * first) / value.squaredNorm();
     const double q = 1 + a;
@@ -110,7 +111,7 @@ std::optional<ModeError> measured_mode_error(const LinearSystem<Scalar>& system,
         }
     });
     if (!alive) return std::nullopt;
-    const auto mu = detail::fitted_multiplier(swing);
+    const auto mu = detail::fitted_multiplier<double>(swing);
     if (!mu) return std::nullopt;
     const std::complex<double> rate = std::log(*mu) / (static_cast<double>(stride) * z);
     const double frequency = std::sqrt(std::max(0.0, (1 - mode.zeta) * (1 + mode.zeta)));

@@ -18,27 +18,26 @@ struct ComplexRitzPairs {
     using Complex = std::complex<Real>;
     VectorX<Complex> value;
     VectorX<Real> residual;  ///< the norm of Az − value·z for each vector z of unit length
-    Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic> basis;  ///< n × m, orthonormal
-    Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic>
-        inner;  ///< m × m: the vectors in the basis
+    MatrixX<Real> basis;     ///< n × m, orthonormal
+    MatrixX<Complex> inner;  ///< m × m: the vectors in the basis
 
     VectorX<Complex> vector(Index j) const { return basis * inner.col(j); }
 };
 
 /// Arnoldi's process without restart (W. E. Arnoldi 1951). @param apply  y = apply(q), both n
-template <class Apply>
-ComplexRitzPairs<double> arnoldi(Apply&& apply, Index n, Index steps) {
+template <class Real, class Apply>
+ComplexRitzPairs<Real> arnoldi(Apply&& apply, Index n, Index steps) {
     Index m = std::min(steps, n);
-    Eigen::MatrixXd Q(n, m);
-    Eigen::MatrixXd H = Eigen::MatrixXd::Zero(m, m);  // QᵀAQ
-    Eigen::VectorXd q = scattered_vector(n).normalized();
-    double next = 0;
+    MatrixX<Real> Q(n, m);
+    MatrixX<Real> H = MatrixX<Real>::Zero(m, m);  // QᵀAQ
+    VectorX<Real> q = VectorX<Real>(scattered_vector(n)).normalized();
+    Real next = 0;
     for (Index j = 0; j < m; ++j) {
         Q.col(j) = q;
-        Eigen::VectorXd w = apply(q);
-        const double norm = w.norm();
+        VectorX<Real> w = apply(q);
+        const Real norm = w.norm();
         for (int pass = 0; pass < 2; ++pass) {
-            const Eigen::VectorXd h = Q.leftCols(j + 1).transpose() * w;
+            const VectorX<Real> h = Q.leftCols(j + 1).transpose() * w;
             w.noalias() -= Q.leftCols(j + 1) * h;
             H.col(j).head(j + 1) += h;
         }
@@ -52,8 +51,8 @@ ComplexRitzPairs<double> arnoldi(Apply&& apply, Index n, Index steps) {
         }
     }
     H.conservativeResize(m, m);  // a block would have the eigensolver compiled a second time
-    const Eigen::EigenSolver<Eigen::MatrixXd> projected(H);
-    ComplexRitzPairs<double> pairs;
+    const Eigen::EigenSolver<MatrixX<Real>> projected(H);
+    ComplexRitzPairs<Real> pairs;
     pairs.value = projected.eigenvalues();
     pairs.inner = projected.eigenvectors();
     pairs.residual = next * pairs.inner.row(m - 1).cwiseAbs();

@@ -14,7 +14,7 @@
 
 namespace taut::detail {
 
-// Templates, though of one type: only their callers compile the eigensolvers.
+// Templates, though of one type: only their callers compile the eigensolvers and the expressions.
 
 inline constexpr Index dense_low_modes = 600;  // unknowns up to which a dense eigensolver is used
 
@@ -25,13 +25,13 @@ inline constexpr Index dense_low_modes = 600;  // unknowns up to which a dense e
 /// mechanisms a net has, and largest on the softest modes above them; modes softer than 1e-7·k_max
 /// are among these. One of several modes with the same frequency may stand for all of them.
 template <class Real = double>
-Eigen::MatrixXd low_modes(const Pencil& pencil) {
+MatrixX<Real> low_modes(const Pencil& pencil) {
     const Index N = pencil.size();
     if (N == 0) return {};
-    const Eigen::VectorXd root = pencil.mass().cwiseSqrt();
+    const VectorX<Real> root = pencil.mass().cwiseSqrt();
     if (N <= dense_low_modes) {
-        const DenseAnalysis<> dense(pencil);
-        Eigen::MatrixXd U(N, N);
+        const DenseAnalysis<Real> dense(pencil);
+        MatrixX<Real> U(N, N);
         Index r = 0;
         for (Index j = 0; j < N; ++j) {
             if (dense.stiffness_eigenvalues()[j] > dense.zero_tolerance())
@@ -44,17 +44,17 @@ Eigen::MatrixXd low_modes(const Pencil& pencil) {
     constexpr double good = 1e-4;  // residual over value
     const double sigma = 1e-7 * std::max(0.0, pencil.upper_bound(matrices::K_plus));
     if (!(sigma > 0)) return {};
-    const Eigen::SimplicialLLT<SparseMatrix<double>> shifted(
+    const Eigen::SimplicialLLT<SparseMatrix<Real>> shifted(
         pencil.assemble(matrices::K_plus + sigma * matrices::M));
     if (shifted.info() != Eigen::Success) return {};
-    const auto B = [&](const Eigen::VectorXd& q) {
-        Eigen::VectorXd x = shifted.solve(Eigen::VectorXd(root.cwiseProduct(q)));
-        x = shifted.solve(Eigen::VectorXd(pencil.mass().cwiseProduct(x)));
-        Eigen::VectorXd y;
+    const auto B = [&](const VectorX<Real>& q) {
+        VectorX<Real> x = shifted.solve(VectorX<Real>(root.cwiseProduct(q)));
+        x = shifted.solve(VectorX<Real>(pencil.mass().cwiseProduct(x)));
+        VectorX<Real> y;
         pencil.multiply(matrices::K_plus, x, y);
-        return Eigen::VectorXd(y.cwiseQuotient(root));
+        return VectorX<Real>(y.cwiseQuotient(root));
     };
-    const auto pairs = arnoldi(B, N, steps);
+    const auto pairs = arnoldi<Real>(B, N, steps);
     std::vector<std::pair<double, Index>> soft;
     for (Index j = 0; j < pairs.value.size(); ++j) {
         const double value = pairs.value[j].real();
@@ -62,7 +62,7 @@ Eigen::MatrixXd low_modes(const Pencil& pencil) {
     }
     std::sort(soft.begin(), soft.end());
     const Index r = std::min(most, static_cast<Index>(soft.size()));
-    Eigen::MatrixXd U(N, r);
+    MatrixX<Real> U(N, r);
     for (Index j = 0; j < r; ++j) {
         U.col(j) = pairs.vector(soft[static_cast<std::size_t>(j)].second).real();
         U.col(j) = U.col(j).normalized().cwiseQuotient(root);
@@ -72,10 +72,10 @@ Eigen::MatrixXd low_modes(const Pencil& pencil) {
 
 /// An orthonormal basis of what the columns span.
 template <class Real = double>
-Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& U) {
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(U);
+MatrixX<Real> orthonormal(const MatrixX<Real>& U) {
+    Eigen::ColPivHouseholderQR<MatrixX<Real>> qr(U);
     qr.setThreshold(1e-8);
-    return qr.householderQ() * Eigen::MatrixXd::Identity(U.rows(), qr.rank());
+    return qr.householderQ() * MatrixX<Real>::Identity(U.rows(), qr.rank());
 }
 
 /// The relative change of up to ten of the lowest frequencies above the zero modes from one pencil
@@ -83,27 +83,27 @@ Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& U) {
 /// of both, so that a mode missed on one side is found on the other.
 template <class Real = double>
 std::vector<double> frequency_changes(const Pencil& before, const Pencil& after) {
-    const Eigen::MatrixXd low = low_modes(before);
-    const Eigen::MatrixXd low_after = low_modes(after);
+    const MatrixX<Real> low = low_modes<Real>(before);
+    const MatrixX<Real> low_after = low_modes<Real>(after);
     if (low.cols() == 0 || low_after.cols() == 0) return {};
-    Eigen::MatrixXd both(low.rows(), low.cols() + low_after.cols());
+    MatrixX<Real> both(low.rows(), low.cols() + low_after.cols());
     both << low.colwise().normalized(), low_after.colwise().normalized();
-    const Eigen::MatrixXd U = orthonormal(both);
-    Eigen::MatrixXd KU(U.rows(), U.cols());
-    Eigen::VectorXd y;
+    const MatrixX<Real> U = orthonormal<Real>(both);
+    MatrixX<Real> KU(U.rows(), U.cols());
+    VectorX<Real> y;
     for (Index j = 0; j < U.cols(); ++j) {
         before.multiply(matrices::K_plus, U.col(j), y);
         KU.col(j) = y;
     }
-    const Eigen::MatrixXd K = U.transpose() * KU;
+    const MatrixX<Real> K = U.transpose() * KU;
     const auto eigenvalues = [&](const Pencil& pencil) {
-        const Eigen::MatrixXd M = U.transpose() * pencil.mass().asDiagonal() * U;
-        const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(
-            K, M, Eigen::EigenvaluesOnly);
-        return Eigen::VectorXd(modes.eigenvalues());
+        const MatrixX<Real> M = U.transpose() * pencil.mass().asDiagonal() * U;
+        const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX<Real>> modes(K, M,
+                                                                            Eigen::EigenvaluesOnly);
+        return VectorX<Real>(modes.eigenvalues());
     };
-    const Eigen::VectorXd k = eigenvalues(before);
-    const Eigen::VectorXd k_after = eigenvalues(after);
+    const VectorX<Real> k = eigenvalues(before);
+    const VectorX<Real> k_after = eigenvalues(after);
     const double zero = 1e-10 * k[k.size() - 1];
     std::vector<double> change;
     for (Index j = 0; j < k.size() && change.size() < 10; ++j) {
