@@ -47,18 +47,18 @@ struct Promise {
     double scale = 0;
     double rounding = 0;  // of the last frame's end
 
-    void open(const taut::detail::EnergyBooks& books) {
+    void open(const taut::integrator_detail::EnergyBooks& books) {
         granted = swing * books.owned();
         rounding = books.rounding;
     }
     /// Whoever touches the scene changes E by so much.
-    void touch(double before, const taut::detail::EnergyBooks& books) {
+    void touch(double before, const taut::integrator_detail::EnergyBooks& books) {
         granted += swing * std::abs(books.owned() - before);
         rounding = books.rounding;
     }
     /// @param work  gravity's included, as kept energy counts it, J
-    void check(double start, double fallen, const taut::detail::EnergyBooks& books, double work,
-               double outside, double span) {
+    void check(double start, double fallen, const taut::integrator_detail::EnergyBooks& books,
+               double work, double outside, double span) {
         scale = std::max(scale, start + std::max(0.0, fallen) + std::abs(outside));
         granted += yield * work;
         const double most = granted + yield * (slack * scale + rounding + books.rounding);
@@ -88,9 +88,9 @@ void run_guard(System& system, typename System::State state, Bytes& bytes) {
         promise.yield = 2;
     }
     typename System::Force f;
-    taut::detail::PinWork<System> pins;
+    taut::integrator_detail::PinWork<System> pins;
     const auto books = [&] {
-        return taut::detail::energy_books(system, state, Guard::method, pins, f);
+        return taut::integrator_detail::energy_books(system, state, Guard::method, pins, f);
     };
     const auto frame = static_cast<Scalar>(bytes.positive());
     if (!(options.max_step > 0)) return;

@@ -59,7 +59,8 @@ double growth(const Cloth& cloth, const Cloth::State& start, double h, Index ste
 Cloth::State disturbed(const Cloth& cloth) {
     auto state = cloth.initial_state();
     const taut::LinearSystem<double> linear = cloth.linearize(state);
-    const Eigen::VectorXd push = linear.stiffness() * taut::detail::scattered_vector(linear.size());
+    const Eigen::VectorXd push =
+        linear.stiffness() * taut::stability_detail::scattered_vector(linear.size());
     auto u = linear.to_free(state);
     u.x = 1e-7 / push.norm() * push.transpose();
     linear.from_free(u, state);

@@ -30,31 +30,31 @@
 // like -mavx: a program that does not agree lacks a symbol named compiled_for. TAUT_USER_CONFIG and
 // -fopenmp are those of the library.
 
-#define TAUT_COMPILED_ANALYSIS(KIND, SCALAR)                                         \
-    KIND class MatrixPencil<SCALAR>;                                                 \
-    KIND struct SpringSet<SCALAR, Hookean>;                                          \
-    KIND struct SpringSet<SCALAR, TensionOnly>;                                      \
-    KIND struct SpringSet<SCALAR, Buckling>;                                         \
-    KIND SpringSystem<SCALAR, 3> hanging_cloth<SCALAR>(const ClothOptions&);         \
-    KIND class Stability<SCALAR>;                                                    \
-    KIND StepLimit<SCALAR> Stability<SCALAR>::bracket(Method, detail::Bounds) const; \
-    KIND StepLimit<SCALAR> Stability<SCALAR>::bracket(                               \
-        Method, detail::Factorisations<EigenCholesky>) const;
+#define TAUT_COMPILED_ANALYSIS(KIND, SCALAR)                                                   \
+    KIND class MatrixPencil<SCALAR>;                                                           \
+    KIND struct SpringSet<SCALAR, Hookean>;                                                    \
+    KIND struct SpringSet<SCALAR, TensionOnly>;                                                \
+    KIND struct SpringSet<SCALAR, Buckling>;                                                   \
+    KIND SpringSystem<SCALAR, 3> hanging_cloth<SCALAR>(const ClothOptions&);                   \
+    KIND class Stability<SCALAR>;                                                              \
+    KIND StepLimit<SCALAR> Stability<SCALAR>::bracket(Method, stability_detail::Bounds) const; \
+    KIND StepLimit<SCALAR> Stability<SCALAR>::bracket(                                         \
+        Method, stability_detail::Factorisations<EigenCholesky>) const;
 
-#define TAUT_COMPILED_SOLVERS(KIND, SCALAR)             \
-    KIND class InterleavedLLT<SCALAR>;                  \
-    KIND class IncompleteCholesky<SCALAR, 1>;           \
-    KIND class IncompleteCholesky<SCALAR, 2>;           \
-    KIND class IncompleteCholesky<SCALAR, 3>;           \
-    KIND class ConjugateGradient<SCALAR, 1>;            \
-    KIND class ConjugateGradient<SCALAR, 2>;            \
-    KIND class ConjugateGradient<SCALAR, 3>;            \
-    KIND class ParticleConstraints<SCALAR, 1>;          \
-    KIND class ParticleConstraints<SCALAR, 2>;          \
-    KIND class ParticleConstraints<SCALAR, 3>;          \
-    KIND class detail::ConstraintProjection<SCALAR, 1>; \
-    KIND class detail::ConstraintProjection<SCALAR, 2>; \
-    KIND class detail::ConstraintProjection<SCALAR, 3>; \
+#define TAUT_COMPILED_SOLVERS(KIND, SCALAR)                        \
+    KIND class InterleavedLLT<SCALAR>;                             \
+    KIND class IncompleteCholesky<SCALAR, 1>;                      \
+    KIND class IncompleteCholesky<SCALAR, 2>;                      \
+    KIND class IncompleteCholesky<SCALAR, 3>;                      \
+    KIND class ConjugateGradient<SCALAR, 1>;                       \
+    KIND class ConjugateGradient<SCALAR, 2>;                       \
+    KIND class ConjugateGradient<SCALAR, 3>;                       \
+    KIND class ParticleConstraints<SCALAR, 1>;                     \
+    KIND class ParticleConstraints<SCALAR, 2>;                     \
+    KIND class ParticleConstraints<SCALAR, 3>;                     \
+    KIND class integrator_detail::ConstraintProjection<SCALAR, 1>; \
+    KIND class integrator_detail::ConstraintProjection<SCALAR, 2>; \
+    KIND class integrator_detail::ConstraintProjection<SCALAR, 3>; \
     KIND class LinearSystem<SCALAR>;
 
 #define TAUT_COMPILED_PENCILS(KIND)                                                         \
@@ -105,7 +105,7 @@
     KIND Guarded<STEPPER<SpringSystem<__VA_ARGS__>>>::Guarded(const SpringSystem<__VA_ARGS__>&, \
                                                               const Options&);                  \
     KIND GuardedReport<SCALAR> Guarded<STEPPER<SpringSystem<__VA_ARGS__>>>::advance(            \
-        State&, Scalar, detail::NoResponse&&);
+        State&, Scalar, integrator_detail::NoResponse&&);
 
 #define TAUT_COMPILED_GUARDS(KIND, SCALAR, DIM, ...)                \
     TAUT_COMPILED_GUARD(KIND, SymplecticEuler, SCALAR, __VA_ARGS__) \

@@ -20,14 +20,14 @@ TEST_CASE("cache_order: the order of a shuffled grid is a permutation that bring
     for (std::size_t i = name.size() - 1; i > 0; --i) {
         std::swap(name[i], name[static_cast<std::size_t>(random.below(static_cast<Index>(i) + 1))]);
     }
-    std::vector<taut::detail::sweep::Edge> edges;
+    std::vector<taut::integrator_detail::sweep::Edge> edges;
     for (int r = 0; r < side; ++r) {
         for (int c = 0; c < side; ++c) {
             if (c + 1 < side) edges.emplace_back(name[r * side + c], name[r * side + c + 1]);
             if (r + 1 < side) edges.emplace_back(name[r * side + c], name[(r + 1) * side + c]);
         }
     }
-    const auto order = taut::detail::sweep::cache_order(side * side, edges);
+    const auto order = taut::integrator_detail::sweep::cache_order(side * side, edges);
     auto sorted = order;
     std::sort(sorted.begin(), sorted.end());
     for (int i = 0; i < side * side; ++i) REQUIRE(sorted[i] == i);
@@ -39,7 +39,7 @@ TEST_CASE("cache_order: the order of a shuffled grid is a permutation that bring
 }
 
 TEST_CASE("cache_order: particles without springs keep a place of their own", "[integrator]") {
-    const auto order = taut::detail::sweep::cache_order(5, {{1, 3}});
+    const auto order = taut::integrator_detail::sweep::cache_order(5, {{1, 3}});
     auto sorted = order;
     std::sort(sorted.begin(), sorted.end());
     CHECK(sorted == std::vector<int>{0, 1, 2, 3, 4});

@@ -11,9 +11,9 @@
 namespace taut_test::energy_account_test {
 
 using taut::Method;
-using taut::detail::EnergyAccount;
-using taut::detail::EnergyBooks;
-using taut::detail::EnergyTerms;
+using taut::integrator_detail::EnergyAccount;
+using taut::integrator_detail::EnergyBooks;
+using taut::integrator_detail::EnergyTerms;
 
 namespace {
 

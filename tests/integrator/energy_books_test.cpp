@@ -14,15 +14,15 @@
 namespace taut_test::energy_books_test {
 
 using taut::Method;
-using taut::detail::energy_books;
-using taut::detail::EnergyBooks;
+using taut::integrator_detail::energy_books;
+using taut::integrator_detail::EnergyBooks;
 
 namespace {
 
 template <class System>
 EnergyBooks books_of(const System& system, const typename System::State& state, Method method) {
     typename System::Force f;
-    taut::detail::PinWork<System> pins;
+    taut::integrator_detail::PinWork<System> pins;
     return energy_books(system, state, method, pins, f);
 }
 
@@ -40,7 +40,7 @@ Balance balance(const System& system, typename System::State state, double share
         share * static_cast<double>(taut::any_pose_limit(system).certified));
     const auto step = static_cast<double>(h);
     const double start = books_of(system, state, method).kept(method, step);
-    taut::detail::WorkMeter<System, taut::method::Of<method>> meter;
+    taut::integrator_detail::WorkMeter<System, taut::method::Of<method>> meter;
     meter.start(step, 1);
     Stepper stepper(system);
     Balance result;

@@ -15,12 +15,12 @@ TEST_CASE("force_plan: planes give back the points they took, whatever the order
     options.springs = 200;
     const auto check = [&](const auto& system) {
         using System = std::decay_t<decltype(system)>;
-        taut::detail::sweep::ForcePlan<System> plan;
+        taut::integrator_detail::sweep::ForcePlan<System> plan;
         CHECK(plan.update(system));
         CHECK_FALSE(plan.update(system));
         const auto state = random_state(random, system);
         std::vector<double> memory(static_cast<std::size_t>(3 * plan.stride()));
-        const taut::detail::sweep::Planes<double> planes{memory.data(), plan.stride()};
+        const taut::integrator_detail::sweep::Planes<double> planes{memory.data(), plan.stride()};
         plan.to_planes(state.x, planes);
         auto back = state;
         back.x.setZero();
@@ -35,7 +35,7 @@ TEST_CASE("force_plan: it changes with the springs and not with masses or dampin
           "[integrator]") {
     Random random(53);
     auto system = random_system<double, 3>(random);
-    taut::detail::sweep::ForcePlan<taut::SpringSystem<double, 3>> plan;
+    taut::integrator_detail::sweep::ForcePlan<taut::SpringSystem<double, 3>> plan;
     CHECK(plan.update(system));
     system.set_mass(3, 2);
     system.set_rayleigh({0, 0.1});

@@ -20,7 +20,7 @@ namespace taut_test::modal_dynamics_test {
 using taut::LinearSystem;
 using taut::ModalBasis;
 using taut::ModalDynamics;
-using taut::detail::ModePropagator;
+using taut::integrator_detail::ModePropagator;
 
 namespace {
 

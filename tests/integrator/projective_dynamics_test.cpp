@@ -59,7 +59,7 @@ struct Witness : Eigen::SimplicialLLT<taut::SparseMatrix<Scalar>> {
 template <class System>
 double objective(const System& system, const typename System::State& start,
                  const typename System::State& end, double h) {
-    taut::detail::StepObjective<System> step;
+    taut::integrator_detail::StepObjective<System> step;
     step.begin(system, start, static_cast<typename System::Scalar>(h));
     typename System::Force g;
     return static_cast<double>(step.evaluate(system, end.x - start.x, g));
@@ -107,7 +107,7 @@ TEMPLATE_TEST_CASE("projective_dynamics: no iteration raises the step's objectiv
         for (const double h : {0.01, 0.3}) {
             for (const int window : {0, 4}) {
                 auto inertial = start;
-                taut::detail::StepObjective<TestType> step;
+                taut::integrator_detail::StepObjective<TestType> step;
                 step.begin(system, start, static_cast<Scalar>(h));
                 inertial.x += step.inertial();
                 double last = objective(system, start, inertial, h);

@@ -13,7 +13,7 @@ namespace taut_test::sorted_springs_test {
 
 namespace {
 
-namespace sweep = taut::detail::sweep;
+namespace sweep = taut::integrator_detail::sweep;
 
 /// @returns the share of the springs that lie in runs
 template <class System>

@@ -28,7 +28,7 @@ Parameters<double> beam_alone(double bending) { return {0, bending, 1e12 * bendi
 
 TEMPLATE_TEST_CASE("buckling: the arc that a shortening asks for has that chord", "[model]", float,
                    double, long double) {
-    using Arc = taut::detail::Arc<TestType>;
+    using Arc = taut::model_detail::Arc<TestType>;
     const double epsilon = Tolerance<TestType>::epsilon;
     for (int i = 0; i <= 1000; ++i) {
         const TestType delta = static_cast<TestType>(i) / 1000;

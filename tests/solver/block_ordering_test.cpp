@@ -19,7 +19,7 @@ TEST_CASE("block_ordering: the compressed graph of a spring matrix is that of it
     const auto cloth = taut::hanging_cloth<double>({7, 5});
     const taut::TangentMatrix<double, 3> blocks(cloth);
     const taut::TangentMatrix<double, 1> particles(cloth);
-    const taut::detail::CompressedGraph graph(blocks.zero());
+    const taut::solver_detail::CompressedGraph graph(blocks.zero());
     REQUIRE(graph.vertices() == 33);
     const Sparse expected = particles.zero();
     CHECK(graph.matrix.nonZeros() == expected.nonZeros());

@@ -54,7 +54,7 @@ TEST_CASE("factor_rows: the widest row of the factor, in any order of eliminatio
         }
         Sparse ordered;
         ordered = S.twistedBy(order);
-        CHECK(taut::detail::widest_factor_row(S, [&](Index i) {
+        CHECK(taut::solver_detail::widest_factor_row(S, [&](Index i) {
                   return Index(order.indices()[i]);
               }) == widest_row_by_elimination(ordered));
         // And the order that Eigen's factorisation chooses.

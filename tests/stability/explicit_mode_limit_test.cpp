@@ -41,7 +41,7 @@ TEST_CASE("explicit_mode_limit: encloses the limit, at critical damping as well"
             d * d / 4 *
             (1 + std::floor(random.uniform(-4, 5)) * std::exp2(-std::floor(random.uniform(0, 56))));
         if (!(k > 0)) continue;
-        const auto limit = taut::detail::explicit_mode_limit(k, d);
+        const auto limit = taut::stability_detail::explicit_mode_limit(k, d);
         const Real truth = exact_limit(k, d);
         REQUIRE(limit.lower <= truth);
         REQUIRE(limit.upper >= truth);
@@ -61,7 +61,7 @@ TEST_CASE("largest_explicit_limit: no k of the interval has a larger one, and on
         double high = low * (1 + log_uniform(random, 1e-12, 1e3));
         if (random.below(4) == 0 && rayleigh.stiffness_proportional == 0) low = -low;
         if (random.below(8) == 0) low = 0;
-        const double largest = taut::detail::largest_explicit_limit(rayleigh, low, high);
+        const double largest = taut::stability_detail::largest_explicit_limit(rayleigh, low, high);
         Real nearest = 0;
         const auto see = [&](Real k) {
             if (!(k >= low && k <= high)) return;

@@ -68,8 +68,8 @@ TEST_CASE("lanczos: the small eigensolver's vectors are orthonormal and diagonal
                 A(i, j) = A(j, i) = scale * (size * random.uniform(-1, 1));
             }
         }
-        const auto spectrum = taut::detail::small_spectrum({A.data(), A.data() + A.size()},
-                                                           static_cast<std::size_t>(m));
+        const auto spectrum = taut::stability_detail::small_spectrum(
+            {A.data(), A.data() + A.size()}, static_cast<std::size_t>(m));
         const Eigen::VectorXd values = Eigen::Map<const Eigen::VectorXd>(spectrum.values.data(), m);
         const Eigen::MatrixXd vectors =
             Eigen::Map<const Eigen::MatrixXd>(spectrum.vectors.data(), m, m);
@@ -80,7 +80,7 @@ TEST_CASE("lanczos: the small eigensolver's vectors are orthonormal and diagonal
         CHECK(left.cwiseAbs().maxCoeff() < tolerance);
         for (Index i = 1; i < m; ++i) CHECK(values[i] >= values[i - 1]);
     }
-    CHECK(taut::detail::small_spectrum(std::vector<double>(9, 0), 3).values ==
+    CHECK(taut::stability_detail::small_spectrum(std::vector<double>(9, 0), 3).values ==
           std::vector<double>(3, 0));
 }
 
@@ -95,11 +95,12 @@ TEST_CASE("lanczos: of a tridiagonal matrix some rows of the eigenvectors alone 
         // Some of them nothing: the matrix falls apart.
         for (std::size_t j = 0; j + 1 < m; ++j)
             off_diagonal.push_back(random.below(4) == 0 ? 0 : random.uniform(-1, 1));
-        const auto all = taut::detail::tridiagonal_spectrum(diagonal, off_diagonal,
-                                                            taut::detail::small_identity(m));
+        const auto all = taut::stability_detail::tridiagonal_spectrum(
+            diagonal, off_diagonal, taut::stability_detail::small_identity(m));
         std::vector<double> last_row(m, 0);
         last_row.back() = 1;
-        const auto last = taut::detail::tridiagonal_spectrum(diagonal, off_diagonal, last_row);
+        const auto last =
+            taut::stability_detail::tridiagonal_spectrum(diagonal, off_diagonal, last_row);
         CHECK(last.values == all.values);
         for (Index j = 0; j < static_cast<Index>(m); ++j) {
             const double* u = all.vector(j);
@@ -113,7 +114,8 @@ TEST_CASE("lanczos: of a tridiagonal matrix some rows of the eigenvectors alone 
         }
     }
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    CHECK(taut::detail::tridiagonal_spectrum({1, nan, 1}, {1, 1}, {1, 0, 0}).values.size() == 3);
+    CHECK(taut::stability_detail::tridiagonal_spectrum({1, nan, 1}, {1, 1}, {1, 0, 0})
+              .values.size() == 3);
 }
 
 TEST_CASE("lanczos: never above the largest eigenvalue, and there when the basis is whole",

@@ -74,13 +74,13 @@ TEMPLATE_TEST_CASE("limits: a vector refutes no step that exact arithmetic would
     for (int repeat = 0; repeat < 12; ++repeat) {
         const Eigen::VectorXd u = random_vector(random, pencil.size());
         const auto [k, d] = exact_quotients(system, u);
-        const auto enclosed = taut::detail::quotients(pencil, u, taut::matrices::K);
+        const auto enclosed = taut::stability_detail::quotients(pencil, u, taut::matrices::K);
         CHECK(static_cast<Real>(enclosed.k.lower()) <= k);
         CHECK(static_cast<Real>(enclosed.k.upper()) >= k);
         CHECK(static_cast<Real>(enclosed.d.lower()) <= d);
         CHECK(static_cast<Real>(enclosed.d.upper()) >= d);
         const Real limit = 4 / (d + std::sqrt(d * d + 4 * k));
-        const Real refuted = taut::detail::refuted_by(pencil, u);
+        const Real refuted = taut::stability_detail::refuted_by(pencil, u);
         INFO("vector " << repeat << ": " << static_cast<double>(refuted / limit - 1));
         CHECK(refuted >= limit);
         CHECK(refuted <= limit * (1 + 1e-6L));

@@ -10,8 +10,8 @@ namespace taut_test::quick_mode_test {
 
 namespace matrices = taut::matrices;
 
-using taut::detail::leading_pair;
-using taut::detail::quick_mode;
+using taut::stability_detail::leading_pair;
+using taut::stability_detail::quick_mode;
 
 namespace {
 

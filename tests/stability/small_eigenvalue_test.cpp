@@ -9,8 +9,8 @@
 
 namespace taut_test::small_eigenvalue_test {
 
-using taut::detail::eigenvalue_upper_bound;
-using taut::detail::proved_above;
+using taut::stability_detail::eigenvalue_upper_bound;
+using taut::stability_detail::proved_above;
 
 namespace {
 

@@ -86,8 +86,8 @@ TEST_CASE("step_limit: a stale revision is refused, whatever changed", "[stabili
 
 TEST_CASE("step_limit: rounding to Scalar never lifts a certified step, nor lowers a refuted one",
           "[stability]") {
-    using taut::detail::round_down;
-    using taut::detail::round_up;
+    using taut::stability_detail::round_down;
+    using taut::stability_detail::round_up;
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Random random(1200);
     for (int repeat = 0; repeat < 5000; ++repeat) {

@@ -48,7 +48,7 @@ std::optional<taut::ModeError> measured(const System& system, double omega, doub
             REQUIRE(stepper.step(state, h));
         }
     });
-    const auto mu = taut::detail::fitted_multiplier(swing);
+    const auto mu = taut::tradeoff_detail::fitted_multiplier(swing);
     if (!mu) return std::nullopt;
     const auto rate = std::log(*mu) / h;
     return taut::ModeError{-rate.real() / std::abs(rate) - zeta,

@@ -36,7 +36,7 @@ struct [[nodiscard]] AdaptiveReport {
 /// It bounds how wrong a linearised step can be, not its order of error. Bdf2 restarts after a step
 /// taken back.
 /// @tparam Stepper  any of a SpringSystem
-template <class Stepper, class System = typename detail::stepped_system<Stepper>::type>
+template <class Stepper, class System = typename integrator_detail::stepped_system<Stepper>::type>
 class Adaptive {
 public:
     using Scalar = typename System::Scalar;
@@ -93,12 +93,12 @@ private:
     Index overstretched(const State& state) const;
 
     const System* system_;
-    detail::HeldStepper<Stepper> stepper_;
+    integrator_detail::HeldStepper<Stepper> stepper_;
     Options options_;
     Scalar h_;           // to try next, s
     int successes_ = 0;  // in a row
     State before_;       // the step's start
-    detail::ViewedState<State> viewed_;
+    integrator_detail::ViewedState<State> viewed_;
 };
 
 template <class Stepper, class System>
@@ -139,7 +139,7 @@ AdaptiveReport<typename System::Scalar> Adaptive<Stepper, System>::advance(State
                                                                            Scalar duration) {
     AdaptiveReport<Scalar> report;
     report.h = h_;
-    const Report refused = detail::StepLoop<State>::check(*system_, state, duration);
+    const Report refused = integrator_detail::StepLoop<State>::check(*system_, state, duration);
     report.status = refused.status;
     report.where = refused.where;
     if (!report) return report;

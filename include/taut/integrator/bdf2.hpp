@@ -72,16 +72,16 @@ private:
     Report advance(State& state, Scalar h);
 
     const System* system_;
-    detail::StepLoop<State> loop_;
-    detail::StepEquation<System> equation_;
+    integrator_detail::StepLoop<State> loop_;
+    integrator_detail::StepEquation<System> equation_;
     Solver solver_;
-    bool factorized_ = false;        // solver_ holds the factors of equation_.matrix()
-    Scalar last_step_ = 0;           // h⁻, s; 0: there is no history
-    State past_;                     // x⁻ and v⁻, and then what they have become: q and p
-    State now_;                      // x and v
-    detail::LastState<State> last_;  // what the history belongs to
-    VectorX<Scalar> b_;              // N, N·s
-    VectorX<Scalar> dv_;             // N, m/s
+    bool factorized_ = false;  // solver_ holds the factors of equation_.matrix()
+    Scalar last_step_ = 0;     // h⁻, s; 0: there is no history
+    State past_;               // x⁻ and v⁻, and then what they have become: q and p
+    State now_;                // x and v
+    integrator_detail::LastState<State> last_;  // what the history belongs to
+    VectorX<Scalar> b_;                         // N, N·s
+    VectorX<Scalar> dv_;                        // N, m/s
 };
 
 template <class System, class Solver>
@@ -122,10 +122,10 @@ Report Bdf2<System, Solver>::advance(State& state, Scalar h) {
     equation_.load(*system_, state, tau, 1, past_.x, b_);
     equation_.add_momentum(*system_, past_.v, b_);
     dv_ = solver_.solve(b_);
-    Report report{detail::solve_status(solver_, dv_, Status::solver_failed)};
+    Report report{integrator_detail::solve_status(solver_, dv_, Status::solver_failed)};
     report.solves = 1;
     if (!report) {
-        report.where = detail::first_not_finite(equation_, dv_);
+        report.where = integrator_detail::first_not_finite(equation_, dv_);
         return report;
     }
     const Scalar norm = b_.norm();

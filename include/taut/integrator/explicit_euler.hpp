@@ -45,7 +45,7 @@ private:
     };
 
     const System* system_;
-    detail::ExplicitSteps<System> steps_;
+    integrator_detail::ExplicitSteps<System> steps_;
 };
 
 template <class System>

@@ -35,16 +35,16 @@ inline double share_of_limit(double safety, const StepDamping& own) {
     return std::min(safety, 1 / (1 + 2 * own.total()));
 }
 
-namespace detail {
+namespace integrator_detail {
 
 /// Fails unless a stepper of System can add such a damping of its own.
 template <class System>
 void require_step_damping(const StepDamping& damping) {
     require_non_negative("ExplicitOptions", "damping.look_ahead", damping.look_ahead);
     require_non_negative("ExplicitOptions", "damping.graph", damping.graph);
-    if (damping && !is_spring_system_v<System>)
+    if (damping && !model_detail::is_spring_system_v<System>)
         fail("ExplicitOptions: damping is for the springs of a SpringSystem");
 }
 
-}  // namespace detail
+}  // namespace integrator_detail
 }  // namespace taut

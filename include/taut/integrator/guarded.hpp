@@ -47,12 +47,12 @@ namespace taut {
 /// step resolves, and springs at moving pins once.
 /// @tparam Stepper  SymplecticEuler, VelocityVerlet, ImplicitEuler, Bdf2, ProjectiveDynamics or
 ///                  your own, of a SpringSystem; one without a `method` counts as implicit
-template <class Stepper, class System = typename detail::stepped_system<Stepper>::type>
+template <class Stepper, class System = typename integrator_detail::stepped_system<Stepper>::type>
 class Guarded {
 public:
     using Scalar = typename System::Scalar;
     using State = typename System::State;
-    static constexpr Method method = detail::guarded_method<Stepper>();
+    static constexpr Method method = integrator_detail::guarded_method<Stepper>();
     static_assert(method::Of<method>::any_pose != method::AnyPose::no_step,
                   "taut::Guarded: the stepper's method, like explicit Euler, has no limit that "
                   "holds at every pose; guard SymplecticEuler, which costs the same");
@@ -77,11 +77,11 @@ public:
     ///                 work that it does on purpose, J; other energy that it gives counts as a
     ///                 gain. It is called in attempts that are taken back, too, and must leave the
     ///                 system as it is: tear and pin between frames.
-    template <class Respond = detail::NoResponse>
+    template <class Respond = integrator_detail::NoResponse>
     GuardedReport<Scalar> advance(State& state, Scalar frame, Respond&& respond = {});
     /// Advances an engine's own arrays by `frame`, s: copied back once a frame, and there if they
     /// are not what the last frame left.
-    template <class Stored, class Respond = detail::NoResponse>
+    template <class Stored, class Respond = integrator_detail::NoResponse>
     GuardedReport<Scalar> advance(StateView<Stored, System::Dim>& view, Scalar frame,
                                   Respond&& respond = {}) {
         return viewed_.advance(view, [&](State& state) { return advance(state, frame, respond); });
@@ -101,7 +101,7 @@ private:
 
     /// The stepper's own, as shares of its step.
     StepDamping damping() const {
-        if constexpr (detail::is_detected_v<detail::damping_of, Stepper>) {
+        if constexpr (detail::is_detected_v<integrator_detail::damping_of, Stepper>) {
             return stepper().damping();
         } else {
             return {};
@@ -110,14 +110,15 @@ private:
     /// Of the any-pose limit: what substeps are cut to.
     double share() const { return share_of_limit(static_cast<double>(options_.safety), damping()); }
     template <class... Arguments>
-    static detail::HeldStepper<Stepper> made(const System& system, const Options& options,
-                                             Arguments&&... arguments);
+    static integrator_detail::HeldStepper<Stepper> made(const System& system,
+                                                        const Options& options,
+                                                        Arguments&&... arguments);
     Scalar largest_step();
     const Points<Scalar, System::Dim>* constraint_forces() const;
-    detail::EnergyTerms terms() const;
-    detail::EnergyBooks books(const State& state) {
-        return detail::energy_books(*system_, state, method, meter_.pins(), forces_,
-                                    damping().linearized());
+    integrator_detail::EnergyTerms terms() const;
+    integrator_detail::EnergyBooks books(const State& state) {
+        return integrator_detail::energy_books(*system_, state, method, meter_.pins(), forces_,
+                                               damping().linearized());
     }
     Status prepare(const State& state, Scalar frame, Scalar largest, GuardedReport<Scalar>& report);
     template <class Respond>
@@ -129,16 +130,16 @@ private:
 
     const System* system_;
     Options options_;
-    detail::HeldStepper<Stepper> stepper_;
+    integrator_detail::HeldStepper<Stepper> stepper_;
     std::optional<StepLimit<Scalar>> limit_;
-    detail::LastState<State> start_;  // the last good one
-    detail::EnergyBooks start_books_;
-    detail::EnergyAccount account_;
-    detail::EnergyAccount::Frame frame_;
-    detail::WorkMeter<System, method::Of<method>> meter_;
-    detail::Refinement refinement_;
+    integrator_detail::LastState<State> start_;  // the last good one
+    integrator_detail::EnergyBooks start_books_;
+    integrator_detail::EnergyAccount account_;
+    integrator_detail::EnergyAccount::Frame frame_;
+    integrator_detail::WorkMeter<System, method::Of<method>> meter_;
+    integrator_detail::Refinement refinement_;
     Points<Scalar, System::Dim> forces_;  // workspace
-    detail::ViewedState<State> viewed_;
+    integrator_detail::ViewedState<State> viewed_;
 };
 
 template <class Stepper, class System>
@@ -160,11 +161,11 @@ Guarded<Stepper, System>::Guarded(const System& system, Stepper& stepper, const 
 
 template <class Stepper, class System>
 template <class... Arguments>
-detail::HeldStepper<Stepper> Guarded<Stepper, System>::made(const System& system,
-                                                            const Options& options,
-                                                            Arguments&&... arguments) {
-    using Held = detail::HeldStepper<Stepper>;
-    constexpr bool damps = detail::is_detected_v<detail::damping_of, Stepper> &&
+integrator_detail::HeldStepper<Stepper> Guarded<Stepper, System>::made(const System& system,
+                                                                       const Options& options,
+                                                                       Arguments&&... arguments) {
+    using Held = integrator_detail::HeldStepper<Stepper>;
+    constexpr bool damps = detail::is_detected_v<integrator_detail::damping_of, Stepper> &&
                            std::is_constructible_v<Stepper, const System&, ExplicitOptions>;
     if constexpr (sizeof...(Arguments) == 0 && damps) {
         return Held(std::in_place, system, ExplicitOptions{1, options.damping});
@@ -187,7 +188,7 @@ auto Guarded<Stepper, System>::largest_step() -> Scalar {
 
 template <class Stepper, class System>
 auto Guarded<Stepper, System>::constraint_forces() const -> const Points<Scalar, System::Dim>* {
-    if constexpr (detail::is_detected_v<detail::constraint_forces_of, Stepper>) {
+    if constexpr (detail::is_detected_v<integrator_detail::constraint_forces_of, Stepper>) {
         return &stepper().constraint_forces();
     } else {
         return nullptr;
@@ -195,9 +196,9 @@ auto Guarded<Stepper, System>::constraint_forces() const -> const Points<Scalar,
 }
 
 template <class Stepper, class System>
-detail::EnergyTerms Guarded<Stepper, System>::terms() const {
-    return detail::EnergyTerms::of(method, share(), damping().total(), options_.energy_slack,
-                                   options_.energy_drift);
+integrator_detail::EnergyTerms Guarded<Stepper, System>::terms() const {
+    return integrator_detail::EnergyTerms::of(method, share(), damping().total(),
+                                              options_.energy_slack, options_.energy_drift);
 }
 
 /// The report's substeps from start_.
@@ -205,7 +206,7 @@ template <class Stepper, class System>
 template <class Respond>
 Report Guarded<Stepper, System>::attempt(State& state, GuardedReport<Scalar>& report,
                                          Respond& respond) {
-    constexpr bool responds = !std::is_same_v<std::decay_t<Respond>, detail::NoResponse>;
+    constexpr bool responds = !std::is_same_v<std::decay_t<Respond>, integrator_detail::NoResponse>;
     const auto h = static_cast<double>(report.h);
     meter_.start(h, std::min(1.0, 2 * (1 - share() * share())), damping().times(h));
     report.response = 0;
@@ -221,7 +222,7 @@ Report Guarded<Stepper, System>::attempt(State& state, GuardedReport<Scalar>& re
         if constexpr (responds) {
             const bool count = report.retries > 0 || refinement_.stuck();
             const double before = count ? books(state).kept(method, h) : 0;
-            const double claimed = detail::claimed_work(respond, state);
+            const double claimed = integrator_detail::claimed_work(respond, state);
             meter_.add(claimed);
             if (!state.finite()) return {Status::diverged, 0, 0, state.first_not_finite()};
             if (count) report.response += books(state).kept(method, h) - before - claimed;
@@ -281,9 +282,9 @@ void Guarded<Stepper, System>::name_culprits(GuardedReport<Scalar>& report, cons
             last = next;
         }
     }
-    if (report.where < 0) report.where = detail::fastest_particle(*system_, last);
+    if (report.where < 0) report.where = integrator_detail::fastest_particle(*system_, last);
     report.particle = report.where;
-    report.spring = detail::most_loaded_spring(*system_, last);
+    report.spring = integrator_detail::most_loaded_spring(*system_, last);
 }
 
 /// Refuses what cannot be advanced; else opens the frame.
@@ -291,11 +292,11 @@ template <class Stepper, class System>
 Status Guarded<Stepper, System>::prepare(const State& state, Scalar frame, Scalar largest,
                                          GuardedReport<Scalar>& report) {
     if (!(largest > 0)) return Status::invalid_step;
-    const Report refused = detail::StepLoop<State>::check(*system_, state, frame);
+    const Report refused = integrator_detail::StepLoop<State>::check(*system_, state, frame);
     report.where = refused.where;
     if (!refused) return refused.status;
     if (start_.is(*system_, state)) return Status::ok;
-    const detail::EnergyBooks touched = books(state);
+    const integrator_detail::EnergyBooks touched = books(state);
     if (account_.opened()) {
         account_.edit(start_books_, touched, terms());
     } else {

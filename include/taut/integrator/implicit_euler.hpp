@@ -15,7 +15,7 @@
 #include "detail/step_loop.hpp"
 
 namespace taut {
-namespace detail {
+namespace integrator_detail {
 
 template <class Solver, class Vector>
 using solve_with_guess_of = decltype(std::declval<const Solver&>().solveWithGuess(
@@ -24,7 +24,7 @@ using solve_with_guess_of = decltype(std::declval<const Solver&>().solveWithGues
 /// In place of Newton's method where one linear solve is exact.
 struct NoNewton {};
 
-}  // namespace detail
+}  // namespace integrator_detail
 
 /// Implicit Euler by one linearised solve a step [T6]:
 ///
@@ -122,10 +122,11 @@ public:
 private:
     static constexpr Status refused =
         symmetric ? Status::not_positive_definite : Status::solver_failed;
-    static constexpr bool springs = detail::is_spring_system_v<std::decay_t<System>>;
+    static constexpr bool springs = model_detail::is_spring_system_v<std::decay_t<System>>;
     using Vector = Eigen::Matrix<Scalar, Dim, 1>;
-    using Equation = detail::StepEquation<System>;
-    using Newton = std::conditional_t<springs, detail::Newton<System>, detail::NoNewton>;
+    using Equation = integrator_detail::StepEquation<System>;
+    using Newton =
+        std::conditional_t<springs, integrator_detail::Newton<System>, integrator_detail::NoNewton>;
 
     Report advance(State& state, Scalar h);
     Report solve_linearised(const State& state, Scalar h);
@@ -137,10 +138,10 @@ private:
     const System* system_;
     Options options_;
     Constraints constraints_;
-    detail::StepLoop<State> loop_;
+    integrator_detail::StepLoop<State> loop_;
     Equation equation_;
-    detail::ConstraintProjection<Scalar, Dim> projection_;
-    detail::FactorCache<Solver, Scalar> factors_;
+    integrator_detail::ConstraintProjection<Scalar, Dim> projection_;
+    integrator_detail::FactorCache<Solver, Scalar> factors_;
     bool projected_ = false;  // whether factors_ are those of the projection
     Newton newton_;
     VectorX<Scalar> b_;           // N, N·s
@@ -182,12 +183,13 @@ Status ImplicitEuler<System, Solver>::factorize(Scalar h) {
 /// x ← A⁻¹ b, from x as it is where the solver can make use of it.
 template <class System, class Solver>
 Status ImplicitEuler<System, Solver>::solve(const VectorX<Scalar>& b, VectorX<Scalar>& x) {
-    if constexpr (detail::is_detected_v<detail::solve_with_guess_of, Solver, VectorX<Scalar>>) {
+    if constexpr (detail::is_detected_v<integrator_detail::solve_with_guess_of, Solver,
+                                        VectorX<Scalar>>) {
         x = factors_.solver().solveWithGuess(b, x);
     } else {
         x = factors_.solver().solve(b);
     }
-    return detail::solve_status(factors_.solver(), x, refused);
+    return integrator_detail::solve_status(factors_.solver(), x, refused);
 }
 
 /// dv_ ← Δv of the linearised step.
@@ -206,7 +208,7 @@ Report ImplicitEuler<System, Solver>::solve_linearised(const State& state, Scala
     equation_.load(*system_, state, h, h, state.v, b_);
     Report report{factorize(h)};
     if (!report) return report;
-    if (const Index where = detail::first_not_finite(equation_, b_); where >= 0) {
+    if (const Index where = integrator_detail::first_not_finite(equation_, b_); where >= 0) {
         return {Status::solver_failed, 0, 0, where};
     }
     if (projected_) {
@@ -218,7 +220,7 @@ Report ImplicitEuler<System, Solver>::solve_linearised(const State& state, Scala
     report.solves = 1;
     report.status = solve(right, dv_);
     if (!report) {
-        report.where = detail::first_not_finite(equation_, dv_);
+        report.where = integrator_detail::first_not_finite(equation_, dv_);
         return report;
     }
     if (projected_) projection_.complete(dv_);

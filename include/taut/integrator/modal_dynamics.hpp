@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../core/detail/fits.hpp"
 #include "../core/status.hpp"
 #include "../model/linear_system.hpp"
 #include "../model/modal_basis.hpp"
@@ -147,7 +148,7 @@ void ModalDynamics<Shape, Dim>::set_step(double h) {
     if (h == h_) return;
     for (auto* a : {&a11_, &a12_, &a21_, &a22_, &b1_, &b2_}) a->resize(size());
     for (Index i = 0; i < size(); ++i) {
-        const auto m = detail::ModePropagator::over(h, k_[i], d_[i]);
+        const auto m = integrator_detail::ModePropagator::over(h, k_[i], d_[i]);
         a11_[i] = m.a11;
         a12_[i] = m.a12;
         a21_[i] = m.a21;

@@ -33,7 +33,7 @@ namespace taut {
 template <class System, class Solver = InterleavedLLT<typename System::Scalar>>
 class ProjectiveDynamics {
     static_assert(
-        detail::is_spring_system_v<std::decay_t<System>>,
+        model_detail::is_spring_system_v<std::decay_t<System>>,
         "taut::ProjectiveDynamics: needs a SpringSystem; for matrices one linear solve is "
         "exact: taut::ImplicitEuler");
 
@@ -83,11 +83,11 @@ private:
 
     const System* system_;
     Options options_;
-    detail::StepLoop<State> loop_;
-    detail::StepObjective<System> objective_;
-    detail::LimitedMemory<Points<Scalar, Dim>> memory_;
-    detail::FactorCache<Solver, Scalar> factors_;  // of P
-    FreeParticles free_;                           // of the rows of P
+    integrator_detail::StepLoop<State> loop_;
+    integrator_detail::StepObjective<System> objective_;
+    integrator_detail::LimitedMemory<Points<Scalar, Dim>> memory_;
+    integrator_detail::FactorCache<Solver, Scalar> factors_;  // of P
+    FreeParticles free_;                                      // of the rows of P
     std::uint64_t topology_ = 0;
     std::uint64_t revision_ = 0;
     bool prepared_ = false;

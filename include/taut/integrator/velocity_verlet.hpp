@@ -29,7 +29,7 @@ public:
     /// @param options  its damping; one thread whatever it says
     explicit VelocityVerlet(const System& system, const Options& options = {})
         : system_(&system), damping_(options.damping) {
-        detail::require_step_damping<System>(options.damping);
+        integrator_detail::require_step_damping<System>(options.damping);
     }
     explicit VelocityVerlet(const System&&, const Options& = {}) = delete;
 
@@ -43,7 +43,7 @@ public:
 
 private:
     void force(const State& state, [[maybe_unused]] Scalar h) {
-        if constexpr (detail::is_spring_system_v<System>) {
+        if constexpr (model_detail::is_spring_system_v<System>) {
             system_->force(state, f_, damping_.times(static_cast<double>(h)));
         } else {
             system_->force(state, f_);
@@ -56,9 +56,9 @@ private:
     const System* system_;
     StepDamping damping_;
     Scalar last_h_ = 0;  // of f_
-    detail::StepLoop<State> loop_;
-    decltype(State::x) f_;           // force at the end of the last step, Dim × n, N
-    detail::LastState<State> last_;  // what f_ belongs to
+    integrator_detail::StepLoop<State> loop_;
+    decltype(State::x) f_;                      // force at the end of the last step, Dim × n, N
+    integrator_detail::LastState<State> last_;  // what f_ belongs to
 };
 
 template <class System>

@@ -51,7 +51,7 @@ private:
     Index frames_ = 0;
 };
 
-namespace detail {
+namespace io_detail {
 
 /// Fails naming the first corner or end that is no particle.
 inline void require_mesh(const char* function, Index particles, const MeshFaces& faces,
@@ -68,5 +68,5 @@ inline void require_mesh(const char* function, Index particles, const MeshFaces&
     for (std::size_t e = 0; e < edges.size(); ++e) require("edge", e, "end", edges[e]);
 }
 
-}  // namespace detail
+}  // namespace io_detail
 }  // namespace taut

@@ -14,15 +14,15 @@ namespace taut {
 template <class Scalar, int Dim>
 FileReport write_obj(const std::string& path, const Points<Scalar, Dim>& x, const MeshFaces& faces,
                      const MeshEdges& edges = {}) {
-    if (const Index i = detail::first_unwritable<double>(x); i >= 0) {
+    if (const Index i = io_detail::first_unwritable<double>(x); i >= 0) {
         return {FileStatus::not_finite, path, i};
     }
-    detail::require_mesh("write_obj", x.cols(), faces, edges);
-    detail::OutputFile out(path);
+    io_detail::require_mesh("write_obj", x.cols(), faces, edges);
+    io_detail::OutputFile out(path);
     if (!out.is_open()) return out.check();
     for (Index i = 0; i < x.cols(); ++i) {
         std::fputs("v ", out.get());
-        detail::put_column(out.get(), x, i);
+        io_detail::put_column(out.get(), x, i);
     }
     const auto put_line = [&](char kind, const auto& corners) {
         std::fputc(kind, out.get());
@@ -35,7 +35,7 @@ FileReport write_obj(const std::string& path, const Points<Scalar, Dim>& x, cons
     return out.close();
 }
 
-namespace detail {
+namespace io_detail {
 
 struct ObjFormat {
     static constexpr const char* extension = ".obj";
@@ -46,9 +46,9 @@ struct ObjFormat {
     }
 };
 
-}  // namespace detail
+}  // namespace io_detail
 
 /// One OBJ file a frame.
-using ObjSequence = MeshSequence<detail::ObjFormat>;
+using ObjSequence = MeshSequence<io_detail::ObjFormat>;
 
 }  // namespace taut

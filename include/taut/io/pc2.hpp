@@ -52,7 +52,7 @@ private:
 
     static constexpr long count_at = 28;  // of the number of samples, bytes
 
-    detail::OutputFile file_;
+    io_detail::OutputFile file_;
     Index points_;
     Index frames_ = 0;
     std::vector<unsigned char> frame_;
@@ -73,11 +73,11 @@ inline Pc2Writer::Pc2Writer(std::string path, Index points, const Pc2Options& op
     : file_(checked(std::move(path), points, options)), points_(points) {
     if (!file_.is_open()) return;
     unsigned char header[32] = "POINTCACHE2";
-    detail::put_bytes(std::uint32_t(1), header + 12);
-    detail::put_bytes(static_cast<std::uint32_t>(points), header + 16);
-    detail::put_bytes(options.start, header + 20);
-    detail::put_bytes(options.sampling, header + 24);
-    detail::put_bytes(std::uint32_t(0), header + count_at);
+    io_detail::put_bytes(std::uint32_t(1), header + 12);
+    io_detail::put_bytes(static_cast<std::uint32_t>(points), header + 16);
+    io_detail::put_bytes(options.start, header + 20);
+    io_detail::put_bytes(options.sampling, header + 24);
+    io_detail::put_bytes(std::uint32_t(0), header + count_at);
     std::fwrite(header, 1, sizeof header, file_.get());
     frame_.resize(12 * static_cast<std::size_t>(points));
 }
@@ -88,13 +88,13 @@ FileReport Pc2Writer::write(const Points<Scalar, Dim>& x) {
         fail("Pc2Writer::write: ", x.cols(), " positions; the cache has ", points_, " points");
     }
     if (const FileReport report = file_.check(); !report) return report;
-    if (const Index i = detail::first_unwritable<float>(x); i >= 0) {
+    if (const Index i = io_detail::first_unwritable<float>(x); i >= 0) {
         return file_.report(FileStatus::not_finite, i);
     }
-    detail::put_bytes(x, frame_.data());
+    io_detail::put_bytes(x, frame_.data());
     std::FILE* file = file_.get();
     unsigned char count[4];
-    detail::put_bytes(static_cast<std::uint32_t>(frames_ + 1), count);
+    io_detail::put_bytes(static_cast<std::uint32_t>(frames_ + 1), count);
     const bool written = std::fwrite(frame_.data(), 1, frame_.size(), file) == frame_.size() &&
                          std::fseek(file, count_at, SEEK_SET) == 0 &&
                          std::fwrite(count, 1, sizeof count, file) == sizeof count &&

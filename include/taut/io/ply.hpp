@@ -25,10 +25,10 @@ FileReport write_ply(const std::string& path, const Points<Scalar, Dim>& x, cons
     if (x.cols() > std::numeric_limits<std::int32_t>::max()) {
         fail("write_ply: ", x.cols(), " positions; a PLY file holds at most 2147483647");
     }
-    if (const Index i = detail::first_unwritable<float>(x); i >= 0) {
+    if (const Index i = io_detail::first_unwritable<float>(x); i >= 0) {
         return {FileStatus::not_finite, path, i};
     }
-    detail::require_mesh("write_ply", x.cols(), faces, edges);
+    io_detail::require_mesh("write_ply", x.cols(), faces, edges);
     std::size_t size = 12 * static_cast<std::size_t>(x.cols()) + 8 * edges.size();
     for (std::size_t f = 0; f < faces.size(); ++f) {
         if (faces[f].size() > 255) {
@@ -49,10 +49,10 @@ FileReport write_ply(const std::string& path, const Points<Scalar, Dim>& x, cons
 
     std::vector<unsigned char> file(header.size() + size);
     unsigned char* bytes = std::copy(header.begin(), header.end(), file.data());
-    bytes = detail::put_bytes(x, bytes);
+    bytes = io_detail::put_bytes(x, bytes);
     const auto put_corners = [&](const auto& corners) {
         for (const Index i : corners) {
-            bytes = detail::put_bytes(static_cast<std::uint32_t>(i), bytes);
+            bytes = io_detail::put_bytes(static_cast<std::uint32_t>(i), bytes);
         }
     };
     for (const auto& face : faces) {
@@ -61,13 +61,13 @@ FileReport write_ply(const std::string& path, const Points<Scalar, Dim>& x, cons
     }
     for (const auto& edge : edges) put_corners(edge);
 
-    detail::OutputFile out(path);
+    io_detail::OutputFile out(path);
     if (!out.is_open()) return out.check();
     std::fwrite(file.data(), 1, file.size(), out.get());
     return out.close();
 }
 
-namespace detail {
+namespace io_detail {
 
 struct PlyFormat {
     static constexpr const char* extension = ".ply";
@@ -78,9 +78,9 @@ struct PlyFormat {
     }
 };
 
-}  // namespace detail
+}  // namespace io_detail
 
 /// One PLY file a frame.
-using PlySequence = MeshSequence<detail::PlyFormat>;
+using PlySequence = MeshSequence<io_detail::PlyFormat>;
 
 }  // namespace taut

@@ -4,13 +4,14 @@
 
 #include <string>
 
+#include "../core/detail/fits.hpp"
 #include "../core/error.hpp"
 #include "../model/spring_system.hpp"
 #include "detail/number_text.hpp"
 #include "detail/output_file.hpp"
 
 namespace taut {
-namespace detail {
+namespace io_detail {
 
 /// visit(law, a, b, rest length, length, tension) for every spring at x, in index order.
 template <class System, class Visitor>
@@ -46,7 +47,7 @@ void write_triples(std::FILE* file, const Points<Scalar, Dim>& values) {
     for (Index i = 0; i < values.cols(); ++i) put_column(file, values, i);
 }
 
-}  // namespace detail
+}  // namespace io_detail
 
 /// Writes a state as a legacy VTK file (ASCII, POLYDATA, read by ParaView): a point a particle with
 /// velocity (m/s), mass (kg) and pinned (0, 1), a line a spring with
@@ -59,38 +60,38 @@ template <class System>
 FileReport write_vtk(const std::string& path, const System& system,
                      const typename System::State& state) {
     detail::require_fits("write_vtk", state, system.size());
-    if (const Index i = detail::first_unwritable<double>(state.x); i >= 0) {
+    if (const Index i = io_detail::first_unwritable<double>(state.x); i >= 0) {
         return {FileStatus::not_finite, path, i};
     }
-    if (const Index i = detail::first_unwritable<double>(state.v); i >= 0) {
+    if (const Index i = io_detail::first_unwritable<double>(state.v); i >= 0) {
         return {FileStatus::not_finite, path, i};
     }
-    detail::OutputFile out(path);
+    io_detail::OutputFile out(path);
     if (!out.is_open()) return out.check();
     std::FILE* file = out.get();
     const auto particles = static_cast<long long>(system.size());
     const auto springs = static_cast<long long>(system.spring_count());
     std::fputs("# vtk DataFile Version 3.0\nTaut, t in s: ", file);
-    detail::put_number(file, static_cast<double>(state.time), '\n');
+    io_detail::put_number(file, static_cast<double>(state.time), '\n');
     std::fprintf(file, "ASCII\nDATASET POLYDATA\nPOINTS %lld double\n", particles);
-    detail::write_triples(file, state.x);
+    io_detail::write_triples(file, state.x);
     std::fprintf(file, "LINES %lld %lld\n", springs, 3 * springs);
     system.for_each_spring([&](Index a, Index b) {
         std::fprintf(file, "2 %lld %lld\n", static_cast<long long>(a), static_cast<long long>(b));
     });
     std::fprintf(file, "CELL_DATA %lld\n", springs);
-    detail::write_spring_data(file, "tension", system, state.x,
-                              [](int, auto, auto, auto T) { return T; });
-    detail::write_spring_data(file, "strain", system, state.x, [](int, auto L, auto l, auto) {
+    io_detail::write_spring_data(file, "tension", system, state.x,
+                                 [](int, auto, auto, auto T) { return T; });
+    io_detail::write_spring_data(file, "strain", system, state.x, [](int, auto L, auto l, auto) {
         return L > 0 ? l / L - 1 : decltype(L)(0);
     });
-    detail::write_spring_data(file, "law", system, state.x,
-                              [](int law, auto, auto, auto) { return law; });
+    io_detail::write_spring_data(file, "law", system, state.x,
+                                 [](int law, auto, auto, auto) { return law; });
     std::fprintf(file, "POINT_DATA %lld\nVECTORS velocity double\n", particles);
-    detail::write_triples(file, state.v);
+    io_detail::write_triples(file, state.v);
     std::fprintf(file, "SCALARS mass double 1\nLOOKUP_TABLE default\n");
     for (Index i = 0; i < system.size(); ++i) {
-        detail::put_number(file, static_cast<double>(system.mass(i)), '\n');
+        io_detail::put_number(file, static_cast<double>(system.mass(i)), '\n');
     }
     std::fprintf(file, "SCALARS pinned int 1\nLOOKUP_TABLE default\n");
     for (Index i = 0; i < system.size(); ++i) std::fputs(system.is_pinned(i) ? "1\n" : "0\n", file);

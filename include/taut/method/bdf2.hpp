@@ -22,7 +22,7 @@ struct Bdf2 : KeepsNoEnergy {
     /// The largest 1/|2 − √(1 + 2hλ)|.
     static double spectral_radius(double k, double d, double h) {
         double radius = 0;
-        for (const auto& lambda : taut::detail::roots({d, k}))
+        for (const auto& lambda : taut::method_detail::roots({d, k}))
             radius = std::max(radius, 1 / std::abs(2.0 - std::sqrt(1.0 + 2 * h * lambda)));
         return radius;
     }
@@ -45,7 +45,7 @@ struct Bdf2 : KeepsNoEnergy {
     }
     /// (3 − 2w)μ² − 4μ + 1 = 0 for w = hλ, so μ = (2 + s)/(3 − 2w) with s = √(1 + 2w).
     static std::complex<double> multiplier_less_one(double z, double zeta) {
-        const std::complex<double> w = taut::detail::exponent(z, zeta);
+        const std::complex<double> w = taut::method_detail::exponent(z, zeta);
         const std::complex<double> s = std::sqrt(1.0 + 2.0 * w);
         return 2.0 * w * (2.0 + s) / ((1.0 + s) * (3.0 - 2.0 * w));
     }

@@ -31,11 +31,11 @@ struct ExplicitEuler : KeepsNoEnergy {
     }
     /// The largest |μ| of such a step.
     static double spectral_radius(double k, double d, double h) {
-        return taut::detail::largest_root(step_quadratic(k, d, h));
+        return taut::method_detail::largest_root(step_quadratic(k, d, h));
     }
     /// As taut::critical_step, where k and d are not both 0: d/k, or 4/(d + √(d² − 4k)) [T9].
     static double critical_step(double k, double d) {
-        const double root = taut::detail::discriminant_root(d, -k);
+        const double root = taut::method_detail::discriminant_root(d, -k);
         return root < 0 ? d / k : 2 / (d / 2 + root / 2);
     }
     /// The matrix whose eigenvalues are the multipliers of a whole system.
@@ -49,7 +49,7 @@ struct ExplicitEuler : KeepsNoEnergy {
     /// cancellation at small z = hω [T25]. Where a step too large has turned the pair real, the
     /// root of larger modulus.
     static std::complex<double> multiplier_less_one(double z, double zeta) {
-        return taut::detail::exponent(z, zeta);
+        return taut::method_detail::exponent(z, zeta);
     }
     // Of KeepsNoEnergy: kept_energy(books, h), the energy that steps of h, s, keep on a linear
     // scene, up to what moving pins do [T36]; energy_lag(books, h), the part that gravity and

@@ -27,12 +27,12 @@ struct ImplicitEuler : KeepsNoEnergy {
     }
     /// The largest |μ| of that polynomial.
     static double spectral_radius(double k, double d, double h) {
-        return taut::detail::largest_root(step_quadratic(k, d, h));
+        return taut::method_detail::largest_root(step_quadratic(k, d, h));
     }
     /// Infinity; for k < 0 the root of 1 + hd + h²k [T21].
     static double critical_step(double k, double d) {
         if (k >= 0) return std::numeric_limits<double>::infinity();
-        return (d / 2 + taut::detail::discriminant_root(d, -k) / 2) / -k;
+        return (d / 2 + taut::method_detail::discriminant_root(d, -k) / 2) / -k;
     }
     /// (I − hC)⁻¹.
     template <class Matrix>
@@ -42,7 +42,7 @@ struct ImplicitEuler : KeepsNoEnergy {
     }
     /// w/(1 − w), w = hλ.
     static std::complex<double> multiplier_less_one(double z, double zeta) {
-        const std::complex<double> w = taut::detail::exponent(z, zeta);
+        const std::complex<double> w = taut::method_detail::exponent(z, zeta);
         return w / (1.0 - w);
     }
 };

@@ -59,7 +59,7 @@ struct EnergyBand {
 
 /// The part of a descriptor whose method keeps no energy: it is judged by H = T + V + G itself.
 struct KeepsNoEnergy {
-    /// H, J. @param books  detail::EnergyBooks
+    /// H, J. @param books  integrator_detail::EnergyBooks
     template <class Books>
     static double kept_energy(const Books& books, double) {
         return books.total();

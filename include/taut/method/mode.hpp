@@ -28,7 +28,7 @@ inline StepQuadratic step_quadratic(Method method, double k, double d, double h)
 /// The two multipliers μ of one step; fails as step_quadratic does.
 inline std::array<std::complex<double>, 2> multipliers(Method method, double k, double d,
                                                        double h) {
-    return detail::roots(step_quadratic(method, k, d, h));
+    return method_detail::roots(step_quadratic(method, k, d, h));
 }
 
 /// Largest modulus of the multipliers.

@@ -27,11 +27,11 @@ struct SymplecticEuler {
     }
     /// The largest |μ| of that polynomial.
     static double spectral_radius(double k, double d, double h) {
-        return taut::detail::largest_root(step_quadratic(k, d, h));
+        return taut::method_detail::largest_root(step_quadratic(k, d, h));
     }
     /// 4/(d + √(d² + 4k)) [T10].
     static double critical_step(double k, double d) {
-        const double root = taut::detail::discriminant_root(d, k);
+        const double root = taut::method_detail::discriminant_root(d, k);
         return root < 0 ? std::numeric_limits<double>::infinity() : 2 / (d / 2 + root / 2);
     }
     /// v⁺ from the old x, then x⁺ from v⁺.

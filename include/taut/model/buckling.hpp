@@ -68,14 +68,14 @@ struct Buckling {
     template <class Scalar>
     static std::pair<Scalar, Scalar> slope_range(const Parameters<Scalar>& p, Scalar L, Scalar low,
                                                  Scalar high) {
-        auto range = detail::slopes_at_ends_and_rest<Buckling>(p, L, low, high);
+        auto range = model_detail::slopes_at_ends_and_rest<Buckling>(p, L, low, high);
         if (!beam_shows(p, L)) return range;
         // Along the arc T′ falls as l grows, so that its ends and those of the interval decide.
         const auto [from, to] = arc_ends(p, L);
         for (const Scalar w : {from, to}) {
-            const auto bent = detail::Arc<Scalar>::at(w);
+            const auto bent = model_detail::Arc<Scalar>::at(w);
             const Scalar l = L * (1 - w * bent.sag);
-            if (l >= low && l <= high) detail::widen(range, {arc_slope(p, L, bent)});
+            if (l >= low && l <= high) model_detail::widen(range, {arc_slope(p, L, bent)});
         }
         return range;
     }
@@ -91,7 +91,9 @@ struct Buckling {
         const auto [from, to] = arc_ends(p, L);
         const Scalar w = arc(L, l).w;
         if (w <= from) return line(delta);
-        const auto shortening = [](Scalar at) { return at * detail::Arc<Scalar>::at(at).sag; };
+        const auto shortening = [](Scalar at) {
+            return at * model_detail::Arc<Scalar>::at(at).sag;
+        };
         const Scalar bent =
             line(shortening(from)) + 2 * beam_unit(p, L) * L * (std::min(w, to) - from);
         return w <= to ? bent : bent + line(delta) - line(shortening(to));
@@ -102,7 +104,7 @@ struct Buckling {
     static Scalar stiffness_bound(const Parameters<Scalar>& p, Scalar L) {
         const Scalar linear = std::max(p.stiffness, p.onset);
         if (!beam_shows(p, L)) return linear;
-        return std::max(linear, 12 * detail::Arc<Scalar>::touching * (beam_unit(p, L) / L));
+        return std::max(linear, 12 * model_detail::Arc<Scalar>::touching * (beam_unit(p, L) / L));
     }
 
 private:
@@ -118,20 +120,20 @@ private:
         return L > 0 && p.onset > Scalar(31.4711) * (beam_unit(p, L) / L);
     }
     template <class Scalar>
-    static detail::Arc<Scalar> arc(Scalar L, Scalar l) {
-        return detail::Arc<Scalar>::shortened((L - l) / L);
+    static model_detail::Arc<Scalar> arc(Scalar L, Scalar l) {
+        return model_detail::Arc<Scalar>::shortened((L - l) / L);
     }
     /// T′ along the beam, N/m.
     template <class Scalar>
     static Scalar arc_slope(const Parameters<Scalar>& p, Scalar L,
-                            const detail::Arc<Scalar>& bent) {
+                            const model_detail::Arc<Scalar>& bent) {
         const Scalar cube = bent.lever * bent.lever * bent.lever;
         return -8 * (beam_unit(p, L) / L) * bent.lever_w / cube;
     }
     /// The least and the largest w at which the beam is the law, where it shows.
     template <class Scalar>
     static std::pair<Scalar, Scalar> arc_ends(const Parameters<Scalar>& p, Scalar L) {
-        constexpr Scalar touching = detail::Arc<Scalar>::touching;
+        constexpr Scalar touching = model_detail::Arc<Scalar>::touching;
         const Scalar c = p.onset / (4 * beam_unit(p, L) / L);
         return {crossing(c, 18 / c), c < touching ? crossing(c, touching) : touching};
     }
@@ -140,12 +142,12 @@ private:
     template <class Scalar>
     static Scalar crossing(Scalar c, Scalar w) {
         for (int i = 0; i < 64; ++i) {
-            const auto at = detail::Arc<Scalar>::at(w);
+            const auto at = model_detail::Arc<Scalar>::at(w);
             const Scalar excess = w * at.sag * at.lever - 1 / c;
             const Scalar slope = Scalar(0.5) * at.lever * at.lever + w * at.sag * at.lever_w;
             const Scalar step = excess / slope;
             if (!(std::abs(step) > 4 * std::numeric_limits<Scalar>::epsilon() * w)) break;
-            w = std::clamp(w - step, Scalar(0), detail::Arc<Scalar>::touching);
+            w = std::clamp(w - step, Scalar(0), model_detail::Arc<Scalar>::touching);
         }
         return w;
     }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "../core/detail/fits.hpp"
 #include "../core/error.hpp"
 #include "../core/revision.hpp"
 #include "free_particles.hpp"

@@ -19,7 +19,7 @@ struct Spring {
 
     Index a;
     Index b;
-    detail::usable_parameters<Law, Scalar> parameters;
+    model_detail::usable_parameters<Law, Scalar> parameters;
     Scalar rest_length;  ///< L, m, ≥ 0
     Scalar damping = 0;  ///< axial, N·s/m, ≥ 0
 
@@ -115,7 +115,7 @@ struct Pull {
     Real of_dv;  ///< N·s/m
 };
 
-namespace detail {
+namespace model_detail {
 
 /// `yes` where a < b, `no` elsewhere; registers have their own, lane by lane.
 template <class Real>
@@ -123,7 +123,7 @@ Real where_less(const Real& a, const Real& b, const Real& yes, const Real& no) {
     return a < b ? yes : no;
 }
 
-}  // namespace detail
+}  // namespace model_detail
 
 /// The pull of a spring, of its damper where Dampers, and of damping in proportion to stiffness,
 /// D = projected·K⁺ + graph·(L_k ⊗ I)  [T2], [T28], [T34]. Numbers, or registers of as many
@@ -139,7 +139,7 @@ template <bool Dampers, Proportional Kind, class AnySpring, class Scalar, class 
 EIGEN_ALWAYS_INLINE Pull<Real> pull_coefficients(const AnySpring& spring,
                                                  const StiffnessDamping<Scalar>& by, const Real& l2,
                                                  const Real& dx_dv) {
-    using detail::where_less;
+    using model_detail::where_less;
     const Real zero(Scalar(0));
     const SpringLength<Real> length(l2);
     const Real over_l = length.divide(spring.tension(length.l));

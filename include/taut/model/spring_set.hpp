@@ -110,7 +110,7 @@ struct SpringSet {
         // Laws are asked for l > 0: below this length the ends coincide [T3].
         const Real shortest = std::sqrt(static_cast<Real>(std::numeric_limits<Scalar>::min()));
         const auto [least, most] =
-            detail::slope_range<Law>(p, L, std::max(l - reach, shortest), l + reach);
+            model_detail::slope_range<Law>(p, L, std::max(l - reach, shortest), l + reach);
         return {std::min(least, t.axial), std::max(most, t.axial)};
     }
 
@@ -132,11 +132,11 @@ private:
     }
 };
 
-namespace detail {
+namespace model_detail {
 
 /// Where a system keeps the springs of a law.
 template <class Scalar, class Law>
 using SetOf = SpringSet<Scalar, usable_law<Law, Scalar>>;
 
-}  // namespace detail
+}  // namespace model_detail
 }  // namespace taut

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "../core/detail/fits.hpp"
 #include "../core/error.hpp"
 #include "../core/revision.hpp"
 #include "damping.hpp"
@@ -20,7 +21,7 @@
 #include "tangent_matrix.hpp"
 
 namespace taut {
-namespace detail {
+namespace model_detail {
 
 template <class... Types>
 inline constexpr bool all_different = true;
@@ -28,7 +29,7 @@ template <class First, class... Rest>
 inline constexpr bool all_different<First, Rest...> =
     !(std::is_same_v<First, Rest> || ...) && all_different<Rest...>;
 
-}  // namespace detail
+}  // namespace model_detail
 
 /// Particles joined by springs: M ẍ = f(x, v) [T1] with gravity, pins, dampers and Rayleigh
 /// damping.
@@ -41,7 +42,7 @@ class SpringSystem {
     static_assert(std::is_floating_point_v<Scalar_>,
                   "taut::SpringSystem<Scalar, Dim>: Scalar must be float, double or long double");
     static_assert(Dim_ >= 1 && Dim_ <= 3, "taut::SpringSystem<Scalar, Dim>: Dim must be 1, 2 or 3");
-    static_assert(detail::all_different<Laws...>,
+    static_assert(model_detail::all_different<Laws...>,
                   "taut::SpringSystem<Scalar, Dim, Laws...>: each law is named once");
     static_assert((require_law<Laws, Scalar_>(), ..., true));
 
@@ -55,7 +56,7 @@ public:
     using ExternalForce = std::function<void(const State&, Force&)>;
     using SpringSets =
         std::conditional_t<sizeof...(Laws) == 0, std::tuple<SpringSet<Scalar, Hookean>>,
-                           std::tuple<detail::SetOf<Scalar, Laws>...>>;
+                           std::tuple<model_detail::SetOf<Scalar, Laws>...>>;
     using FirstLaw = std::tuple_element_t<0, std::tuple<Laws..., Hookean>>;
 
     // ---- building; every call is checked, wrong values go to fail() ----
@@ -66,7 +67,8 @@ public:
     Index add_spring(Index a, Index b, Scalar stiffness, Scalar damping = 0);
     /// A spring of any law of the system, at rest where its ends are now.
     template <class Law>
-    Index add_spring(Index a, Index b, const detail::usable_parameters<Law, Scalar>& parameters,
+    Index add_spring(Index a, Index b,
+                     const model_detail::usable_parameters<Law, Scalar>& parameters,
                      Scalar damping = 0);
     /// A spring with its rest length given. A debug build fails if the law exceeds its own
     /// stiffness_bound at one of some lengths. @returns its index within its law
@@ -87,7 +89,7 @@ public:
     Index remove_springs(Predicate&& goes);
     /// Of spring s of the law; rest length and damping stay. Cost: O(1).
     template <class Law = FirstLaw>
-    void set_parameters(Index s, const detail::usable_parameters<Law, Scalar>& parameters);
+    void set_parameters(Index s, const model_detail::usable_parameters<Law, Scalar>& parameters);
     /// Of a Hookean spring. @param stiffness N/m
     void set_stiffness(Index s, Scalar stiffness) { set_parameters<Hookean>(s, {stiffness}); }
 
@@ -140,8 +142,8 @@ public:
     const Vector& gravity() const { return gravity_; }
     /// The springs of one law.
     template <class Law = FirstLaw>
-    const detail::SetOf<Scalar, Law>& springs() const {
-        return std::get<detail::SetOf<Scalar, Law>>(sets_);
+    const model_detail::SetOf<Scalar, Law>& springs() const {
+        return std::get<model_detail::SetOf<Scalar, Law>>(sets_);
     }
     /// Changes whenever springs, masses, pins or damping do: whatever a step limit depends on.
     std::uint64_t revision() const { return revision_; }
@@ -212,7 +214,7 @@ private:
     void require_mass(const char* function, Index i, Scalar mass) const;
     void set_pinned(Index i, bool pinned);
     template <class Law>
-    detail::SetOf<Scalar, Law>& set_with(const char* function, Index s);
+    model_detail::SetOf<Scalar, Law>& set_with(const char* function, Index s);
 
     std::vector<Vector> position_;      // where add_particle put each particle, m
     std::vector<Scalar> mass_;          // kg, of pinned particles too
@@ -228,14 +230,14 @@ private:
     Revision force_revision_;      // of gravity and the external force
 };
 
-namespace detail {
+namespace model_detail {
 
 template <class System>
 inline constexpr bool is_spring_system_v = false;
 template <class Scalar, int Dim, class... Laws>
 inline constexpr bool is_spring_system_v<SpringSystem<Scalar, Dim, Laws...>> = true;
 
-}  // namespace detail
+}  // namespace model_detail
 }  // namespace taut
 
 #include "detail/spring_system_build.ipp"

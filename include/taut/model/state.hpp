@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "../core/error.hpp"
 #include "../core/types.hpp"
 
 namespace taut {
-namespace detail {
+namespace model_detail {
 
 /// Index of the first particle with a coordinate that is not finite, or -1.
 template <class Array>
@@ -17,22 +16,7 @@ Index first_not_finite(const Array& x, const Array& v) {
     return -1;
 }
 
-/// Whether a State or StateView has as many positions and velocities.
-template <class AnyState>
-bool fits(const AnyState& state, Index particles) {
-    return state.x.cols() == particles && state.v.cols() == particles;
-}
-/// Fails with a message that begins with `where` unless the state fits.
-/// @param has  what says how many: "the system has"   @param of  what a column is one of
-template <class AnyState>
-void require_fits(const char* where, const AnyState& state, Index particles,
-                  const char* has = "the system has", const char* of = "particles") {
-    if (fits(state, particles)) return;
-    fail(where, ": the state has ", state.x.cols(), " positions and ", state.v.cols(),
-         " velocities; ", has, " ", particles, " ", of);
-}
-
-}  // namespace detail
+}  // namespace model_detail
 
 /// Positions and velocities at one time; w = (x, v) of theory [T1].
 template <class Scalar_, int Dim_>
@@ -52,7 +36,7 @@ struct State {
         return (x - x).sum() == Scalar(0) && (v - v).sum() == Scalar(0);
     }
     /// Index of the first particle with a coordinate that is not finite, or -1.
-    Index first_not_finite() const { return detail::first_not_finite(x, v); }
+    Index first_not_finite() const { return model_detail::first_not_finite(x, v); }
 };
 
 }  // namespace taut

@@ -4,6 +4,7 @@
 
 #include <type_traits>
 
+#include "../core/detail/fits.hpp"
 #include "../core/error.hpp"
 #include "state.hpp"
 
@@ -63,7 +64,7 @@ struct StateView {
         return (sum == Stored(0)).all();
     }
     /// Index of the first particle with a coordinate that is not finite, or -1.
-    Index first_not_finite() const { return detail::first_not_finite(x, v); }
+    Index first_not_finite() const { return model_detail::first_not_finite(x, v); }
     /// What is not a step (Stability, an energy) takes a State.
     template <class Scalar>
     void copy_to(State<Scalar, Dim>& state) const {
@@ -93,7 +94,7 @@ private:
     }
 };
 
-namespace detail {
+namespace model_detail {
 
 template <class T>
 inline constexpr bool is_state_view_v = false;
@@ -112,5 +113,5 @@ constexpr void require_state() {
     }
 }
 
-}  // namespace detail
+}  // namespace model_detail
 }  // namespace taut

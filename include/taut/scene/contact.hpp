@@ -8,20 +8,20 @@
 #include "obstacle.hpp"
 
 namespace taut {
-namespace detail {
+namespace scene_detail {
 
 /// Where a point stands to an obstacle; of one that require_obstacle refuses far outside, so that
 /// the compiler has nothing to add to the sentence.
 template <class Obstacle, class Vector>
 auto surface_at(const Obstacle& obstacle, const Vector& point) {
-    if constexpr (ObstacleHas<Obstacle, Vector>::all) {
+    if constexpr (detail::ObstacleHas<Obstacle, Vector>::all) {
         return obstacle.surface(point);
     } else {
         return Surface<typename Vector::Scalar, Vector::RowsAtCompileTime>{};
     }
 }
 
-}  // namespace detail
+}  // namespace scene_detail
 
 /// How resolve_contacts answers a contact.
 struct ContactOptions {
@@ -71,7 +71,7 @@ ContactReport<typename System::Scalar, System::Dim> resolve_contacts(
     ContactReport<Scalar, System::Dim> report;
     for (Index i = 0; i < system.size(); ++i) {
         if (system.is_pinned(i)) continue;
-        const auto surface = detail::surface_at<Obstacle, Vector>(obstacle, state.x.col(i));
+        const auto surface = scene_detail::surface_at<Obstacle, Vector>(obstacle, state.x.col(i));
         const Scalar depth = thickness - surface.distance;
         if (!(depth >= 0)) continue;
         ++report.contacts;

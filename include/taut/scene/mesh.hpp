@@ -41,7 +41,7 @@ MeshSprings<Scalar> springs_from_mesh(const Points<Scalar, 3>& vertices,
                                       const std::vector<std::vector<Index>>& faces,
                                       const MeshOptions& options = {});
 
-namespace detail {
+namespace scene_detail {
 
 /// The vertex pairs to join, in order of first appearance.
 class UniqueEdges {
@@ -90,14 +90,14 @@ inline void require_faces(const std::vector<std::vector<Index>>& faces, Index ve
     }
 }
 
-}  // namespace detail
+}  // namespace scene_detail
 
 template <class Scalar>
 MeshSprings<Scalar> springs_from_mesh(const Points<Scalar, 3>& vertices,
                                       const std::vector<std::vector<Index>>& faces,
                                       const MeshOptions& options) {
     if (faces.empty()) fail("springs_from_mesh: the mesh has no faces");
-    detail::require_faces(faces, vertices.cols());
+    scene_detail::require_faces(faces, vertices.cols());
     require_non_negative("springs_from_mesh", "stretch", options.stretch);
     require_non_negative("springs_from_mesh", "bend", options.bend);
     require_positive("springs_from_mesh", "mass", options.mass);
@@ -118,8 +118,8 @@ MeshSprings<Scalar> springs_from_mesh(const Points<Scalar, 3>& vertices,
         particle[v] = mesh.system.add_particle(vertices.col(v), mass);
     }
 
-    detail::UniqueEdges edges(vertices.cols());
-    std::unordered_map<Index, detail::Hinge> hinges;
+    scene_detail::UniqueEdges edges(vertices.cols());
+    std::unordered_map<Index, scene_detail::Hinge> hinges;
     std::vector<std::array<Index, 2>> hinge_order;
     const auto add_triangle = [&](Index a, Index b, Index c) {
         const std::array<std::array<Index, 3>, 3> sides{{{a, b, c}, {b, c, a}, {c, a, b}}};

@@ -9,7 +9,7 @@
 #include "../core/types.hpp"
 
 namespace taut {
-namespace detail {
+namespace solver_detail {
 
 /// A symmetric pattern with each run of consecutive columns of the same rows drawn together to one
 /// vertex: for the Dim × Dim blocks of springs, the graph of the particles.
@@ -57,7 +57,7 @@ CompressedGraph::CompressedGraph(const SparseMatrix<Scalar>& A) {
     matrix.finalize();
 }
 
-}  // namespace detail
+}  // namespace solver_detail
 
 /// A fill-reducing ordering of particles instead of single unknowns, with Eigen's ordering
 /// interface for its symmetric solvers: columns of the same pattern are ordered as one, by
@@ -71,7 +71,7 @@ public:
     /// @param A  compressed, with both triangles of a symmetric pattern, rows ascending
     template <class Scalar>
     void operator()(const SparseMatrix<Scalar>& A, PermutationType& permutation) const {
-        const detail::CompressedGraph graph(A);
+        const solver_detail::CompressedGraph graph(A);
         PermutationType vertices;
         Ordering()(graph.matrix, vertices);
         permutation.resize(A.cols());

@@ -41,7 +41,7 @@ public:
 template <class Scalar>
 void Cholmod<Scalar>::analyzePattern(const SparseMatrix<Scalar>& A) {
     cholmod_common& common = this->cholmod();
-    const detail::CompressedGraph graph(A);
+    const solver_detail::CompressedGraph graph(A);
     auto vertices = Eigen::viewAsCholmod(graph.matrix.template selfadjointView<Eigen::Lower>());
     common.nmethods = 2;
     common.method[0].ordering = CHOLMOD_AMD;

@@ -72,7 +72,7 @@ public:
 private:
     const Vector& iterate(const Vector& b) const;
 
-    detail::BlockMatrix<Scalar, Dim> A_;
+    solver_detail::BlockMatrix<Scalar, Dim> A_;
     bool factorized_ = false;
     Scalar tolerance_ = Scalar(1e-3);
     Index max_iterations_ = 0;  // 0: twice the number of unknowns

@@ -27,7 +27,7 @@ struct ModalOptions {
     int max_iterations = 1000;
 };
 
-namespace detail {
+namespace solver_detail {
 
 /// (A + σI)⁻¹ for A = M^-½ K M^-½, as Spectra asks for an operator. σ > 0 keeps the matrix definite
 /// where K has zero modes, and grows until it is where K is indefinite.
@@ -104,7 +104,7 @@ inline Status lowest_eigenpairs(const SparseMatrix<double>& A, Index count,
     return Status::ok;
 }
 
-}  // namespace detail
+}  // namespace solver_detail
 
 /// The lowest `count` modes of a system, by shift-invert Lanczos with a negative shift (Spectra).
 /// Take the system at its static equilibrium: a flat net's lowest modes are all mechanisms, and a
@@ -128,7 +128,7 @@ Report modal_analysis(const LinearSystem<Scalar>& system, Index count, ModalBasi
     const SparseMatrix<double> A = scale.asDiagonal() * K * scale.asDiagonal();
     ModalBasis found;
     Report report;
-    report.status = detail::lowest_eigenpairs(A, count, options, report, found);
+    report.status = solver_detail::lowest_eigenpairs(A, count, options, report, found);
     if (!report) return report;
     // Lanczos vectors are orthonormal up to its tolerance; Rayleigh and Ritz make them so to
     // rounding, and the eigenvalues twice as accurate.
@@ -139,7 +139,7 @@ Report modal_analysis(const LinearSystem<Scalar>& system, Index count, ModalBasi
     if (ritz.info() != Eigen::Success) return {Status::not_converged, report.iterations};
     found.k = ritz.eigenvalues();
     found.shapes = Q * ritz.eigenvectors();
-    const double bound = detail::ShiftedInverse(A).bound();
+    const double bound = solver_detail::ShiftedInverse(A).bound();
     const Eigen::MatrixXd left = A * found.shapes - found.shapes * found.k.asDiagonal();
     report.residual = left.colwise().norm().maxCoeff() / bound;
     const double rounding =

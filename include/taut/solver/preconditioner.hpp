@@ -15,7 +15,7 @@ namespace taut {
 template <class Scalar, int Dim>
 class BlockJacobi {
 public:
-    using Matrix = detail::BlockMatrix<Scalar, Dim>;
+    using Matrix = solver_detail::BlockMatrix<Scalar, Dim>;
 
     /// Makes room for matrices of this size.
     void analyze(const Matrix& A) { inverse_.resize(static_cast<std::size_t>(A.rows())); }
@@ -47,7 +47,7 @@ private:
 template <class Scalar, int Dim>
 class IncompleteCholesky {
 public:
-    using Matrix = detail::BlockMatrix<Scalar, Dim>;
+    using Matrix = solver_detail::BlockMatrix<Scalar, Dim>;
     using Block = typename Matrix::Block;
 
     /// Makes room for matrices of this size.

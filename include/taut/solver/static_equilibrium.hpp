@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../core/detail/fits.hpp"
 #include "../core/status.hpp"
 #include "../model/spring_system.hpp"
 
@@ -20,7 +21,7 @@ struct EquilibriumOptions {
     double tolerance = 1e-8;
 };
 
-namespace detail {
+namespace solver_detail {
 
 /// Newton's method on the free particles: (K + σM) Δx = f with a line search on the energy, with K⁺
 /// for K far from the solution or where K is indefinite. σ holds mechanisms back, and shrinks with
@@ -150,7 +151,7 @@ Status EquilibriumSearch<System>::iterate() {
     return Status::ok;
 }
 
-}  // namespace detail
+}  // namespace solver_detail
 
 /// Moves the free particles of `state` to a pose where no force is left: Newton's method and
 /// a line search on the potential energy. Velocities become 0. An external force is taken as
@@ -166,7 +167,7 @@ Report static_equilibrium(const SpringSystem<Scalar, Dim, Laws...>& system,
         state.v.setZero();
         return {};
     }
-    detail::EquilibriumSearch<SpringSystem<Scalar, Dim, Laws...>> search(system, state);
+    solver_detail::EquilibriumSearch<SpringSystem<Scalar, Dim, Laws...>> search(system, state);
     Report report;
     report.residual = search.relative_force();
     while (report && !search.converged(options.tolerance)) {

@@ -9,7 +9,7 @@
 
 namespace taut {
 
-namespace detail {
+namespace stability_detail {
 
 template <class Effort, class Scalar, int Dim, class... Laws>
 StepLimit<Scalar> any_pose_bracket(const SpringSystem<Scalar, Dim, Laws...>& system,
@@ -24,7 +24,7 @@ StepLimit<Scalar> any_pose_bracket(const SpringSystem<Scalar, Dim, Laws...>& sys
     return rounded<Scalar>(symplectic_limit(laplacian, effort, 0, start), system.revision());
 }
 
-}  // namespace detail
+}  // namespace stability_detail
 
 /// The step at any pose (linearised): 4M − 2hL_c − h²L_k ≻ 0 on the graph Laplacians proves
 /// that symplectic Euler (and velocity Verlet) has no multiplier μ ≤ −1 at any pose [T23]. By the
@@ -37,7 +37,7 @@ StepLimit<Scalar> any_pose_bracket(const SpringSystem<Scalar, Dim, Laws...>& sys
 /// damping is added, mass removed or a particle unpinned (see StepLimit::step_for).
 template <class Scalar, int Dim, class... Laws>
 StepLimit<Scalar> any_pose_limit(const SpringSystem<Scalar, Dim, Laws...>& system) {
-    return detail::any_pose_bracket(system, detail::Bounds{});
+    return stability_detail::any_pose_bracket(system, stability_detail::Bounds{});
 }
 
 /// The same, narrowed by factorisations of n × n matrices until refuted/certified ≤ 1 + tightness
@@ -47,7 +47,8 @@ StepLimit<Scalar> any_pose_limit(const SpringSystem<Scalar, Dim, Laws...>& syste
                                  double tightness) {
     require_non_negative("any_pose_limit", "tightness", tightness);
     if (tightness == 0) return any_pose_limit(system);
-    return detail::any_pose_bracket(system, detail::Factorisations<Cholesky>{tightness, {}});
+    return stability_detail::any_pose_bracket(
+        system, stability_detail::Factorisations<Cholesky>{tightness, {}});
 }
 
 }  // namespace taut

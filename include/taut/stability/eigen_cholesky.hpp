@@ -24,7 +24,7 @@ public:
     Index analyze(const SparseMatrix<Real>& A) {
         Base::analyzePattern(A);
         const bool ordered = m_P.size() > 0;
-        return detail::widest_factor_row(
+        return solver_detail::widest_factor_row(
             A, [&](Index i) { return ordered ? Index(m_P.indices()[i]) : i; });
     }
     /// @returns whether the factorisation ran to completion

@@ -42,7 +42,7 @@ struct EnergyLimit : StepLimit<Scalar> {
     GraphDampingRange alpha(double h) const;
 };
 
-namespace detail {
+namespace stability_detail {
 
 /// [T34] with ℓ, d0 and c at step h: D = B + C, B = d0·M + αL_k, C ⪯ cM. Young's inequality gives C
 /// the share that makes 2C − h(1 + 1/τ)CM⁻¹C ⪰ 0 and leaves 2β − ηβ² ≥ hλ of B, β = d0 + αλ.
@@ -98,25 +98,25 @@ EnergyLimit<Scalar> energy_bracket(const SpringSystem<Scalar, Dim, Laws...>& sys
         limit.cause = Cause::nothing_to_limit;
         return limit;
     }
-    const double h = holds(most) ? most : last_that_passes(most, 1e-12, holds);
+    const double h = holds(most) ? most : detail::last_that_passes(most, 1e-12, holds);
     limit.certified = round_down<Scalar>(h);
     limit.refuted = round_up<Scalar>(bracket.refuted / 2);
     limit.cause = h < bracket.certified / 4 ? Cause::damping : Cause::stiffness;
     return limit;
 }
 
-}  // namespace detail
+}  // namespace stability_detail
 
 template <class Scalar>
 GraphDampingRange EnergyLimit<Scalar>::alpha(double h) const {
     require_positive("EnergyLimit::alpha", "h", h);
-    constexpr double margin = detail::energy_margin<Scalar>;
-    auto range = detail::graph_damping_range(h * (1 + margin), stiffness, drag * (1 + margin),
-                                             dampers * (1 + margin));
+    constexpr double margin = stability_detail::energy_margin<Scalar>;
+    auto range = stability_detail::graph_damping_range(h * (1 + margin), stiffness,
+                                                       drag * (1 + margin), dampers * (1 + margin));
     if (drag > 0 && stiffness > 0) {
         // More drag lowers the upper end, less raises the lower one.
-        const auto less = detail::graph_damping_range(h * (1 + margin), stiffness,
-                                                      drag * (1 - margin), dampers * (1 + margin));
+        const auto less = stability_detail::graph_damping_range(
+            h * (1 + margin), stiffness, drag * (1 - margin), dampers * (1 + margin));
         range.lower = std::max(range.lower, less.lower);
     }
     range.lower *= 1 + margin;
@@ -130,7 +130,7 @@ GraphDampingRange EnergyLimit<Scalar>::alpha(double h) const {
 /// any_pose_limit's answer.
 template <class Scalar, int Dim, class... Laws>
 EnergyLimit<Scalar> energy_limit(const SpringSystem<Scalar, Dim, Laws...>& system) {
-    return detail::energy_bracket(system, detail::Bounds{});
+    return stability_detail::energy_bracket(system, stability_detail::Bounds{});
 }
 
 /// The same, with ℓ narrowed by factorisations of n × n matrices [T22].
@@ -140,7 +140,8 @@ EnergyLimit<Scalar> energy_limit(const SpringSystem<Scalar, Dim, Laws...>& syste
                                  double tightness) {
     require_non_negative("energy_limit", "tightness", tightness);
     if (tightness == 0) return energy_limit(system);
-    return detail::energy_bracket(system, detail::Factorisations<Cholesky>{tightness, {}});
+    return stability_detail::energy_bracket(
+        system, stability_detail::Factorisations<Cholesky>{tightness, {}});
 }
 
 }  // namespace taut

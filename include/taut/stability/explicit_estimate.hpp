@@ -54,7 +54,8 @@ Real explicit_estimate(const Pencil& pencil, Real k_max) {
         return solution;
     };
     double h = std::numeric_limits<double>::infinity();
-    const auto lower = [&](const detail::ComplexRitzPairs<Real>& pairs, auto&& eigenvalue) {
+    const auto lower = [&](const stability_detail::ComplexRitzPairs<Real>& pairs,
+                           auto&& eigenvalue) {
         for (Index j = 0; j < pairs.value.size(); ++j) {
             const std::complex<Real> lambda = eigenvalue(pairs.value[j]);
             if (!(std::abs(lambda) > zero * omega)) continue;
@@ -71,9 +72,9 @@ Real explicit_estimate(const Pencil& pencil, Real k_max) {
                                           form(matrices::D) / m));
         }
     };
-    lower(detail::arnoldi<Real>(forwards, 2 * N, steps),
+    lower(stability_detail::arnoldi<Real>(forwards, 2 * N, steps),
           [](std::complex<Real> value) { return value; });
-    lower(detail::arnoldi<Real>(backwards, 2 * N, steps),
+    lower(stability_detail::arnoldi<Real>(backwards, 2 * N, steps),
           [&](std::complex<Real> value) { return sigma + 1.0 / value; });
     return h;
 }

@@ -29,7 +29,7 @@ struct RitzPair {
     int products = 0;        ///< multiplications by S spent
 };
 
-namespace detail {
+namespace stability_detail {
 
 /// A fixed pseudo-random vector: the same on every machine, with a component along every mode.
 inline Eigen::VectorXd scattered_vector(Index N, Index seed = 0) {
@@ -89,7 +89,7 @@ private:
     std::vector<Real> numbers_;
 };
 
-}  // namespace detail
+}  // namespace stability_detail
 
 /// The largest eigenvalue of M⁻¹S from below: Lanczos with full reorthogonalisation and thick
 /// restart (K. Wu and H. Simon, Thick-restart Lanczos method for large symmetric eigenvalue
@@ -102,15 +102,15 @@ RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
     const Index m = std::min<Index>(options.basis, N);
     VectorX<Real> root(N);
     for (Index i = 0; i < N; ++i) root[i] = std::sqrt(pencil.mass()[i]);
-    detail::Basis<Real> Q(N, m);                                // orthonormal
+    stability_detail::Basis<Real> Q(N, m);                      // orthonormal
     std::vector<double> H(static_cast<std::size_t>(m * m), 0);  // QᵀAQ with A = M⁻½SM⁻½
     VectorX<Real> u(N);
     VectorX<Real> w(N);
-    VectorX<Real> q = detail::scattered_vector(N);
+    VectorX<Real> q = stability_detail::scattered_vector(N);
     if (start.size() == N) {
         for (Index i = 0; i < N; ++i) q[i] = root[i] * start[i];
     }
-    q /= std::sqrt(detail::dot(q.data(), q.data(), N));
+    q /= std::sqrt(stability_detail::dot(q.data(), q.data(), N));
     RitzPair pair;
     Index kept = 0;
     for (int run = 0; run <= options.restarts; ++run) {
@@ -131,21 +131,21 @@ RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
             }
             // Twice is enough (Parlett): the basis stays orthogonal to rounding.
             Q.remove_from(w, used);
-            beta = std::sqrt(detail::dot(w.data(), w.data(), N));
+            beta = std::sqrt(stability_detail::dot(w.data(), w.data(), N));
             if (!(beta > 1e-14 * norm)) {
                 // An invariant subspace, maybe not that of the largest eigenvalue.
                 beta = 0;
-                w = detail::scattered_vector(N, used);
+                w = stability_detail::scattered_vector(N, used);
                 for (int pass = 0; pass < 2; ++pass) Q.remove_from(w, used);
             }
-            q = w / std::sqrt(detail::dot(w.data(), w.data(), N));
+            q = w / std::sqrt(stability_detail::dot(w.data(), w.data(), N));
         }
         std::vector<double> projected;
         for (Index j = 0; j < used; ++j) {
             projected.insert(projected.end(), H.begin() + j * m, H.begin() + j * m + used);
         }
         const auto ritz =
-            detail::small_spectrum(std::move(projected), static_cast<std::size_t>(used));
+            stability_detail::small_spectrum(std::move(projected), static_cast<std::size_t>(used));
         const double earlier = pair.value;
         pair.value = ritz.values[used - 1];
         pair.residual = beta * std::abs(ritz.vector(used - 1)[used - 1]);
@@ -164,7 +164,7 @@ RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
         }
     }
     const double* shape = Q[kept - 1];
-    const double length = std::sqrt(detail::dot(shape, shape, N));
+    const double length = std::sqrt(stability_detail::dot(shape, shape, N));
     pair.vector.resize(N);
     for (Index i = 0; i < N; ++i) pair.vector[i] = shape[i] / length / root[i];
     return pair;

@@ -88,7 +88,7 @@ AddedMass added_mass(const SpringSystem<Scalar, Dim, Laws...>& system,
         heavier.set_mass(i,
                          static_cast<Scalar>(static_cast<double>(system.mass(i)) + added.mass[i]));
     }
-    added.frequency_change = detail::frequency_changes(
+    added.frequency_change = stability_detail::frequency_changes(
         pencil, SpringPencil<Dim>::at_pose(heavier, state.x.template cast<TangentReal<Scalar>>()));
     return added;
 }

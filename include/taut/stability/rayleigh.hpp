@@ -47,7 +47,7 @@ struct AlphaWindow {
     }
 };
 
-namespace detail {
+namespace stability_detail {
 
 /// A number that is above the exact result of the one operation that gave `value` …
 inline double above(double value) {
@@ -113,7 +113,7 @@ inline AlphaWindow window_by(method::LimitedByIndefiniteness, double, double, do
     return {0, std::numeric_limits<double>::infinity(), EmptyWindow::none, true};
 }
 
-}  // namespace detail
+}  // namespace stability_detail
 
 /// The feasible α of D' = d0 + αK' at step h, s, for eigenvalues of K' in [k_min, k_max] with
 /// 0 ≤ k_min, 1/s²: exact [T13]–[T16], but for its own rounding, which is inwards: whatever the
@@ -131,7 +131,7 @@ inline AlphaWindow rayleigh_window(Method method, double h, double d0, double k_
     }
     return method::visit_limited("rayleigh_window", method, [&](auto descriptor) {
         using Limit = typename decltype(descriptor)::Limit;
-        return detail::window_by(Limit{}, h, d0, k_min, k_max, compression);
+        return stability_detail::window_by(Limit{}, h, d0, k_min, k_max, compression);
     });
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "../core/detail/fits.hpp"
 #include "../model/spring_system.hpp"
 #include "detail/explicit_limit.hpp"
 #include "detail/implicit_limit.hpp"
@@ -93,7 +94,9 @@ public:
     /// The bracket of the largest stable step, s: by bounds alone, O(springs) for each of a few
     /// passes [T26], and a Ritz vector. Bare matrices that are not diagonally dominant take some
     /// factorisations by Eigen, too.
-    StepLimit<Scalar> max_step(Method method) const { return bracket(method, detail::Bounds{}); }
+    StepLimit<Scalar> max_step(Method method) const {
+        return bracket(method, stability_detail::Bounds{});
+    }
     /// The same, narrowed by sparse factorisations until refuted/certified ≤ 1 + tightness (and 6
     /// ulp of Scalar) where the method's conditions allow it (1e-6 is reachable; a factorisation or
     /// two) [T22], up to dense_size also by dense eigensolvers. An overload, since only its callers
@@ -102,7 +105,7 @@ public:
     StepLimit<Scalar> max_step(Method method, double tightness) const {
         require_non_negative("Stability::max_step", "tightness", tightness);
         if (tightness == 0) return max_step(method);
-        return bracket(method, detail::Factorisations<Cholesky>{tightness, {}});
+        return bracket(method, stability_detail::Factorisations<Cholesky>{tightness, {}});
     }
     /// Whether step h, s, is proved stable: by the bound, or else by factorisation.
     Certificate certify(Method method, double h) const;
@@ -130,12 +133,14 @@ public:
     /// The springs that hold most of the limiting mode's elastic energy, the first one most.
     std::vector<SpringShare> limiting_springs(Index count) const {
         if (size() == 0) return {};
-        return detail::largest_shares(pencil_->spring_shares(limiting_mode().shape), count);
+        return stability_detail::largest_shares(pencil_->spring_shares(limiting_mode().shape),
+                                                count);
     }
     /// The particles that hold most of its kinetic energy, the first one most.
     std::vector<ParticleShare> limiting_particles(Index count) const {
         if (size() == 0) return {};
-        return detail::largest_shares(pencil_->particle_shares(limiting_mode().shape), count);
+        return stability_detail::largest_shares(pencil_->particle_shares(limiting_mode().shape),
+                                                count);
     }
 
     /// The largest factor on all stiffness (αK⁺ included) for which step h, s, is still certified
@@ -143,13 +148,13 @@ public:
     /// holds.
     double max_stiffness_scale(Method method, double h) const {
         require_positive("Stability::max_stiffness_scale", "h", h);
-        return detail::max_stiffness_scale(method, *pencil_, h);
+        return stability_detail::max_stiffness_scale(method, *pencil_, h);
     }
     /// The least factor on all masses (d0·M included) for which step h, s, is certified by the
     /// bound, to nine digits; infinity if none is, 0 if every one is.
     double min_mass_scale(Method method, double h) const {
         require_positive("Stability::min_mass_scale", "h", h);
-        return detail::min_mass_scale(method, *pencil_, h);
+        return stability_detail::min_mass_scale(method, *pencil_, h);
     }
     /// The number of equal steps of a frame, s, that the bound certifies; nothing if no step is.
     std::optional<Index> substeps(Method method, double frame) const;
@@ -160,23 +165,23 @@ public:
     const ScenePencil& pencil() const { return *pencil_; }
 
 private:
-    // Effort: detail::Bounds or detail::Factorisations.
+    // Effort: stability_detail::Bounds or stability_detail::Factorisations.
     template <class Effort>
     StepLimit<Scalar> bracket(Method method, Effort effort) const;
     // A method's bracket, by what limits it.
     template <class Effort>
-    detail::UnroundedLimit limit_by(method::LimitedByDamping, Effort& effort) const {
-        return detail::explicit_limit(*pencil_, effort, stiffest_);
+    stability_detail::UnroundedLimit limit_by(method::LimitedByDamping, Effort& effort) const {
+        return stability_detail::explicit_limit(*pencil_, effort, stiffest_);
     }
     template <class Effort>
-    detail::UnroundedLimit limit_by(method::LimitedByStiffness, Effort& effort) const {
+    stability_detail::UnroundedLimit limit_by(method::LimitedByStiffness, Effort& effort) const {
         // A bound within 3 % of the Ritz value's step needs no improvement.
-        return detail::symplectic_limit(*pencil_, effort, 1.06 * stiffest_.value,
-                                        [this](double) { return stiffest_.vector; });
+        return stability_detail::symplectic_limit(*pencil_, effort, 1.06 * stiffest_.value,
+                                                  [this](double) { return stiffest_.vector; });
     }
     template <class Effort>
-    detail::UnroundedLimit limit_by(method::LimitedByIndefiniteness, Effort&) const {
-        return detail::implicit_limit(*pencil_);
+    stability_detail::UnroundedLimit limit_by(method::LimitedByIndefiniteness, Effort&) const {
+        return stability_detail::implicit_limit(*pencil_);
     }
 
     std::shared_ptr<const ScenePencil> pencil_;  // immutable, so copies may share it
@@ -197,7 +202,7 @@ void Stability<Scalar, Cholesky>::update(const SpringSystem<Scalar, Dim, Laws...
         SpringPencil<Dim>::at_pose(system, state.x.template cast<TangentReal<Scalar>>()));
     pencil->require_range("Stability");
     if (pencil->size() > 0) {
-        stiffest_ = detail::leading_pair(*pencil, matrices::K_plus, stiffest_.vector);
+        stiffest_ = stability_detail::leading_pair(*pencil, matrices::K_plus, stiffest_.vector);
     }
     pencil_ = std::move(pencil);
     revision_ = system.revision();
@@ -207,19 +212,20 @@ template <class Scalar, class Cholesky>
 template <class Effort>
 StepLimit<Scalar> Stability<Scalar, Cholesky>::bracket(Method method, Effort effort) const {
     if (size() == 0) {
-        return detail::rounded<Scalar>(
-            {detail::infinity, detail::infinity, Cause::nothing_to_limit}, revision_);
+        return stability_detail::rounded<Scalar>(
+            {stability_detail::infinity, stability_detail::infinity, Cause::nothing_to_limit},
+            revision_);
     }
     const auto limit = method::visit_limited("Stability", method, [&](auto descriptor) {
         return limit_by(typename decltype(descriptor)::Limit{}, effort);
     });
-    auto answer = detail::rounded<Scalar>(limit, revision_);
+    auto answer = stability_detail::rounded<Scalar>(limit, revision_);
     // An explicit step is claimed by D − hK ⪰ −δM, which needs no D ⪰ 0 beside it unless K is
     // indefinite: there it says nothing of smaller steps.
-    if (!method::is_limited_by<method::LimitedByDamping>(method) || !detail::claims(answer) ||
-        !pencil_->stiffness_semidefinite())
-        detail::admit_negative_damping(method, *pencil_, answer);
-    detail::add_growth(method, *pencil_, answer, effort);
+    if (!method::is_limited_by<method::LimitedByDamping>(method) ||
+        !stability_detail::claims(answer) || !pencil_->stiffness_semidefinite())
+        stability_detail::admit_negative_damping(method, *pencil_, answer);
+    stability_detail::add_growth(method, *pencil_, answer, effort);
     return answer;
 }
 
@@ -231,13 +237,13 @@ Certificate Stability<Scalar, Cholesky>::certify(Method method, double h) const 
     certificate.proved = h <= static_cast<double>(bound.certified);
     if (certificate.proved || !(h < static_cast<double>(bound.refuted))) return certificate;
     const Pencil& pencil = *pencil_;
-    const double wide = h * (1 + detail::step_rounding<Scalar>);
+    const double wide = h * (1 + stability_detail::step_rounding<Scalar>);
     // An h² that underflows would leave the stiffness out.
     if (method::is_limited_by<method::LimitedByStiffness>(method) &&
         h * h >= std::numeric_limits<double>::min() && pencil.damping_semidefinite() &&
         pencil.projected_semidefinite()) {
         Prover<Cholesky> prover;
-        certificate.proved = detail::proves_symplectic(pencil, prover, wide);
+        certificate.proved = stability_detail::proves_symplectic(pencil, prover, wide);
         return certificate;
     }
     // A bracket narrowed to its distance from h may still contain h: the refuting end moves too.
@@ -257,17 +263,19 @@ StiffnessSpectrum Stability<Scalar, Cholesky>::stiffness_spectrum(bool count_zer
     if (size() == 0) return spectrum;
     const Pencil& pencil = *pencil_;
     spectrum.k_max.upper = std::max(0.0, pencil.upper_bound(matrices::K_plus));
-    spectrum.k_max.lower =
-        std::max(0.0, detail::quotients(pencil, stiffest_.vector, matrices::K_plus).k.lower());
-    const RitzPair softest = detail::softest(pencil);
-    spectrum.k_min.upper = detail::quotients(pencil, softest.vector, matrices::K_plus).k.upper();
-    if (std::isnan(spectrum.k_min.upper)) spectrum.k_min.upper = detail::infinity;  // overflow
+    spectrum.k_max.lower = std::max(
+        0.0, stability_detail::quotients(pencil, stiffest_.vector, matrices::K_plus).k.lower());
+    const RitzPair softest = stability_detail::softest(pencil);
+    spectrum.k_min.upper =
+        stability_detail::quotients(pencil, softest.vector, matrices::K_plus).k.upper();
+    if (std::isnan(spectrum.k_min.upper))
+        spectrum.k_min.upper = stability_detail::infinity;  // overflow
     // Springs: K⁺ ⪰ 0 by construction. Bare matrices: proved so, or bounded.
     spectrum.k_min.lower = -std::max(0.0, pencil.upper_bound(-matrices::K_plus));
     if (pencil.projected_semidefinite()) spectrum.k_min.lower = 0;
     spectrum.k_min.upper = std::max(spectrum.k_min.upper, spectrum.k_min.lower);
     if (count_zero_modes)
-        spectrum.zero_modes = detail::count_zero_modes(pencil, spectrum.k_max.upper);
+        spectrum.zero_modes = stability_detail::count_zero_modes(pencil, spectrum.k_max.upper);
     return spectrum;
 }
 
@@ -281,7 +289,7 @@ double Stability<Scalar, Cholesky>::spectral_radius(Method method, double h) con
     double radius = 0;
     for (const double sign : {1.0, -1.0}) {
         const RitzPair end = largest_ritz_pair(*pencil_, sign * matrices::K_plus);
-        const auto [k, d] = detail::quotients(*pencil_, end.vector, matrices::K_plus);
+        const auto [k, d] = stability_detail::quotients(*pencil_, end.vector, matrices::K_plus);
         if (std::abs(k.value) <= k.error && std::abs(d.value) <= d.error) continue;  // a zero mode
         radius = std::max(radius, taut::spectral_radius(method, k.value, d.value, h));
     }
@@ -295,7 +303,7 @@ LimitingMode Stability<Scalar, Cholesky>::limiting_mode() const {
     options.basis = 60;
     options.tolerance = 1e-6;
     RitzPair pair = largest_ritz_pair(*pencil_, matrices::K_plus, options, stiffest_.vector);
-    const auto [k, d] = detail::quotients(*pencil_, pair.vector, matrices::K_plus);
+    const auto [k, d] = stability_detail::quotients(*pencil_, pair.vector, matrices::K_plus);
     return {k.value, d.value, std::move(pair.vector)};
 }
 

@@ -103,7 +103,7 @@ struct StepLimit {
     }
 };
 
-namespace detail {
+namespace stability_detail {
 
 /// By how much, relative, rounding may move a limit: the arithmetic in double that made it, and
 /// what a stepper holds as Scalars, 1/m, d0, α and two products of these (3/2 ulp).
@@ -134,5 +134,5 @@ Scalar round_up(double value) {
                : std::nextafter(rounded, std::numeric_limits<Scalar>::infinity());
 }
 
-}  // namespace detail
+}  // namespace stability_detail
 }  // namespace taut

@@ -22,7 +22,7 @@ struct ModeError {
     double period_error = 0;        ///< period of the steps over the true one, less 1
 };
 
-namespace detail {
+namespace tradeoff_detail {
 
 inline void require_mode(const char* function, double z, double zeta) {
     require_positive(function, "z", z);
@@ -37,7 +37,7 @@ inline void require_added(Scheme scheme, double added) {
         fail("mode_error: added is ", added, "; it must be 0 for ", name(scheme));
 }
 
-}  // namespace detail
+}  // namespace tradeoff_detail
 
 /// The exact errors of one mode: ln μ/h against λ. For ζ = 0 and small z the damping ratio is
 /// −z/2 (explicit Euler), 0, 0, z/2 (implicit Euler) and z³/4 (BDF2), the period error z²/3,
@@ -47,8 +47,8 @@ inline void require_added(Scheme scheme, double added) {
 /// @param added  α/h of ExplicitOptions::damping.look_ahead, ≥ 0, which damps by added·z/2 more: an
 ///               error. Of symplectic Euler and velocity Verlet; others have none
 inline ModeError mode_error(Scheme scheme, double z, double zeta = 0, double added = 0) {
-    detail::require_mode("mode_error", z, zeta);
-    detail::require_added(scheme, added);
+    tradeoff_detail::require_mode("mode_error", z, zeta);
+    tradeoff_detail::require_added(scheme, added);
     const auto e = method::visit(scheme, [&](auto descriptor) {
         return decltype(descriptor)::multiplier_less_one(z, zeta + added * z / 2);
     });

@@ -40,7 +40,7 @@ inline std::string name(const Candidate& candidate) {
     return text + " by sparse Cholesky";
 }
 
-namespace detail {
+namespace tradeoff_detail {
 
 /// The stepper of each method; Solver is that of an implicit one.
 template <class Descriptor, class System, class Solver>
@@ -81,7 +81,7 @@ auto make_stepper(const System& system, const Candidate& candidate) {
     }
 }
 
-}  // namespace detail
+}  // namespace tradeoff_detail
 
 /// action(stepper) with the stepper of `candidate` on `system`, as fresh from its constructor.
 template <class System, class Action>
@@ -93,14 +93,15 @@ void with_stepper(const System& system, const Candidate& candidate, Action&& act
         using Descriptor = decltype(descriptor);
         if constexpr (Descriptor::is_implicit) {
             if (candidate.solver == LinearSolver::conjugate_gradient) {
-                auto stepper = detail::make_stepper<Descriptor, Gradients>(system, candidate);
+                auto stepper =
+                    tradeoff_detail::make_stepper<Descriptor, Gradients>(system, candidate);
                 stepper.configure([&](Gradients& solver) {
                     solver.setTolerance(static_cast<Scalar>(candidate.solver_tolerance));
                 });
                 return action(stepper);
             }
         }
-        auto stepper = detail::make_stepper<Descriptor, Direct>(system, candidate);
+        auto stepper = tradeoff_detail::make_stepper<Descriptor, Direct>(system, candidate);
         return action(stepper);
     });
 }

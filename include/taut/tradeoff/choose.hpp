@@ -75,7 +75,7 @@ struct Recommendation {
     std::vector<Plan> plans;  ///< all that were compared, the cheapest first
 };
 
-namespace detail {
+namespace tradeoff_detail {
 
 inline std::string milliseconds(double seconds) {
     char buffer[32];
@@ -97,7 +97,7 @@ constexpr const char* reason(StepBound bound) {
     return "unknown";
 }
 
-}  // namespace detail
+}  // namespace tradeoff_detail
 
 /// The cheapest of plans that all reach the goal. Fails when none has a finite cost.
 inline Recommendation choose(std::vector<Plan> plans, const Goal& goal) {
@@ -111,16 +111,17 @@ inline Recommendation choose(std::vector<Plan> plans, const Goal& goal) {
     answer.pick = plans.front();
     if (plans.size() > 1) answer.runner_up = plans[1];
     answer.within_budget = answer.pick.cost <= goal.budget;
-    answer.why = detail::describe(answer.pick) + " takes " + detail::reason(answer.pick.bound) +
-                 " and is the cheapest that is " + (goal.accuracy ? "accurate enough" : "stable");
+    answer.why = tradeoff_detail::describe(answer.pick) + " takes " +
+                 tradeoff_detail::reason(answer.pick.bound) + " and is the cheapest that is " +
+                 (goal.accuracy ? "accurate enough" : "stable");
     if (answer.runner_up) {
         char ratio[32];
         std::snprintf(ratio, sizeof ratio, "%.3g times", answer.runner_up->cost / answer.pick.cost);
-        answer.why += "; next comes " + detail::describe(*answer.runner_up) + " at " + ratio +
-                      " the cost with " + detail::reason(answer.runner_up->bound);
+        answer.why += "; next comes " + tradeoff_detail::describe(*answer.runner_up) + " at " +
+                      ratio + " the cost with " + tradeoff_detail::reason(answer.runner_up->bound);
     }
     if (!answer.within_budget) {
-        answer.why += "; none keeps to the budget of " + detail::milliseconds(goal.budget);
+        answer.why += "; none keeps to the budget of " + tradeoff_detail::milliseconds(goal.budget);
     }
     answer.why += '.';
     answer.plans = std::move(plans);

@@ -26,7 +26,7 @@ struct Mode {
     Eigen::VectorXd shape;  ///< u, one entry for each free degree of freedom, uᵀMu = 1
 };
 
-namespace detail {
+namespace tradeoff_detail {
 
 /// The multiplier μ, Im μ ≥ 0, that evenly spaced samples of one swing follow: least squares on
 /// a_{j+1} = t·a_j − q·a_{j−1} (R. de Prony, 1795). Nothing where the fit has real roots.
@@ -52,7 +52,7 @@ std::optional<std::complex<double>> fitted_multiplier(const VectorX<Real>& sampl
     return std::complex<double>(half, std::sqrt(under));
 }
 
-}  // namespace detail
+}  // namespace tradeoff_detail
 
 /// Up to `count` of the lowest modes above the zero modes at a pose, K⁺ for K, ascending.
 /// Dense eigenvectors for small scenes, Krylov vectors for large ones: numerical, no proof.
@@ -62,7 +62,7 @@ std::vector<Mode> lowest_modes(const SpringSystem<Scalar, Dim, Laws...>& system,
     const auto pencil =
         SpringPencil<Dim>::at_pose(system, state.x.template cast<TangentReal<Scalar>>());
     std::vector<Mode> modes;
-    const Eigen::MatrixXd shapes = detail::low_modes(pencil);
+    const Eigen::MatrixXd shapes = stability_detail::low_modes(pencil);
     Eigen::VectorXd y;
     for (Index j = 0; j < std::min<Index>(count, shapes.cols()); ++j) {
         Mode mode;
@@ -111,7 +111,7 @@ std::optional<ModeError> measured_mode_error(const LinearSystem<Scalar>& system,
         }
     });
     if (!alive) return std::nullopt;
-    const auto mu = detail::fitted_multiplier<double>(swing);
+    const auto mu = tradeoff_detail::fitted_multiplier<double>(swing);
     if (!mu) return std::nullopt;
     const std::complex<double> rate = std::log(*mu) / (static_cast<double>(stride) * z);
     const double frequency = std::sqrt(std::max(0.0, (1 - mode.zeta) * (1 + mode.zeta)));

@@ -8,7 +8,7 @@
 #include "../../model/free_particles.hpp"
 #include "../../model/particle_constraints.hpp"
 
-namespace taut::detail {
+namespace taut::integrator_detail {
 
 /// The linear system A Δv = b of an implicit step under constraints on particles. With S the
 /// projector on what they leave free and z the Δv that they prescribe,
@@ -101,4 +101,4 @@ const SparseMatrix<Scalar>& ConstraintProjection<Scalar, Dim>::matrix(
     return matrix_;
 }
 
-}  // namespace taut::detail
+}  // namespace taut::integrator_detail

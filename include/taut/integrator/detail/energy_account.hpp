@@ -7,7 +7,7 @@
 
 #include "energy_books.hpp"
 
-namespace taut::detail {
+namespace taut::integrator_detail {
 
 /// What a guard allows.
 struct EnergyTerms {
@@ -127,4 +127,4 @@ private:
     bool opened_ = false;
 };
 
-}  // namespace taut::detail
+}  // namespace taut::integrator_detail

@@ -11,7 +11,7 @@
 #include "../../model/spring_set.hpp"
 #include "pin_work.hpp"
 
-namespace taut::detail {
+namespace taut::integrator_detail {
 
 /// The energy of a state, and what makes it oscillate under the explicit steps.
 struct EnergyBooks {
@@ -181,4 +181,4 @@ Index most_loaded_spring(const System& system, const State& state) {
     return found;
 }
 
-}  // namespace taut::detail
+}  // namespace taut::integrator_detail

@@ -12,7 +12,7 @@
 
 namespace taut {
 
-namespace detail {
+namespace integrator_detail {
 
 /// Steps of an explicit method: springs by a sweep, whatever else by System::force.
 template <class System>
@@ -33,7 +33,7 @@ public:
     template <class AnyState, class Update>
     Report run(const System& system, AnyState& state, Scalar h, Index count, const Update& update) {
         [[maybe_unused]] const auto added = options_.damping.times(static_cast<double>(h));
-        if constexpr (is_spring_system_v<System>) {
+        if constexpr (model_detail::is_spring_system_v<System>) {
             if (!system.has_external_force()) {
                 const Report report = StepLoop<State>::check(system, state, h);
                 if (!report) return report;
@@ -44,7 +44,7 @@ public:
             }
         }
         return loop_.run(system, state, h, count, [&](State& own) -> Report {
-            if constexpr (is_spring_system_v<System>) {
+            if constexpr (model_detail::is_spring_system_v<System>) {
                 system.force(own, f_, added);
             } else {
                 system.force(own, f_);
@@ -59,10 +59,10 @@ private:
     struct None {};
 
     ExplicitOptions options_;
-    std::conditional_t<is_spring_system_v<System>, sweep::Sweep<System>, None> sweep_;
+    std::conditional_t<model_detail::is_spring_system_v<System>, sweep::Sweep<System>, None> sweep_;
     StepLoop<State> loop_;
     decltype(State::x) f_;  // force, Dim × n, N
 };
 
-}  // namespace detail
+}  // namespace integrator_detail
 }  // namespace taut

@@ -7,7 +7,7 @@
 
 #include "../../core/types.hpp"
 
-namespace taut::detail {
+namespace taut::integrator_detail {
 
 /// Factors of one matrix pattern for the last two time steps h, so that an h that returns costs no
 /// factorisation.
@@ -66,4 +66,4 @@ private:
     std::int64_t count_ = 0;
 };
 
-}  // namespace taut::detail
+}  // namespace taut::integrator_detail

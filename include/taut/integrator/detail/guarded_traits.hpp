@@ -8,7 +8,7 @@
 #include "../../core/concepts.hpp"
 #include "../../method/method.hpp"
 
-namespace taut::detail {
+namespace taut::integrator_detail {
 
 template <class Stepper>
 using method_of = decltype(Stepper::method);
@@ -36,11 +36,11 @@ double claimed_work(Respond& respond, State& state) {
 /// What the guard takes a stepper for; one without a `method` counts as implicit.
 template <class Stepper>
 constexpr Method guarded_method() {
-    if constexpr (is_detected_v<method_of, Stepper>) {
+    if constexpr (detail::is_detected_v<method_of, Stepper>) {
         return Stepper::method;
     } else {
         return Method::implicit_euler;
     }
 }
 
-}  // namespace taut::detail
+}  // namespace taut::integrator_detail

@@ -6,7 +6,7 @@
 
 #include "../../model/state_view.hpp"
 
-namespace taut::detail {
+namespace taut::integrator_detail {
 
 /// The state that a stepper left behind, to tell whether anybody has touched it or the system's
 /// force since.
@@ -15,7 +15,7 @@ class LastState {
 public:
     template <class System, class AnyState>
     void keep(const System& system, const AnyState& state) {
-        if constexpr (is_state_view_v<AnyState>) {
+        if constexpr (model_detail::is_state_view_v<AnyState>) {
             // As stored: else arrays of less precision would always seem touched.
             state.copy_to(state_);
         } else {
@@ -39,4 +39,4 @@ private:
     std::uint64_t force_revision_ = 0;
 };
 
-}  // namespace taut::detail
+}  // namespace taut::integrator_detail

@@ -7,7 +7,7 @@
 
 #include "../../core/types.hpp"
 
-namespace taut::detail {
+namespace taut::integrator_detail {
 
 /// The two-loop recursion of L-BFGS about an initial matrix of the caller's (J. Nocedal,
 /// "Updating quasi-Newton matrices with limited storage", Math. Comp. 35, 1980).
@@ -61,4 +61,4 @@ private:
     std::size_t count_ = 0;  // pairs held
 };
 
-}  // namespace taut::detail
+}  // namespace taut::integrator_detail

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace taut::detail {
+namespace taut::integrator_detail {
 
 /// The exact motion of q̈ + d q̇ + k q = p over one step, p constant [T32]:
 ///     (q⁺, q̇⁺) = A (q, q̇) + p·b,   A = e^(hC),  b = ∫₀ʰ e^(tC) dt·(0, 1),  C = [0 1; −k −d].
@@ -83,4 +83,4 @@ private:
     }
 };
 
-}  // namespace taut::detail
+}  // namespace taut::integrator_detail

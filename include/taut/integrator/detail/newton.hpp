@@ -8,7 +8,7 @@
 #include "step_judge.hpp"
 #include "step_objective.hpp"
 
-namespace taut::detail {
+namespace taut::integrator_detail {
 
 /// Newton's method on the objective of the nonlinear implicit step, with a line search.
 template <class System>
@@ -55,7 +55,7 @@ bool Newton<System>::line_search(const System& system, const StepEquation<System
                                  Scalar& value, Scalar rounding, Filter&& filter) {
     const Scalar slope = -b_.dot(du_);
     // A whole move that is not taken has gone too far: φ falls at 0 and no longer at 1.
-    Bisection<Scalar> search(0, 1, 0, 39);
+    detail::Bisection<Scalar> search(0, 1, 0, 39);
     for (Scalar t = 1; search.open(); t = search.middle()) {
         u1_ = u_;
         equation.free().add(t, du_, u1_);
@@ -134,4 +134,4 @@ Report Newton<System>::step(const System& system, State& state, const VectorX<Sc
     return report;
 }
 
-}  // namespace taut::detail
+}  // namespace taut::integrator_detail

@@ -10,7 +10,7 @@
 #include "../../core/types.hpp"
 #include "../../model/spring_mechanics.hpp"
 
-namespace taut::detail {
+namespace taut::integrator_detail {
 
 /// The pins that move, and what springs do to them: only springs with a pinned end are visited.
 template <class System>
@@ -87,4 +87,4 @@ private:
     bool known_ = false;
 };
 
-}  // namespace taut::detail
+}  // namespace taut::integrator_detail

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace taut::detail {
+namespace taut::integrator_detail {
 
 /// How finely a guard cuts its frames: into 2^level times the substeps that the limit asks for. A
 /// level that retries have reached is kept for a while.
@@ -57,4 +57,4 @@ private:
     std::uint64_t revision_ = 0;  // of the system
 };
 
-}  // namespace taut::detail
+}  // namespace taut::integrator_detail

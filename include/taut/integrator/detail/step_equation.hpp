@@ -9,7 +9,7 @@
 #include "../../core/status.hpp"
 #include "../../model/spring_system.hpp"
 
-namespace taut::detail {
+namespace taut::integrator_detail {
 
 /// The linear system of an implicit step x⁺ = x + su + τΔv for Δv = v⁺ − v [T6], [T27]:
 ///     (M + τD + τ²K) Δv = τ (f(x, v) − sK u),  K⁺ for K where springs are behind it.
@@ -161,4 +161,4 @@ Status solve_status(const Solver& solver, const VectorX<Scalar>& x, Status refus
     }
 }
 
-}  // namespace taut::detail
+}  // namespace taut::integrator_detail

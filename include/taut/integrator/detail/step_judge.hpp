@@ -12,7 +12,7 @@
 #include "../../model/spring_system.hpp"
 #include "step_objective.hpp"
 
-namespace taut::detail {
+namespace taut::integrator_detail {
 
 /// Judges whether a move u solves the nonlinear implicit step, particle by particle, so that the
 /// rounding of one stiff spring excuses no other, and whether its energy keeps to [T24].
@@ -218,4 +218,4 @@ auto StepJudge<System>::judge(const System& system, StepObjective<System>& objec
     return {solved, static_cast<Scalar>(h_ * h_ * after_.rounding), static_cast<double>(worst)};
 }
 
-}  // namespace taut::detail
+}  // namespace taut::integrator_detail

@@ -5,9 +5,10 @@
 #include <cmath>
 
 #include "../../core/concepts.hpp"
+#include "../../core/detail/fits.hpp"
 #include "../../model/state_view.hpp"
 
-namespace taut::detail {
+namespace taut::integrator_detail {
 
 /// The frame that all steppers share: checks h and the state, takes `count` steps, and puts the
 /// state back as it was when one of them fails.
@@ -19,9 +20,9 @@ public:
     /// What every call refuses: a bad h, a state of the wrong size or with NaN or infinity.
     template <class System, class AnyState>
     static Report check(const System& system, const AnyState& state, Scalar h) {
-        static_assert((require_state<State, AnyState>(), true));
+        static_assert((model_detail::require_state<State, AnyState>(), true));
         if (!(h > 0) || !std::isfinite(h)) return {Status::invalid_step};
-        if (!fits(state, system.size())) return {Status::invalid_state};
+        if (!detail::fits(state, system.size())) return {Status::invalid_state};
         if (!state.finite()) return {Status::invalid_state, 0, 0, state.first_not_finite()};
         return {};
     }
@@ -32,7 +33,7 @@ public:
     Report run(const System& system, AnyState& state, Scalar h, Index count, Advance&& advance) {
         Report report = check(system, state, h);
         if (!report) return report;
-        if constexpr (is_state_view_v<AnyState>) {
+        if constexpr (model_detail::is_state_view_v<AnyState>) {
             state.copy_to(copy_);
             report = check(system, copy_, h);  // a double may be too large for a float
             if (report) report = take(copy_, h, count, advance);
@@ -66,4 +67,4 @@ private:
     State copy_;  // the state at the start of the call; of a view, the one that is stepped
 };
 
-}  // namespace taut::detail
+}  // namespace taut::integrator_detail

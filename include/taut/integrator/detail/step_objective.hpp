@@ -9,7 +9,7 @@
 
 #include "../../model/spring_system.hpp"
 
-namespace taut::detail {
+namespace taut::integrator_detail {
 
 /// What the nonlinear implicit Euler step of a spring system minimises over the moves u = x⁺ − x:
 ///     φ(u) = ½(u − w)ᵀM(u − w) + h²U(x + u) + ½h uᵀD(x)u,
@@ -143,4 +143,4 @@ auto StepObjective<System>::evaluate(const System& system, const Moves& u, Moves
     return value;
 }
 
-}  // namespace taut::detail
+}  // namespace taut::integrator_detail

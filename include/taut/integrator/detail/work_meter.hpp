@@ -11,7 +11,7 @@
 #include "last_state.hpp"
 #include "pin_work.hpp"
 
-namespace taut::detail {
+namespace taut::integrator_detail {
 
 /// Measures what is done on a scene from outside, step by step, by the rule under which the
 /// method's kept energy changes by exactly that work on a linear scene [T36].
@@ -172,4 +172,4 @@ private:
     bool force_known_ = false;
 };
 
-}  // namespace taut::detail
+}  // namespace taut::integrator_detail

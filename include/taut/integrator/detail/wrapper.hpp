@@ -9,7 +9,7 @@
 
 // What Guarded and Adaptive share: the Wrapper concept of docs/concepts.md.
 
-namespace taut::detail {
+namespace taut::integrator_detail {
 
 template <class Stepper>
 struct stepped_system;
@@ -43,7 +43,7 @@ public:
     /// hold what the last call left there are not read: they may be less precise.
     template <class View, class Advance>
     auto advance(View& view, Advance&& advance) {
-        require_state<State, View>();
+        model_detail::require_state<State, View>();
         if (!is_in(view)) view.copy_to(state_);
         const auto report = advance(state_);
         if (report.advanced > 0) view.copy_from(state_);
@@ -62,4 +62,4 @@ private:
     State state_;
 };
 
-}  // namespace taut::detail
+}  // namespace taut::integrator_detail

@@ -13,7 +13,7 @@
 #include "spring_table.hpp"
 #include "tile.hpp"
 
-namespace taut::detail::sweep {
+namespace taut::integrator_detail::sweep {
 
 /// Orders springs so that neighbours have different ends: first one of each a, then another of
 /// each. To add to the force just stored would be to wait for the store.
@@ -184,4 +184,4 @@ void BatchPlan<Scalar, Dim, Law>::add_batch(const Table& table, const TileView<S
     }
 }
 
-}  // namespace taut::detail::sweep
+}  // namespace taut::integrator_detail::sweep

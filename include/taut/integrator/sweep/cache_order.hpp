@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace taut::detail::sweep {
+namespace taut::integrator_detail::sweep {
 
 /// Two particles that a spring joins, by their indices in the system.
 using Edge = std::pair<int, int>;
@@ -55,4 +55,4 @@ inline std::vector<int> cache_order(int n, const std::vector<Edge>& edges) {
     return order;
 }
 
-}  // namespace taut::detail::sweep
+}  // namespace taut::integrator_detail::sweep

@@ -10,7 +10,7 @@
 #include "cache_order.hpp"
 #include "law_plan.hpp"
 
-namespace taut::detail::sweep {
+namespace taut::integrator_detail::sweep {
 
 /// All springs of a SpringSystem, law by law, and the places of its particles. Where most springs
 /// are scattered, particles get an order that brings ends together; only the planes that this class
@@ -146,4 +146,4 @@ bool ForcePlan<System>::update(const System& system) {
     return true;
 }
 
-}  // namespace taut::detail::sweep
+}  // namespace taut::integrator_detail::sweep

@@ -5,7 +5,7 @@
 #include "batch_plan.hpp"
 #include "run_plan.hpp"
 
-namespace taut::detail::sweep {
+namespace taut::integrator_detail::sweep {
 
 /// The springs of one law: runs, and batches of those that fit none.
 template <class Scalar, int Dim, class Law>
@@ -40,4 +40,4 @@ private:
     bool damped_ = false;
 };
 
-}  // namespace taut::detail::sweep
+}  // namespace taut::integrator_detail::sweep

@@ -4,7 +4,7 @@
 
 #include "../../core/types.hpp"
 
-namespace taut::detail::sweep {
+namespace taut::integrator_detail::sweep {
 
 /// One vector a place, as Dim planes: plane d begins d·stride scalars after the first.
 template <class Scalar>
@@ -23,4 +23,4 @@ EIGEN_ALWAYS_INLINE void for_each_axis(Visitor&& visit) {
     if constexpr (Dim > 2) visit(2);
 }
 
-}  // namespace taut::detail::sweep
+}  // namespace taut::integrator_detail::sweep

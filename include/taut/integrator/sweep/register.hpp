@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace taut::detail::sweep {
+namespace taut::integrator_detail::sweep {
 
 /// No register of Eigen's is wider, in scalars; arrays are padded by as many.
 inline constexpr int max_width = 64 / sizeof(float);
@@ -139,4 +139,4 @@ struct VectorRegister {
     }
 };
 
-}  // namespace taut::detail::sweep
+}  // namespace taut::integrator_detail::sweep

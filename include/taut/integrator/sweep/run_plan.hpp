@@ -10,7 +10,7 @@
 #include "spring_table.hpp"
 #include "tile.hpp"
 
-namespace taut::detail::sweep {
+namespace taut::integrator_detail::sweep {
 
 /// The runs of one law's springs, cut into segments, and the forces of these.
 template <class Scalar, int Dim, class Law>
@@ -163,4 +163,4 @@ void RunPlan<Scalar, Dim, Law>::add_segment(const Table& table, const TileView<S
     }
 }
 
-}  // namespace taut::detail::sweep
+}  // namespace taut::integrator_detail::sweep

@@ -9,7 +9,7 @@
 
 #include "register.hpp"
 
-namespace taut::detail::sweep {
+namespace taut::integrator_detail::sweep {
 
 /// Fewer springs of one offset are not worth a run.
 inline constexpr int shortest_run = 16;
@@ -76,4 +76,4 @@ private:
     std::vector<PlacedSpring> scattered_;
 };
 
-}  // namespace taut::detail::sweep
+}  // namespace taut::integrator_detail::sweep

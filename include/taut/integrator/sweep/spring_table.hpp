@@ -15,8 +15,8 @@ namespace taut {
 
 /// The lengths of as many springs as a register has lanes; a division by them is a product.
 template <class Scalar>
-struct SpringLength<detail::sweep::VectorRegister<Scalar>> {
-    using Register = detail::sweep::VectorRegister<Scalar>;
+struct SpringLength<integrator_detail::sweep::VectorRegister<Scalar>> {
+    using Register = integrator_detail::sweep::VectorRegister<Scalar>;
     Register l2, inverse, l;
 
     explicit EIGEN_ALWAYS_INLINE SpringLength(const Register& square)
@@ -28,7 +28,7 @@ struct SpringLength<detail::sweep::VectorRegister<Scalar>> {
 
 }  // namespace taut
 
-namespace taut::detail::sweep {
+namespace taut::integrator_detail::sweep {
 
 template <class Law, class = void>
 inline constexpr bool is_vectorizable_v = false;
@@ -217,4 +217,4 @@ private:
     std::size_t shared_ = std::size_t(-1);  // the last column of one value, or none
 };
 
-}  // namespace taut::detail::sweep
+}  // namespace taut::integrator_detail::sweep

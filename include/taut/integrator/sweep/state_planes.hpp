@@ -6,7 +6,7 @@
 
 #include "planes.hpp"
 
-namespace taut::detail::sweep {
+namespace taut::integrator_detail::sweep {
 
 /// The planes of a state between two steps. What springs read of any place has a copy for the old
 /// step and one for the new; the rest is stepped where it is.
@@ -80,4 +80,4 @@ private:
     StatePlanes<Scalar> planes_;
 };
 
-}  // namespace taut::detail::sweep
+}  // namespace taut::integrator_detail::sweep

@@ -129,7 +129,7 @@
 #include <omp.h>
 #endif
 
-namespace taut::detail::sweep {
+namespace taut::integrator_detail::sweep {
 
 /// Explicit steps of a SpringSystem without external forces.
 template <class System>
@@ -321,4 +321,4 @@ void Sweep<System>::move(const StatePlanes<Scalar>& planes, Index first, Index c
     }
 }
 
-}  // namespace taut::detail::sweep
+}  // namespace taut::integrator_detail::sweep

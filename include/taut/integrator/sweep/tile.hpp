@@ -5,7 +5,7 @@
 #include "../../model/damping.hpp"
 #include "planes.hpp"
 
-namespace taut::detail::sweep {
+namespace taut::integrator_detail::sweep {
 
 /// Places of a block. A constant, so that the order of all sums is the same for any number of
 /// threads.
@@ -30,4 +30,4 @@ struct TileView {
     Planes<Scalar> discard;
 };
 
-}  // namespace taut::detail::sweep
+}  // namespace taut::integrator_detail::sweep

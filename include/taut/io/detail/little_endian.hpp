@@ -8,7 +8,7 @@
 
 #include "../../core/types.hpp"
 
-namespace taut::detail {
+namespace taut::io_detail {
 
 /// Writes four bytes, least significant first. @returns where the next ones go
 inline unsigned char* put_bytes(std::uint32_t bits, unsigned char* bytes) {
@@ -33,4 +33,4 @@ unsigned char* put_bytes(const Points<Scalar, Dim>& x, unsigned char* bytes) {
     return bytes;
 }
 
-}  // namespace taut::detail
+}  // namespace taut::io_detail

@@ -6,7 +6,7 @@
 
 #include "../../core/types.hpp"
 
-namespace taut::detail {
+namespace taut::io_detail {
 
 /// Nine digits, with a point whatever the program's locale is, and `end`.
 inline void put_number(std::FILE* file, double number, char end) {
@@ -29,4 +29,4 @@ void put_column(std::FILE* file, const Points<Scalar, Dim>& values, Index i) {
     }
 }
 
-}  // namespace taut::detail
+}  // namespace taut::io_detail

@@ -9,7 +9,7 @@
 
 #include "../file_report.hpp"
 
-namespace taut::detail {
+namespace taut::io_detail {
 
 /// A file that is created anew, and remembers whether anything of it was lost.
 class OutputFile {
@@ -51,4 +51,4 @@ Index first_unwritable(const Points& x) {
     return -1;
 }
 
-}  // namespace taut::detail
+}  // namespace taut::io_detail

@@ -11,7 +11,7 @@
 
 // Roots of one scalar mode ẍ + d ẋ + k x = 0: d in 1/s, k in 1/s².
 
-namespace taut::detail {
+namespace taut::method_detail {
 
 /// √(d² + 4k), −1 where there is none: in a unit of time, a power of two, in which neither square
 /// can vanish or overflow.
@@ -47,4 +47,4 @@ inline std::complex<double> exponent(double z, double zeta) {
     return {-zeta * z, std::sqrt((1 - zeta) * (1 + zeta)) * z};
 }
 
-}  // namespace taut::detail
+}  // namespace taut::method_detail

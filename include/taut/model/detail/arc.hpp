@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <limits>
 
-namespace taut::detail {
+namespace taut::model_detail {
 
 /// A circular arc of length L over a chord l: half its angle is y = κL/2, and l/L = sinc y. In
 /// w = y² everything is an entire function, summed here as a power series for 0 ≤ w ≤ π², which
@@ -65,4 +65,4 @@ private:
     static constexpr Coefficients coefficients{};
 };
 
-}  // namespace taut::detail
+}  // namespace taut::model_detail

@@ -10,7 +10,7 @@
 #include "../../core/concepts.hpp"
 #include "../../core/error.hpp"
 
-namespace taut::detail {
+namespace taut::model_detail {
 
 /// Takes the place of a law that require_law refuses, and answers whatever is asked, so that the
 /// compiler has nothing to add to the sentence.
@@ -48,7 +48,7 @@ struct AnyLaw {
 
 /// The law itself, if require_law finds nothing missing.
 template <class Law, class Scalar>
-using usable_law = std::conditional_t<LawHas<Law, Scalar>::all, Law, AnyLaw<Law>>;
+using usable_law = std::conditional_t<detail::LawHas<Law, Scalar>::all, Law, AnyLaw<Law>>;
 
 /// What a spring of the law holds, in the public functions that take it.
 template <class Law, class Scalar>
@@ -87,4 +87,4 @@ void check_law(const usable_parameters<Law, Scalar>& p, Scalar L) {
     }
 }
 
-}  // namespace taut::detail
+}  // namespace taut::model_detail

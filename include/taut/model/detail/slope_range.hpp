@@ -7,7 +7,7 @@
 #include <initializer_list>
 #include <utility>
 
-namespace taut::detail {
+namespace taut::model_detail {
 
 /// Makes a range from the least to the largest slope, N/m, hold more slopes.
 template <class Real>
@@ -47,4 +47,4 @@ std::pair<Real, Real> slope_range(const Parameters& p, Real L, Real low, Real hi
     return slope_range<Law>(p, L, low, high, 0);
 }
 
-}  // namespace taut::detail
+}  // namespace taut::model_detail

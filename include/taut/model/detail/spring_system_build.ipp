@@ -27,7 +27,8 @@ Index SpringSystem<Scalar, Dim, Laws...>::add_spring(Index a, Index b, Scalar st
 template <class Scalar, int Dim, class... Laws>
 template <class Law>
 Index SpringSystem<Scalar, Dim, Laws...>::add_spring(
-    Index a, Index b, const detail::usable_parameters<Law, Scalar>& parameters, Scalar damping) {
+    Index a, Index b, const model_detail::usable_parameters<Law, Scalar>& parameters,
+    Scalar damping) {
     require_particle("add_spring", "a", a);
     require_particle("add_spring", "b", b);
     // The same expression as SpringSet::tangent, so that the spring is unstressed to the last bit.
@@ -54,9 +55,10 @@ Index SpringSystem<Scalar, Dim, Laws...>::add_spring(const Spring<Scalar, Law>& 
     require_non_negative(where, "damping", spring.damping);
     spring.parameters.require_valid(where);
 #ifndef NDEBUG
-    detail::check_law<detail::usable_law<Law, Scalar>>(spring.parameters, spring.rest_length);
+    model_detail::check_law<model_detail::usable_law<Law, Scalar>>(spring.parameters,
+                                                                   spring.rest_length);
 #endif
-    auto& set = std::get<detail::SetOf<Scalar, Law>>(sets_);
+    auto& set = std::get<model_detail::SetOf<Scalar, Law>>(sets_);
     set.add({spring.a, spring.b, spring.parameters, spring.rest_length, spring.damping});
     ++revision_;
     ++topology_revision_;
@@ -66,10 +68,10 @@ Index SpringSystem<Scalar, Dim, Laws...>::add_spring(const Spring<Scalar, Law>& 
 /// The springs of a law, of which s must be one.
 template <class Scalar, int Dim, class... Laws>
 template <class Law>
-detail::SetOf<Scalar, Law>& SpringSystem<Scalar, Dim, Laws...>::set_with(const char* function,
-                                                                         Index s) {
+model_detail::SetOf<Scalar, Law>& SpringSystem<Scalar, Dim, Laws...>::set_with(const char* function,
+                                                                               Index s) {
     static_assert(has_law<Law>, "taut::SpringSystem: the law is not one of the system's Laws");
-    auto& set = std::get<detail::SetOf<Scalar, Law>>(sets_);
+    auto& set = std::get<model_detail::SetOf<Scalar, Law>>(sets_);
     if (s < 0 || s >= set.size()) {
         fail("SpringSystem::", function, ": s is ", s, "; the law has ", set.size(),
              " springs, numbered from 0");
@@ -88,7 +90,7 @@ void SpringSystem<Scalar, Dim, Laws...>::remove_spring(Index s) {
 template <class Scalar, int Dim, class... Laws>
 template <class Law, class Predicate>
 Index SpringSystem<Scalar, Dim, Laws...>::remove_springs(Predicate&& goes) {
-    auto& set = std::get<detail::SetOf<Scalar, Law>>(sets_);
+    auto& set = std::get<model_detail::SetOf<Scalar, Law>>(sets_);
     const Index removed = set.remove_if(goes);
     if (removed > 0) {
         ++revision_;
@@ -100,7 +102,7 @@ Index SpringSystem<Scalar, Dim, Laws...>::remove_springs(Predicate&& goes) {
 template <class Scalar, int Dim, class... Laws>
 template <class Law>
 void SpringSystem<Scalar, Dim, Laws...>::set_parameters(
-    Index s, const detail::usable_parameters<Law, Scalar>& parameters) {
+    Index s, const model_detail::usable_parameters<Law, Scalar>& parameters) {
     auto& set = set_with<Law>("set_parameters", s);
     char where[96];
     std::snprintf(where, sizeof where, "SpringSystem::set_parameters(%lld)",

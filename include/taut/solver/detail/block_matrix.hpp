@@ -7,7 +7,7 @@
 #include "../../core/error.hpp"
 #include "../../core/types.hpp"
 
-namespace taut::detail {
+namespace taut::solver_detail {
 
 /// A symmetric matrix of full Dim × Dim blocks by rows of blocks: one index a block instead of one
 /// an entry, and products that run in vector registers without gathers.
@@ -115,4 +115,4 @@ void BlockMatrix<Scalar, Dim>::set_values(const SparseMatrix<Scalar>& A) {
     }
 }
 
-}  // namespace taut::detail
+}  // namespace taut::solver_detail

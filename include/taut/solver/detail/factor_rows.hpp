@@ -7,7 +7,7 @@
 
 #include "../../core/types.hpp"
 
-namespace taut::detail {
+namespace taut::solver_detail {
 
 /// The most nonzeros in a row of the Cholesky factor of PAPᵀ, the diagonal counted, before it is
 /// computed: row k is what the nonzeros of column k reach in the elimination tree (J. W. H. Liu,
@@ -46,4 +46,4 @@ Index widest_factor_row(const SparseMatrix<double>& A, Place&& place) {
     return widest;
 }
 
-}  // namespace taut::detail
+}  // namespace taut::solver_detail

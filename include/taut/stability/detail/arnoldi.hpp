@@ -10,7 +10,7 @@
 
 #include "../lanczos.hpp"
 
-namespace taut::detail {
+namespace taut::stability_detail {
 
 /// Approximate eigenpairs of a real n × n matrix A.
 template <class Real>
@@ -61,4 +61,4 @@ ComplexRitzPairs<Real> arnoldi(Apply&& apply, Index n, Index steps) {
     return pairs;
 }
 
-}  // namespace taut::detail
+}  // namespace taut::stability_detail

@@ -13,7 +13,7 @@
 // What every search for a limit has in common: what it may spend, what it found, and how a bracket
 // is narrowed: sharpen the vector that refutes, then prove below it.
 
-namespace taut::detail {
+namespace taut::stability_detail {
 
 /// A step limit in double, before it is rounded to a system's Scalar: see rounded().
 struct UnroundedLimit {
@@ -93,4 +93,4 @@ void narrow(Bracket& bracket, double tightness, Sharpen&& sharpen, Proves&& prov
     }
 }
 
-}  // namespace taut::detail
+}  // namespace taut::stability_detail

@@ -14,7 +14,7 @@
 
 // Explicit Euler: D − hK⁺ ≻ 0 and 4M − 2hD + h²K ≻ 0, or mode by mode where M, D and K commute.
 
-namespace taut::detail {
+namespace taut::stability_detail {
 
 /// Whether the two sufficient conditions of explicit Euler hold at h by the bound [T17]:
 /// D − hK⁺ ≻ 0 and 4M − 2hD + h²K ≻ 0. The second one needs the true K, since K ⪯ K⁺.
@@ -85,7 +85,7 @@ inline double certified_explicit(const Pencil& pencil, double k, double d) {
     // limit that K alone sets for any commuting damping [T12].
     const auto certifies = [&](double h) { return certifies_explicit(pencil, h); };
     if (!certifies(std::numeric_limits<double>::min())) return 0;
-    return last_that_passes(k > 0 ? 2 / std::sqrt(k) : 4 / d, 1e-4, certifies);
+    return detail::last_that_passes(k > 0 ? 2 / std::sqrt(k) : 4 / d, 1e-4, certifies);
 }
 
 /// uᵀ(4M − 2hD + h²K)u ≤ 0 proves a multiplier ≤ −1 of explicit Euler, for any symmetric D and K.
@@ -93,7 +93,7 @@ inline double refuted_by_damping(const Pencil& pencil, const Eigen::VectorXd& u)
     const auto [k_enclosed, d_enclosed] = quotients(pencil, u, K);
     const double k = k_enclosed.upper();
     const double d = std::max(0.0, d_enclosed.lower());
-    const double root = discriminant_root(d, -k);
+    const double root = method_detail::discriminant_root(d, -k);
     return d > 0 && root >= 0 ? 2 / (d / 2 + root / 2) : infinity;
 }
 
@@ -192,7 +192,7 @@ void narrow_explicit(const Pencil& pencil, Factorisations<Cholesky>& effort, dou
         (proves(h) ? low : top) = h;
     }
     if (low == 0) return;
-    Bisection<double> search(low, top, effort.tightness);
+    detail::Bisection<double> search(low, top, effort.tightness);
     while (search.open()) search.narrow(proves(search.middle()));
     if (search.passes() > limit.certified) {
         limit.certified_up_to = search.passes();
@@ -246,4 +246,4 @@ UnroundedLimit explicit_limit(const Pencil& pencil, Effort& effort, const RitzPa
     return limit;
 }
 
-}  // namespace taut::detail
+}  // namespace taut::stability_detail

@@ -8,7 +8,7 @@
 #include "../../method/mode.hpp"
 #include "effort.hpp"
 
-namespace taut::detail {
+namespace taut::stability_detail {
 
 /// The bracket of the largest stable step of implicit Euler. K⁺ ⪰ 0 is enough for every step to be
 /// solvable and stable [T20], [T27]; bare matrices, with D ⪰ −δM and K ⪰ −κM, allow steps while
@@ -33,4 +33,4 @@ UnroundedLimit implicit_limit(const Pencil& pencil) {
     return {definite_up_to(pencil.deficit(K_plus)), infinity};
 }
 
-}  // namespace taut::detail
+}  // namespace taut::stability_detail

@@ -12,7 +12,7 @@
 #include "../dense.hpp"
 #include "arnoldi.hpp"
 
-namespace taut::detail {
+namespace taut::stability_detail {
 
 // Templates, though of one type: only their callers compile the eigensolvers and the expressions.
 
@@ -112,4 +112,4 @@ std::vector<double> frequency_changes(const Pencil& before, const Pencil& after)
     return change;
 }
 
-}  // namespace taut::detail
+}  // namespace taut::stability_detail

@@ -13,7 +13,7 @@
 // The first search for an extreme mode of many springs: in single precision, since what is said of
 // the vector that it finds is computed anew in double.
 
-namespace taut::detail {
+namespace taut::stability_detail {
 
 /// A = M⁻½SM⁻½ of the springs' part of S in single precision, scaled so that nothing overflows:
 /// 32 bytes a spring and no branch for pins.
@@ -184,4 +184,4 @@ RitzPair leading_pair(const SpringPencil<Dim>& pencil, const Combination& c,
     return pair;
 }
 
-}  // namespace taut::detail
+}  // namespace taut::stability_detail

@@ -8,7 +8,7 @@
 
 #include "../lanczos.hpp"
 
-namespace taut::detail {
+namespace taut::stability_detail {
 
 using namespace matrices;
 
@@ -51,4 +51,4 @@ RitzPair softest(const Pencil& pencil) {
     return largest_ritz_pair(pencil, -K_plus, options, start);
 }
 
-}  // namespace taut::detail
+}  // namespace taut::stability_detail

@@ -14,7 +14,7 @@
 
 // What would make a step safe, by the bound alone.
 
-namespace taut::detail {
+namespace taut::stability_detail {
 
 /// The `count` largest shares, in descending order.
 template <class Share>
@@ -56,7 +56,7 @@ inline double certified_when_scaled(Method method, const ScenePencil& pencil, do
 inline double max_stiffness_scale(Method method, const ScenePencil& pencil, double h) {
     if (pencil.size() == 0) return infinity;
     if (!pencil.damping_semidefinite()) return 0;
-    return last_that_passes(1.0, scale_tolerance, [&](double scale) {
+    return detail::last_that_passes(1.0, scale_tolerance, [&](double scale) {
         return certified_when_scaled(method, pencil, scale, 1) >= h;
     });
 }
@@ -71,11 +71,11 @@ inline double min_mass_scale(Method method, const ScenePencil& pencil, double h)
     const double least = std::numeric_limits<double>::min() / mass.minCoeff();
     const double most =
         std::numeric_limits<double>::max() / 8 / mass.maxCoeff() / std::max(1.0, d0);
-    return 1 / last_that_passes(1.0, scale_tolerance, [&](double lighter) {
+    return 1 / detail::last_that_passes(1.0, scale_tolerance, [&](double lighter) {
                const double scale =
                    std::clamp(1 / lighter, std::min(least, 1.0), std::max(most, 1.0));
                return certified_when_scaled(method, pencil, 1, scale) >= h;
            });
 }
 
-}  // namespace taut::detail
+}  // namespace taut::stability_detail

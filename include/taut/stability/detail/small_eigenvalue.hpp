@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace taut::detail {
+namespace taut::stability_detail {
 
 /// Whether σI − A is positive definite for certain: a Cholesky factorisation whose pivots stay
 /// above the rounding it can have committed [T22]. False where squares of σ vanish or overflow.
@@ -76,4 +76,4 @@ double eigenvalue_upper_bound(const Eigen::Matrix<double, Dim, Dim>& A) {
     }
 }
 
-}  // namespace taut::detail
+}  // namespace taut::stability_detail

@@ -13,7 +13,7 @@
 // The eigenvalues of the small matrices that a Lanczos search projects on. Plain loops: compiling
 // Eigen's solver takes longer than all else that a step limit needs.
 
-namespace taut::detail {
+namespace taut::stability_detail {
 
 /// Eigenvalues of a symmetric m × m matrix, ascending, and its eigenvectors, or some of their rows.
 struct SmallSpectrum {
@@ -164,4 +164,4 @@ inline SmallSpectrum small_spectrum(std::vector<double> A, std::size_t m) {
     return spectrum;
 }
 
-}  // namespace taut::detail
+}  // namespace taut::stability_detail

@@ -48,7 +48,7 @@ template <int Dim>
 std::vector<double> SpringPencil<Dim>::loads(const Splitting& split) const {
     std::vector<double> load(split.block.size());
     for (std::size_t i = 0; i < load.size(); ++i) {
-        load[i] = detail::eigenvalue_upper_bound<Dim>(split.block[i]) + split.rounding[i];
+        load[i] = stability_detail::eigenvalue_upper_bound<Dim>(split.block[i]) + split.rounding[i];
     }
     return load;
 }
@@ -61,9 +61,9 @@ double SpringPencil<Dim>::largest_quotient(const Splitting& split) const {
     for (std::size_t i = 0; i < split.block.size(); ++i) {
         const double below =
             largest * mass_[static_cast<Index>(Dim * i)] * (1 - 1e-15) - split.rounding[i];
-        if (detail::proved_above<Dim>(split.block[i], below)) continue;
-        const double r =
-            quotient(detail::eigenvalue_upper_bound<Dim>(split.block[i]) + split.rounding[i], i);
+        if (stability_detail::proved_above<Dim>(split.block[i], below)) continue;
+        const double r = quotient(
+            stability_detail::eigenvalue_upper_bound<Dim>(split.block[i]) + split.rounding[i], i);
         if (!(r <= largest)) largest = r;  // NaN and infinity stay
     }
     return largest;

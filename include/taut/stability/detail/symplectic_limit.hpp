@@ -11,7 +11,7 @@
 
 // Symplectic Euler, and velocity Verlet with it: 4M − 2hD − h²K ≻ 0.
 
-namespace taut::detail {
+namespace taut::stability_detail {
 
 /// The largest step of which 4M − 2hD − h²K⁺ ≻ 0 is proved by the bound [T19], [T23].
 /// @param enough  a bound on k_max, 1/s², that need not be improved
@@ -120,4 +120,4 @@ UnroundedLimit symplectic_limit(const Pencil& pencil, Effort& effort, double eno
             symplectic_cause(pencil, bracket.certified, bracket.vector)};
 }
 
-}  // namespace taut::detail
+}  // namespace taut::stability_detail

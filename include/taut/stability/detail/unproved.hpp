@@ -10,7 +10,7 @@
 
 // What a limit still claims where K or D could not be shown to be positive semi-definite.
 
-namespace taut::detail {
+namespace taut::stability_detail {
 
 template <class Scalar>
 bool claims(const StepLimit<Scalar>& limit) {
@@ -77,4 +77,4 @@ void add_growth(Method method, const Pencil& pencil, StepLimit<Scalar>& limit,
     limit.admitted_growth += std::sqrt(epsilon);
 }
 
-}  // namespace taut::detail
+}  // namespace taut::stability_detail
