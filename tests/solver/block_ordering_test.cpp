@@ -36,7 +36,8 @@ TEST_CASE("block_ordering: a permutation that keeps blocks together, and fills i
     const auto cloth = taut::hanging_cloth<double>({24, 24});
     const taut::TangentMatrix<double, 3> tangent(cloth);
     auto A = tangent.zero();
-    tangent.assemble(cloth, cloth.initial_state().x, {1, 1e-4, 0}, A);
+    tangent.assemble(cloth, cloth.initial_state().x,
+                     taut::matrices::M + 1e-4 * taut::matrices::K_plus, A);
     taut::BlockOrdering<>::PermutationType permutation;
     taut::BlockOrdering<>()(A, permutation);
     REQUIRE(permutation.size() == A.cols());

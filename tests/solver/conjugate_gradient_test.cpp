@@ -31,7 +31,8 @@ taut::SparseMatrix<Scalar> draw_matrix(Random& random, Scalar h) {
     const taut::TangentMatrix<Scalar, Dim> tangent(system);
     auto A = tangent.zero();
     const double step = static_cast<double>(h);
-    tangent.assemble(system, random_state(random, system).x, {1, step * step, 0}, A);
+    tangent.assemble(system, random_state(random, system).x,
+                     taut::matrices::M + step * step * taut::matrices::K_plus, A);
     return A;
 }
 
@@ -88,7 +89,7 @@ TEST_CASE("conjugate_gradient: incomplete Cholesky is exact where factors have n
     }
     const taut::TangentMatrix<double, 3> tangent(chain);
     auto A = tangent.zero();
-    tangent.assemble(chain, chain.initial_state().x, {1, 1, 0}, A);
+    tangent.assemble(chain, chain.initial_state().x, taut::matrices::M + taut::matrices::K_plus, A);
     Random random(2);
     const Eigen::VectorXd b = random.points<double, 1>(A.rows(), -1, 1).transpose();
     ConjugateGradient<double, 3> solver;
