@@ -98,8 +98,8 @@ TEST_CASE("rayleigh_design: ratios to factors and back", "[stability]") {
         // Between them: ζ2/ζ1 from ω1/ω2 (mass alone) to ω2/ω1 (stiffness alone).
         const double ratio = zeta_2 / zeta_1;
         const double spread = omega_2 / omega_1;
-        const bool possible = ratio < spread * (1 - 1e-9) && ratio > (1 + 1e-9) / room;
-        const bool impossible = ratio > spread * (1 + 1e-9) || ratio < (1 - 1e-9) / room;
+        const bool possible = ratio < spread * (1 - 1e-9) && ratio > (1 + 1e-9) / spread;
+        const bool impossible = ratio > spread * (1 + 1e-9) || ratio < (1 - 1e-9) / spread;
         INFO(omega_1 << ", " << zeta_1 << ", " << omega_2 << ", " << zeta_2);
         if (impossible) {
             CHECK_THROWS_AS(rayleigh_from_ratios(omega_1, zeta_1, omega_2, zeta_2),
@@ -109,7 +109,7 @@ TEST_CASE("rayleigh_design: ratios to factors and back", "[stability]") {
             CHECK(rayleigh.mass_proportional >= 0);
             CHECK(rayleigh.stiffness_proportional >= 0);
             // Close frequencies magnify rounding.
-            const double worse = rounding * spread / (room - 1);
+            const double worse = rounding * spread / (spread - 1);
             CHECK_THAT(damping_ratio(rayleigh, omega_1), WithinRel(zeta_1, worse));
             CHECK_THAT(damping_ratio(rayleigh, omega_2), WithinRel(zeta_2, worse));
             // The order of the two does not matter.
