@@ -12,9 +12,13 @@ namespace taut {
 /// D holds K⁺ in its Rayleigh part, whichever of K and K⁺ stands beside it [T28].
 class Combination {
 public:
+    /// M alone.
     static constexpr Combination of_mass() { return {1, 0, 0, 0}; }
+    /// D alone.
     static constexpr Combination of_damping() { return {0, 1, 0, 0}; }
+    /// K alone.
     static constexpr Combination of_stiffness() { return {0, 0, 1, 0}; }
+    /// K⁺ alone.
     static constexpr Combination of_projected() { return {0, 0, 0, 1}; }
 
     /// The factor of M.
@@ -26,24 +30,28 @@ public:
     /// The factor of K⁺.
     constexpr double projected() const { return projected_; }
 
+    /// Adds two sums.
     friend constexpr Combination operator+(const Combination& a, const Combination& b) {
         return {a.mass_ + b.mass_, a.damping_ + b.damping_, a.stiffness_ + b.stiffness_,
                 a.projected_ + b.projected_};
     }
+    /// Subtracts a sum from another.
     friend constexpr Combination operator-(const Combination& a, const Combination& b) {
         return {a.mass_ - b.mass_, a.damping_ - b.damping_, a.stiffness_ - b.stiffness_,
                 a.projected_ - b.projected_};
     }
+    /// Turns the sign of every factor.
     friend constexpr Combination operator-(const Combination& a) {
         return {0 - a.mass_, 0 - a.damping_, 0 - a.stiffness_, 0 - a.projected_};
     }
+    /// Multiplies every factor. What the sum leaves out stays out, whatever `factor` is.
     friend constexpr Combination operator*(double factor, const Combination& a) {
         return {times(factor, a.mass_), times(factor, a.damping_), times(factor, a.stiffness_),
                 times(factor, a.projected_)};
     }
 
 private:
-    // What is not in the sum stays out, whatever the factor: 0 times infinity is no number.
+    // 0 times infinity is no number.
     static constexpr double times(double factor, double a) { return a == 0 ? 0 : factor * a; }
 
     constexpr Combination(double mass, double damping, double stiffness, double projected)

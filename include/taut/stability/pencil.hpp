@@ -124,6 +124,7 @@ protected:
         within(value, what, index, 0, square_holds);
     }
 
+    /// What is known of the matrices, as the functions above tell it.
     struct Facts {
         int dim = 1;
         bool stiffness_semidefinite = false;
