@@ -149,14 +149,15 @@ TEST_CASE("contact: a cloth falls on a sphere, hangs over it and comes to rest",
     const Sphere<double, 3> ball({0.5, 0.5, -0.5}, 0.3);
     auto state = cloth.initial_state();
     taut::ImplicitEuler stepper(cloth);
-    for (int i = 0; i < 240; ++i) {
+    // 3 s: later rounding decides which way so symmetric a cloth tips from its balance on the ball.
+    for (int i = 0; i < 180; ++i) {
         REQUIRE(stepper.step(state, 1.0 / 60));
         resolve_contacts(cloth, ball, state, {0.6, 0.01});
         for (Index p = 0; p < cloth.size(); ++p) {
             REQUIRE(ball.surface(state.x.col(p)).distance > 0.01 - Tolerance<double>::accumulated);
         }
     }
-    CHECK(state.v.colwise().norm().maxCoeff() < 0.05);
+    CHECK(state.v.colwise().norm().maxCoeff() < 0.005);
     CHECK_THAT(state.x.row(2).maxCoeff(), WithinAbs(-0.19, 0.02));  // on top of it
     CHECK(state.x.row(2).minCoeff() < -0.4);                        // the corners hang
 }
