@@ -149,7 +149,9 @@ Run run(System system, const typename System::State& start, const Setting& setti
             return run_with<taut::VelocityVerlet<System>>(system, start, own, h, steps);
         case taut::Method::explicit_euler:
             return run_with<taut::ExplicitEuler<System>>(system, start, own, h, steps);
-        default: return run_with<taut::SymplecticEuler<System>>(system, start, own, h, steps);
+        case taut::Method::symplectic_euler:
+            return run_with<taut::SymplecticEuler<System>>(system, start, own, h, steps);
+        default: taut::fail("survival: ", taut::name(setting.method), " is not explicit");
     }
 }
 

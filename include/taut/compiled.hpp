@@ -15,7 +15,9 @@
 #include "solver/conjugate_gradient.hpp"
 #include "solver/interleaved_llt.hpp"
 #include "stability/any_pose.hpp"
+#include "stability/detail/low_modes.hpp"
 #include "stability/energy_limit.hpp"
+#include "stability/explicit_estimate.hpp"
 #include "stability/stability.hpp"
 
 // What the library Taut::Compiled holds: explicit instantiations for float and double, two and
@@ -63,13 +65,25 @@
     KIND class SpringPencil<3>;                                                             \
     KIND RitzPair largest_ritz_pair<double>(const Pencil&, const Combination&,              \
                                             const LanczosOptions&, const Eigen::VectorXd&); \
-    KIND class DenseAnalysis<double>;
+    KIND class DenseAnalysis<double>;                                                       \
+    KIND double explicit_estimate(const Pencil&, double);                                   \
+    KIND Eigen::MatrixXd stability_detail::low_modes<double>(const Pencil&);                \
+    KIND std::vector<double> stability_detail::frequency_changes<double>(const Pencil&,     \
+                                                                         const Pencil&);
 
 #define TAUT_COMPILED_STEPPER(KIND, ...) \
     KIND class __VA_ARGS__;              \
     KIND Report __VA_ARGS__::step(State&, Scalar, Index);
 
+#define TAUT_COMPILED_LINEAR(KIND, SCALAR)                             \
+    TAUT_COMPILED_STEPPER(KIND, ExplicitEuler<LinearSystem<SCALAR>>)   \
+    TAUT_COMPILED_STEPPER(KIND, SymplecticEuler<LinearSystem<SCALAR>>) \
+    TAUT_COMPILED_STEPPER(KIND, VelocityVerlet<LinearSystem<SCALAR>>)  \
+    TAUT_COMPILED_STEPPER(KIND, ImplicitEuler<LinearSystem<SCALAR>>)   \
+    TAUT_COMPILED_STEPPER(KIND, Bdf2<LinearSystem<SCALAR>>)
+
 #define TAUT_COMPILED_SYSTEM(KIND, SCALAR, DIM, ...)                                            \
+    KIND void SpringSystem<__VA_ARGS__>::set_gravity(const Vector&);                            \
     KIND Index SpringSystem<__VA_ARGS__>::add_particle(const Vector&, SCALAR);                  \
     KIND State<SCALAR, DIM> SpringSystem<__VA_ARGS__>::initial_state() const;                   \
     KIND void SpringSystem<__VA_ARGS__>::force(const State&, Force&, const StepDamping&) const; \
@@ -148,6 +162,8 @@ TAUT_COMPILED_SOLVERS(extern template, float)
 TAUT_COMPILED_SOLVERS(extern template, double)
 TAUT_COMPILED_ANALYSIS(extern template, float)
 TAUT_COMPILED_ANALYSIS(extern template, double)
+TAUT_COMPILED_LINEAR(extern template, float)
+TAUT_COMPILED_LINEAR(extern template, double)
 TAUT_COMPILED_EACH_SYSTEM(TAUT_COMPILED_SYSTEM, extern template)
 TAUT_COMPILED_EACH_SYSTEM(TAUT_COMPILED_EXPLICIT, extern template)
 TAUT_COMPILED_EACH_SYSTEM(TAUT_COMPILED_IMPLICIT, extern template)

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include <Eigen/LU>
 #include <Eigen/SparseLU>
 #include <cmath>
 #include <taut/integrator/implicit_euler.hpp>
@@ -9,7 +8,7 @@
 #include "../support/catch.hpp"
 #include "../support/dense.hpp"
 #include "../support/random_system.hpp"
-#include "../support/spectrum.hpp"
+#include "../support/decompositions.hpp"
 #include "../support/tolerance.hpp"
 
 namespace taut_test::implicit_euler_test {
@@ -31,11 +30,6 @@ LinearState draw_state(Random& random, Index n) {
 }
 
 Sparse sparse(const Eigen::MatrixXd& dense) { return dense.sparseView(); }
-
-/// Solves A v = b by dense LU with full pivoting.
-Eigen::VectorXd dense_solve(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
-    return Eigen::FullPivLU<Eigen::MatrixXd>(A).solve(b);
-}
 
 /// The state after one step of [T6], from dense matrices.
 LinearState dense_step(const GeneralLinearSystem<double>& system, LinearState u, double h) {

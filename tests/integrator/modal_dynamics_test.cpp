@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +9,7 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "../support/catch.hpp"
+#include "../support/decompositions.hpp"
 #include "../support/dense.hpp"
 #include "../support/message.hpp"
 #include "../support/random_system.hpp"
@@ -44,10 +44,10 @@ ModalBasis dense_basis(const Linear& system, Index count) {
     const Eigen::MatrixXd K(system.stiffness());
     const Eigen::MatrixXd D(system.damping());
     const Eigen::MatrixXd M = system.mass().asDiagonal();
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(K, M);
+    const auto modes = generalized_modes(K, M);
     ModalBasis basis;
-    basis.k = solver.eigenvalues().head(count);
-    basis.shapes = solver.eigenvectors().leftCols(count);
+    basis.k = modes.values.head(count);
+    basis.shapes = modes.vectors.leftCols(count);
     basis.d = (basis.shapes.transpose() * D * basis.shapes).diagonal();
     basis.p = basis.shapes.transpose() * system.load();
     return basis;

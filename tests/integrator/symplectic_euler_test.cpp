@@ -5,7 +5,7 @@
 
 #include "../support/catch.hpp"
 #include "../support/check_stepper.hpp"
-#include "../support/spectrum.hpp"
+#include "../support/decompositions.hpp"
 
 namespace taut_test::symplectic_euler_test {
 

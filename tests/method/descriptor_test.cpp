@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 // The battery that every descriptor must pass: its parts agree with the matrix of its step, and
 // that one with the motion itself.
-#include <Eigen/Eigenvalues>
 #include <taut/method/mode.hpp>
 
 #include "../support/catch.hpp"
+#include "../support/decompositions.hpp"
 #include "../support/message.hpp"
 #include "../support/random.hpp"
 
@@ -22,7 +22,8 @@ Eigen::VectorXcd multipliers(double k, double d, double h) {
     const double root = std::sqrt(std::abs(k));
     Eigen::MatrixXd C(2, 2);
     C << 0, root, k < 0 ? root : -root, -d;
-    return Descriptor::step_matrix(C, h, 1).eigenvalues();
+    const Eigen::MatrixXd step = Descriptor::step_matrix(C, h, 1);
+    return general_eigenvalues(step.cast<Real>()).cast<Complex>();
 }
 
 template <class Descriptor>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include <Eigen/Eigenvalues>
 #include <taut/model/spring_system.hpp>
 
 #include "../support/catch.hpp"
+#include "../support/decompositions.hpp"
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
 
@@ -128,10 +128,9 @@ TEMPLATE_TEST_CASE("spring_mechanics: K+ is the nearest block without negative e
         const auto transverse = static_cast<Scalar>(random.uniform(-100, 100));
         const Eigen::MatrixXd H = taut::spring_block(d, axial, transverse).template cast<double>();
         CHECK(H == H.transpose());
-        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(H);
-        const Eigen::MatrixXd nearest = eigen.eigenvectors() *
-                                        eigen.eigenvalues().cwiseMax(0).asDiagonal() *
-                                        eigen.eigenvectors().transpose();
+        const auto eigen = symmetric_modes(H);
+        const Eigen::MatrixXd nearest =
+            eigen.vectors * eigen.values.cwiseMax(0).asDiagonal() * eigen.vectors.transpose();
         CHECK(distance(taut::spring_block(d, taut::k_plus(axial), taut::k_plus(transverse)),
                        nearest) <= Tolerance<Scalar>::rounding * 100);
     }

@@ -6,7 +6,7 @@
 #include "../support/catch.hpp"
 #include "../support/dense.hpp"
 #include "../support/random_system.hpp"
-#include "../support/spectrum.hpp"
+#include "../support/decompositions.hpp"
 #include "../support/tolerance.hpp"
 
 namespace taut_test::spring_system_derivatives_test {

@@ -8,7 +8,7 @@
 
 #include "../support/catch.hpp"
 #include "../support/message.hpp"
-#include "../support/spectrum.hpp"
+#include "../support/decompositions.hpp"
 #include "../support/tolerance.hpp"
 
 namespace taut_test::chain_test {

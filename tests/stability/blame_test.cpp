@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include <set>
+#include <taut/scene/with_law.hpp>
 #include <taut/stability/stability.hpp>
 
 #include "../support/catch.hpp"
@@ -28,23 +29,12 @@ taut::SpringSystem<double, 3> cloth_of(Index size) {
 template <int Dim>
 taut::SpringSystem<double, Dim> scaled(const taut::SpringSystem<double, Dim>& system,
                                        double stiffness, double mass) {
-    taut::SpringSystem<double, Dim> copy;
-    const auto state = system.initial_state();
-    for (Index i = 0; i < system.size(); ++i)
-        copy.add_particle(state.x.col(i), mass * system.mass(i));
-    const auto& set = system.springs();
-    for (std::size_t s = 0; s < set.a.size(); ++s) {
-        copy.add_spring(
-            taut::Spring<double, taut::Hookean>{set.a[s],
-                                                set.b[s],
-                                                {stiffness * set.parameters[s].stiffness},
-                                                set.rest_length[s],
-                                                set.damping_of(s)});
-    }
-    for (Index i = 0; i < system.size(); ++i) {
-        if (system.is_pinned(i)) copy.pin(i);
-    }
-    copy.set_rayleigh(system.rayleigh());
+    using System = taut::SpringSystem<double, Dim>;
+    auto copy = taut::with_springs<System>(system, [&](System& to, auto spring, Index) {
+        spring.parameters.stiffness *= stiffness;
+        to.add_spring(spring);
+    });
+    for (Index i = 0; i < copy.size(); ++i) copy.set_mass(i, mass * system.mass(i));
     return copy;
 }
 

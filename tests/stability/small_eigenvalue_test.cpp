@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include <Eigen/Eigenvalues>
 #include <limits>
 #include <taut/stability/detail/small_eigenvalue.hpp>
 
 #include "../support/catch.hpp"
+#include "../support/decompositions.hpp"
 #include "../support/random.hpp"
 
 namespace taut_test::small_eigenvalue_test {
@@ -14,29 +14,24 @@ using taut::stability_detail::proved_above;
 
 namespace {
 
-using Real = long double;
-
 template <int Dim>
 using Matrix = Eigen::Matrix<double, Dim, Dim>;
 
 /// The largest eigenvalue, by long double Jacobi-quality QR of the matrix divided by its size.
 template <int Dim>
 Real largest_eigenvalue(const Matrix<Dim>& A) {
-    using RealMatrix = Eigen::Matrix<Real, Dim, Dim>;
     const Real size = static_cast<Real>(A.cwiseAbs().maxCoeff());
     if (size == 0) return 0;
     const RealMatrix scaled = A.template cast<Real>() / size;
-    return size * Eigen::SelfAdjointEigenSolver<RealMatrix>(scaled, Eigen::EigenvaluesOnly)
-                      .eigenvalues()[Dim - 1];
+    return size * eigenvalues(scaled)[Dim - 1];
 }
 
 /// QΛQᵀ in long double, then rounded.
 template <int Dim>
 Matrix<Dim> rotated(Random& random, const Eigen::Matrix<Real, Dim, 1>& lambda) {
-    using RealMatrix = Eigen::Matrix<Real, Dim, Dim>;
-    RealMatrix G;
+    RealMatrix G(Dim, Dim);
     for (int i = 0; i < Dim * Dim; ++i) G.data()[i] = random.uniform(-1, 1);
-    const RealMatrix Q = Eigen::HouseholderQR<RealMatrix>(G).householderQ();
+    const RealMatrix Q = orthogonal(G);
     Matrix<Dim> A = (Q * lambda.asDiagonal() * Q.transpose()).template cast<double>();
     A.template triangularView<Eigen::StrictlyUpper>() = A.transpose();
     return A;

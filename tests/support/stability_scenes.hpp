@@ -5,6 +5,7 @@
 #include <string>
 #include <taut/scene/chain.hpp>
 #include <taut/scene/cloth.hpp>
+#include <taut/scene/with_law.hpp>
 #include <utility>
 
 #include "referee.hpp"
@@ -17,21 +18,12 @@ namespace taut_test {
 template <class Scalar, int Dim>
 taut::SpringSystem<Scalar, Dim> with_dampers(const taut::SpringSystem<Scalar, Dim>& system,
                                              double ratio) {
-    taut::SpringSystem<Scalar, Dim> copy;
-    const auto state = system.initial_state();
-    for (Index i = 0; i < system.size(); ++i) copy.add_particle(state.x.col(i), system.mass(i));
-    const auto& set = system.springs();
-    for (std::size_t s = 0; s < set.a.size(); ++s) {
-        const auto damping =
-            static_cast<Scalar>(ratio * static_cast<double>(set.parameters[s].stiffness));
-        copy.add_spring(taut::Spring<Scalar, taut::Hookean>{set.a[s], set.b[s], set.parameters[s],
-                                                            set.rest_length[s], damping});
-    }
-    for (Index i = 0; i < system.size(); ++i) {
-        if (system.is_pinned(i)) copy.pin(i);
-    }
-    copy.set_gravity(system.gravity());
-    return copy;
+    using System = taut::SpringSystem<Scalar, Dim>;
+    return taut::with_springs<System>(system, [&](System& copy, auto spring, Index) {
+        spring.damping =
+            static_cast<Scalar>(ratio * static_cast<double>(spring.parameters.stiffness));
+        copy.add_spring(spring);
+    });
 }
 
 /// Every coordinate multiplied by `factor`, then moved by up to `noise`.
@@ -159,30 +151,12 @@ StabilityCase<Scalar> stability_case(std::string text, const System& system,
 
 /// Every scene, undamped; or with every damping.
 template <class Scalar>
-std::vector<StabilityCase<Scalar>> stability_cases(bool with_damping) {
-    std::vector<StabilityCase<Scalar>> cases;
-    for_each_scene<Scalar>([&](const std::string& scene, const auto& system, const auto& state) {
-        if (!with_damping) {
-            cases.push_back(stability_case<Scalar>(scene, system, state));
-            return;
-        }
-        const double omega = Multipliers(exact_matrices(system, state.x)).omega();
-        for_each_damping(system, omega, [&](const std::string& damping, const auto& damped) {
-            cases.push_back(stability_case<Scalar>(scene + ", " + damping, damped, state));
-        });
-    });
-    return cases;
-}
+std::vector<StabilityCase<Scalar>> stability_cases(bool with_damping);
+extern template std::vector<StabilityCase<float>> stability_cases(bool);
+extern template std::vector<StabilityCase<double>> stability_cases(bool);
 
 /// A random symmetric matrix with the given eigenvalues.
-inline Eigen::MatrixXd with_spectrum(Random& random, const Eigen::VectorXd& spectrum) {
-    const Index N = spectrum.size();
-    Eigen::MatrixXd G(N, N);
-    for (Index i = 0; i < N * N; ++i) G.data()[i] = random.uniform(-1, 1);
-    const Eigen::MatrixXd Q = Eigen::HouseholderQR<Eigen::MatrixXd>(G).householderQ();
-    const Eigen::MatrixXd A = Q * spectrum.asDiagonal() * Q.transpose();
-    return 0.5 * (A + A.transpose());
-}
+Eigen::MatrixXd with_spectrum(Random& random, const Eigen::VectorXd& spectrum);
 
 template <class Scalar = double, class Dense>
 Eigen::SparseMatrix<Scalar> sparse(const Dense& A) {

@@ -19,13 +19,10 @@ void for_each_tension(const System& system, const typename System::Force& x, Vis
     using Scalar = typename System::Scalar;
     int law = 0;
     system.for_each_set([&](const auto& set) {
-        using Law = typename std::decay_t<decltype(set)>::Law;
-        for (std::size_t s = 0; s < set.a.size(); ++s) {
-            const Scalar L = set.rest_length[s];
-            const Scalar l = (x.col(set.b[s]) - x.col(set.a[s])).norm();
+        for (const auto spring : set) {
+            const Scalar l = (x.col(spring.b) - x.col(spring.a)).norm();
             // Where the ends meet there is no direction, and so no force.
-            const Scalar T = l > 0 ? Law::tension(set.parameters[s], L, l) : Scalar(0);
-            visit(law, set.a[s], set.b[s], L, l, T);
+            visit(law, spring, l, l > 0 ? spring.tension(l) : Scalar(0));
         }
         ++law;
     });
@@ -36,8 +33,8 @@ template <class System, class Value>
 void write_spring_data(std::FILE* file, const char* name, const System& system,
                        const typename System::Force& x, Value&& value) {
     std::fprintf(file, "SCALARS %s double 1\nLOOKUP_TABLE default\n", name);
-    for_each_tension(system, x, [&](int law, int, int, auto L, auto l, auto T) {
-        put_number(file, static_cast<double>(value(law, L, l, T)), '\n');
+    for_each_tension(system, x, [&](int law, const auto& spring, auto l, auto T) {
+        put_number(file, static_cast<double>(value(law, spring.rest_length, l, T)), '\n');
     });
 }
 

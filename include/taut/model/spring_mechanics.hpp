@@ -161,12 +161,21 @@ EIGEN_ALWAYS_INLINE Pull<Real> pull_coefficients(const AnySpring& spring,
     return {of_dx, of_dv};
 }
 
+/// The force of a spring at rest on its end a, N; the opposite acts on b. @param dx  x_b − x_a, m
+template <class Scalar, class Law, class Vector>
+EIGEN_ALWAYS_INLINE Vector pull(const Spring<Scalar, Law>& spring, const Vector& dx) {
+    const Scalar l2 = dx.squaredNorm();
+    if (!(l2 > 0)) return Vector::Zero();
+    const StiffnessDamping<Scalar> none;
+    return pull_coefficients<false, Proportional::none>(spring, none, l2, Scalar(0)).of_dx * dx;
+}
+
 /// The force of a spring and its damper on its end a, N; the opposite acts on b.
 /// @param dx  x_b − x_a, m   @param dv  v_b − v_a, m/s
 /// @param by  damping in proportion to stiffness, s
 template <class Scalar, class Law, class Vector>
-Vector pull(const Spring<Scalar, Law>& spring, const Vector& dx, const Vector& dv = Vector::Zero(),
-            const StiffnessDamping<Scalar>& by = {}) {
+Vector pull(const Spring<Scalar, Law>& spring, const Vector& dx, const Vector& dv,
+            const StiffnessDamping<Scalar>& by) {
     constexpr auto none = Proportional::none;
     const Scalar l2 = dx.squaredNorm();
     const Scalar dx_dv = dx.dot(dv);
@@ -196,8 +205,8 @@ struct Braking {
 /// @param dx  x_b − x_a, m   @param dv  v_b − v_a, m/s   @param l  spring_length(dx)
 /// @param over_l  T/l, N/m
 template <class Scalar, class Law, class Vector>
-Braking braking_of(const Spring<Scalar, Law>& spring, const Vector& dx, const Vector& dv, Scalar l,
-                   Scalar over_l) {
+EIGEN_ALWAYS_INLINE Braking braking_of(const Spring<Scalar, Law>& spring, const Vector& dx,
+                                       const Vector& dv, Scalar l, Scalar over_l) {
     Braking power;
     const auto dv2 = static_cast<double>(dv.squaredNorm());
     power.graph = static_cast<double>(spring.stiffness_bound()) * dv2;

@@ -35,11 +35,24 @@ struct SpringSet {
     Spring<Scalar, Law> operator[](std::size_t s) const {
         return {a[s], b[s], parameters[s], rest_length[s], damping_of(s)};
     }
-    /// visit(spring) for every Spring, in the order of their indices.
-    template <class Visitor>
-    void for_each(Visitor&& visit) const {
-        for (std::size_t s = 0; s < a.size(); ++s) visit((*this)[s]);
-    }
+    /// Makes a Spring of each in turn: `for (const auto spring : set)`, in the order of their
+    /// indices.
+    class Iterator {
+    public:
+        Iterator(const SpringSet& set, std::size_t s) : set_(&set), s_(s) {}
+        Spring<Scalar, Law> operator*() const { return (*set_)[s_]; }
+        Iterator& operator++() {
+            ++s_;
+            return *this;
+        }
+        bool operator!=(const Iterator& other) const { return s_ != other.s_; }
+
+    private:
+        const SpringSet* set_;
+        std::size_t s_;
+    };
+    Iterator begin() const { return {*this, 0}; }
+    Iterator end() const { return {*this, a.size()}; }
 
     /// Appends a spring whose values SpringSystem has checked.
     void add(const Spring<Scalar, Law>& spring) {

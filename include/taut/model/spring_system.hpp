@@ -190,7 +190,9 @@ public:
     /// visit(spring) for every Spring of whatever law, in index order.
     template <class Visitor>
     void visit_springs(Visitor&& visit) const {
-        for_each_set([&](const auto& set) { set.for_each(visit); });
+        for_each_set([&](const auto& set) {
+            for (const auto spring : set) visit(spring);
+        });
     }
     /// visit(SpringTangent<Real, Dim>) for every spring at x, in the precision of x.
     template <class Real, class Visitor>

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "../core/concepts.hpp"
+#include "../core/detail/fits.hpp"
 #include "obstacle.hpp"
 
 namespace taut {
@@ -62,10 +63,7 @@ ContactReport<typename System::Scalar, System::Dim> resolve_contacts(
     require_obstacle<Obstacle, Vector>();
     require_non_negative("resolve_contacts", "friction", options.friction);
     require_non_negative("resolve_contacts", "thickness", options.thickness);
-    if (state.x.cols() != system.size() || state.v.cols() != system.size()) {
-        fail("resolve_contacts: the state has ", state.x.cols(), " positions and ", state.v.cols(),
-             " velocities; the system has ", system.size(), " particles");
-    }
+    detail::require_fits("resolve_contacts", state, system.size());
     const auto friction = static_cast<Scalar>(options.friction);
     const auto thickness = static_cast<Scalar>(options.thickness);
     ContactReport<Scalar, System::Dim> report;

@@ -12,7 +12,6 @@ namespace taut {
 ///             `Spring` of its own law
 template <class Copy, class System, class Add>
 Copy with_springs(const System& system, Add&& add) {
-    using Scalar = typename System::Scalar;
     Copy copy;
     const auto start = system.initial_state();
     for (Index i = 0; i < system.size(); ++i) {
@@ -20,15 +19,7 @@ Copy with_springs(const System& system, Add&& add) {
         if (system.is_pinned(i)) copy.pin(i);
     }
     Index index = 0;
-    system.for_each_set([&](const auto& set) {
-        using Law = typename std::decay_t<decltype(set)>::Law;
-        for (std::size_t s = 0; s < set.a.size(); ++s, ++index) {
-            add(copy,
-                Spring<Scalar, Law>{set.a[s], set.b[s], set.parameters[s], set.rest_length[s],
-                                    set.damping_of(s)},
-                index);
-        }
-    });
+    system.visit_springs([&](const auto& spring) { add(copy, spring, index++); });
     copy.set_gravity(system.gravity());
     copy.set_rayleigh(system.rayleigh());
     copy.set_graph_damping(system.graph_damping());

@@ -51,6 +51,11 @@ Real dot(const Real* a, const Real* b, Index n) {
     using Map = Eigen::Map<const VectorX<Real>>;
     return Map(a, n).dot(Map(b, n));
 }
+/// ‖a‖
+template <class Real>
+Real norm(const Real* a, Index n) {
+    return std::sqrt(dot(a, a, n));
+}
 
 /// y ← y + factor·x
 template <class Real>
@@ -110,7 +115,7 @@ RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
     if (start.size() == N) {
         for (Index i = 0; i < N; ++i) q[i] = root[i] * start[i];
     }
-    q /= std::sqrt(stability_detail::dot(q.data(), q.data(), N));
+    q /= stability_detail::norm(q.data(), N);
     RitzPair pair;
     Index kept = 0;
     for (int run = 0; run <= options.restarts; ++run) {
@@ -131,14 +136,14 @@ RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
             }
             // Twice is enough (Parlett): the basis stays orthogonal to rounding.
             Q.remove_from(w, used);
-            beta = std::sqrt(stability_detail::dot(w.data(), w.data(), N));
+            beta = stability_detail::norm(w.data(), N);
             if (!(beta > 1e-14 * norm)) {
                 // An invariant subspace, maybe not that of the largest eigenvalue.
                 beta = 0;
                 w = stability_detail::scattered_vector(N, used);
                 for (int pass = 0; pass < 2; ++pass) Q.remove_from(w, used);
             }
-            q = w / std::sqrt(stability_detail::dot(w.data(), w.data(), N));
+            q = w / stability_detail::norm(w.data(), N);
         }
         std::vector<double> projected;
         for (Index j = 0; j < used; ++j) {
@@ -164,7 +169,7 @@ RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
         }
     }
     const double* shape = Q[kept - 1];
-    const double length = std::sqrt(stability_detail::dot(shape, shape, N));
+    const double length = stability_detail::norm(shape, N);
     pair.vector.resize(N);
     for (Index i = 0; i < N; ++i) pair.vector[i] = shape[i] / length / root[i];
     return pair;

@@ -223,8 +223,7 @@ SpringPencil<Dim> SpringPencil<Dim>::any_pose(const System& system, Damping coun
         using Law = typename std::decay_t<decltype(set)>::Law;
         for (std::size_t s = 0; s < set.a.size(); ++s) {
             pencil.add_link(set, s, [&](int index) {
-                const Real bound = Law::stiffness_bound(set.parameters[s].template cast<Real>(),
-                                                        static_cast<Real>(set.rest_length[s]));
+                const Real bound = set[s].template cast<Real>().stiffness_bound();
                 Link link{};
                 link.d = Vector::Ones();
                 link.bound = pencil.in_range(bound, "stiffness of spring", index);

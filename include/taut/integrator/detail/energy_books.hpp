@@ -61,34 +61,29 @@ void add_spring_books(const System& system, const State& state,
     const auto own = system.stiffness_damping();
     const bool proportional = own || share;
     system.for_each_set([&](const auto& set) {
-        using Law = typename std::decay_t<decltype(set)>::Law;
         const bool damped = proportional || !set.damping.empty();
         double elastic = 0, power = 0, force_sum = 0, stiffness_sum = 0;
         double dissipation = 0, step_dissipation = 0;
         Scalar longest = 0;
-        for (std::size_t s = 0; s < set.a.size(); ++s) {
-            const int a = set.a[s];
-            const int b = set.b[s];
-            const Vector dx = state.x.col(b) - state.x.col(a);
-            const Vector dv = state.v.col(b) - state.v.col(a);
+        for (const auto spring : set) {
+            const Vector dx = state.x.col(spring.b) - state.x.col(spring.a);
+            const Vector dv = state.v.col(spring.b) - state.v.col(spring.a);
             const Scalar l = spring_length(dx);
-            const auto& p = set.parameters[s];
-            const Scalar L = set.rest_length[s];
-            const Scalar T = Law::tension(p, L, l);
+            const Scalar T = spring.tension(l);
             longest = l > longest ? l : longest;
             force_sum += static_cast<double>(std::abs(T));
-            stiffness_sum += static_cast<double>(Law::stiffness_bound(p, L));
-            elastic += static_cast<double>(Law::energy(p, L, l));
+            stiffness_sum += static_cast<double>(spring.stiffness_bound());
+            elastic += static_cast<double>(spring.energy(l));
             const Scalar over_l = T / l;
             if (damped) {
-                const auto braking = braking_of(set[s], dx, dv, l, over_l);
+                const auto braking = braking_of(spring, dx, dv, l, over_l);
                 dissipation += braking.damper + braking.of(own);
                 step_dissipation += braking.of(share);
             }
             power -= static_cast<double>(over_l * dx.dot(dv));
             if constexpr (Forces) {
-                f.col(a) += over_l * dx;
-                f.col(b) -= over_l * dx;
+                f.col(spring.a) += over_l * dx;
+                f.col(spring.b) -= over_l * dx;
             }
         }
         const double grain = unit * (reach + static_cast<double>(longest));

@@ -86,21 +86,16 @@ auto StepJudge<System>::weigh(const System& system, const Moves& x, const Moves&
                               Visitor&& visit) const -> Energy {
     Energy sum;
     const auto blur = [&](Index i) { return 4 * epsilon * length(x.col(i)); };
-    system.for_each_set([&](const auto& set) {
-        using Law = typename std::decay_t<decltype(set)>::Law;
-        for (std::size_t s = 0; s < set.a.size(); ++s) {
-            const int a = set.a[s];
-            const int b = set.b[s];
-            const auto parameters = set.parameters[s].template cast<Wide>();
-            const auto L = static_cast<Wide>(set.rest_length[s]);
-            const Wide l = (x.col(b).template cast<Wide>() - x.col(a).template cast<Wide>()).norm();
-            const Wide tension = l > 0 ? std::abs(Law::tension(parameters, L, l)) : Wide(0);
-            const Wide bound = Law::stiffness_bound(parameters, L);
-            const Wide stretch = blur(a) + blur(b);
-            sum.springs += Law::energy(parameters, L, l);
-            sum.rounding += (tension + bound * stretch / 2) * stretch;
-            visit(a, b, tension, bound, static_cast<Wide>(set.damping_of(s)));
-        }
+    system.visit_springs([&](const auto& its) {
+        const auto spring = its.template cast<Wide>();
+        const Wide l =
+            (x.col(spring.b).template cast<Wide>() - x.col(spring.a).template cast<Wide>()).norm();
+        const Wide tension = l > 0 ? std::abs(spring.tension(l)) : Wide(0);
+        const Wide bound = spring.stiffness_bound();
+        const Wide stretch = blur(spring.a) + blur(spring.b);
+        sum.springs += spring.energy(l);
+        sum.rounding += (tension + bound * stretch / 2) * stretch;
+        visit(spring.a, spring.b, tension, bound, spring.damping);
     });
     const Wide gravity = length(system.gravity());
     for (Index i = 0; i < system.size(); ++i) {
@@ -123,8 +118,8 @@ void StepJudge<System>::begin(const System& system, const State& state, Scalar h
     before_ = weigh(system, start_, v_, [](auto&&...) {});
     inertial_.assign(static_cast<std::size_t>(system.size()), 0);
     end_ = start_ + objective.inertial();
-    weigh(system, end_, v_, [&](int a, int b, Wide tension, Wide, Wide) {
-        for (const int i : {a, b}) inertial_[i] += h_ * h_ * tension;
+    weigh(system, end_, v_, [&](Index a, Index b, Wide tension, Wide, Wide) {
+        for (const Index i : {a, b}) inertial_[i] += h_ * h_ * tension;
     });
 }
 
@@ -138,12 +133,12 @@ void StepJudge<System>::size_up(const System& system, const StepObjective<System
     blur_.assign(static_cast<std::size_t>(system.size()), 0);
     open_blur_ = 0;
     const auto by = system.stiffness_damping().template cast<Wide>();
-    const auto reach = [&](int i) { return length(start_.col(i)) + length(end_.col(i)); };
-    after_ = weigh(system, end_, v_, [&](int a, int b, Wide tension, Wide bound, Wide damping) {
+    const auto reach = [&](Index i) { return length(start_.col(i)) + length(end_.col(i)); };
+    after_ = weigh(system, end_, v_, [&](Index a, Index b, Wide tension, Wide bound, Wide damping) {
         const Wide move = length(u.col(b) - u.col(a));
         const Wide drag = h_ * (by.total() * bound + damping);
         const Wide blur = 8 * epsilon * (h_ * h_ * bound + drag) * (reach(a) + reach(b));
-        for (const int i : {a, b}) {
+        for (const Index i : {a, b}) {
             size_[i] += h_ * h_ * tension + drag * move;
             blur_[i] += blur;
         }

@@ -114,12 +114,14 @@ auto StepObjective<System>::evaluate(const System& system, const Moves& u, Moves
     g.setZero(Dim, u.cols());
     const Scalar h2 = h_ * h_;
     Scalar energy = 0;  // J
-    system.visit_springs([&](const auto& spring) {
-        const Vector dx = x_.col(spring.b) - x_.col(spring.a);
-        energy += spring.energy(dx.norm());
-        const Vector force = h2 * pull(spring, dx);
-        g.col(spring.a) -= force;
-        g.col(spring.b) += force;
+    system.for_each_set([&](const auto& set) {
+        for (const auto spring : set) {
+            const Vector dx = x_.col(spring.b) - x_.col(spring.a);
+            energy += spring.energy(spring_length(dx));
+            const Vector force = h2 * pull(spring, dx);
+            g.col(spring.a) -= force;
+            g.col(spring.b) += force;
+        }
     });
     Scalar value = h2 * energy;
     for (const Damper& damper : dampers_) {

@@ -17,17 +17,25 @@ void SpringSystem<Scalar, Dim, Laws...>::force(const State& state, Force& f,
     }
     const auto by = stiffness_damping(added).template cast<Scalar>();
     const auto ahead = static_cast<Scalar>(added.look_ahead);
+    const auto between = [](const auto& points, const auto& spring) {
+        return Vector(points.col(spring.b) - points.col(spring.a));
+    };
     for_each_set([&](const auto& set) {
-        const bool moving = by || ahead != 0 || !set.damping.empty();
-        set.for_each([&](const auto& spring) {
-            Vector dx = state.x.col(spring.b) - state.x.col(spring.a);
-            Vector dv = Vector::Zero();
-            if (moving) dv = state.v.col(spring.b) - state.v.col(spring.a);
-            if (ahead != 0) dx += ahead * dv;
+        if (!by && ahead == 0 && set.damping.empty()) {
+            for (const auto spring : set) {
+                const Vector force = pull(spring, between(state.x, spring));
+                f.col(spring.a) += force;
+                f.col(spring.b) -= force;
+            }
+            return;
+        }
+        for (const auto spring : set) {
+            const Vector dv = between(state.v, spring);
+            const Vector dx = between(state.x, spring) + ahead * dv;
             const Vector force = pull(spring, dx, dv, by);
             f.col(spring.a) += force;
             f.col(spring.b) -= force;
-        });
+        }
     });
     if (external_force_) external_force_(state, f);
 }

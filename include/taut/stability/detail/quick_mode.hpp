@@ -134,11 +134,11 @@ Eigen::VectorXf quick_vector(
         const float along = dot(q.data(), w.data(), N);
         add_scaled(w.data(), -along, q.data(), N);
         if (j > 0) add_scaled(w.data(), -static_cast<float>(beta.back()), Q[j - 1], N);
-        const float norm = std::sqrt(dot(w.data(), w.data(), N));
-        if (!(norm > 0) || !std::isfinite(norm)) return {};
-        q = w / norm;
+        const float length = norm(w.data(), N);
+        if (!(length > 0) || !std::isfinite(length)) return {};
+        q = w / length;
         alpha.push_back(along);
-        beta.push_back(norm);
+        beta.push_back(length);
         if (j % 2 == 0 || j + 1 < least) continue;
         const std::vector<double> off_diagonal(beta.begin(), beta.end() - 1);
         std::vector<double> last_row(alpha.size(), 0);

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#include "support/decompositions.hpp"
+
+#include <Eigen/Dense>
+
+namespace taut_test {
+
+RealVector eigenvalues(const RealMatrix& A) { return modes(A).values; }
+
+Eigen::VectorXd spectrum(const Eigen::MatrixXd& A) { return symmetric_modes(A).values; }
+
+double least_eigenvalue(const Eigen::MatrixXd& A) { return spectrum(A)[0]; }
+
+Modes<RealMatrix> modes(const RealMatrix& A) {
+    const Eigen::SelfAdjointEigenSolver<RealMatrix> solver(A);
+    return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+Modes<Eigen::MatrixXd> symmetric_modes(const Eigen::MatrixXd& A) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(A);
+    return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+Modes<Eigen::MatrixXd> generalized_modes(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(A, B);
+    return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+ComplexVector general_eigenvalues(const RealMatrix& A) {
+    return Eigen::EigenSolver<RealMatrix>(A, false).eigenvalues();
+}
+
+Modes<ComplexMatrix> general_modes(const RealMatrix& A) {
+    const Eigen::EigenSolver<RealMatrix> solver(A);
+    return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+RealMatrix solve(const RealMatrix& A, const RealMatrix& B) { return A.fullPivLu().solve(B); }
+
+Eigen::MatrixXd dense_solve(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
+    return A.fullPivLu().solve(B);
+}
+
+double determinant(const Eigen::MatrixXd& A) { return A.determinant(); }
+
+RealMatrix orthogonal(const RealMatrix& A) {
+    return Eigen::HouseholderQR<RealMatrix>(A).householderQ();
+}
+
+}  // namespace taut_test
