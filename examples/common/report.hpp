@@ -197,7 +197,7 @@ inline void print_promises(const Findings& found) {
     const auto& at_pose = found.symplectic_euler;
     const auto& at_any = *found.any_pose;
     std::printf(
-        "  any pose:  none grows about each that it moves through, yet its energy may rise\n");
+        "  any pose:  the same about every pose that it moves through, yet its energy may rise\n");
     if (at_any.certified > 0 && at_pose.certified > 0 && !at_pose.unbounded()) {
         std::printf("             (%.1f %% of the step at this pose)\n",
                     100 * at_any.certified / at_pose.certified);
@@ -209,7 +209,7 @@ inline void print_promises(const Findings& found) {
         std::printf(
             "  energy:    no step raises it, with graph damping alpha = %.4e s; at %.1f of the "
             "step\n"
-            "             alpha in [%.4e, %.4e] s; the least slows rotation at %.2g /s\n",
+            "             alpha in [%.4e, %.4e] s; the least of these slows rotation at %.2g /s\n",
             energy.alpha.lower, share, alpha.lower, alpha.upper, alpha.lower * energy.rotation);
     }
     std::printf(

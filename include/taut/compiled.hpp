@@ -59,16 +59,19 @@
     KIND class integrator_detail::ConstraintProjection<SCALAR, 3>; \
     KIND class LinearSystem<SCALAR>;
 
-#define TAUT_COMPILED_PENCILS(KIND)                                                         \
-    KIND class SpringPencil<1>;                                                             \
-    KIND class SpringPencil<2>;                                                             \
-    KIND class SpringPencil<3>;                                                             \
-    KIND RitzPair largest_ritz_pair<double>(const Pencil&, const Combination&,              \
-                                            const LanczosOptions&, const Eigen::VectorXd&); \
-    KIND class DenseAnalysis<double>;                                                       \
-    KIND double explicit_estimate(const Pencil&, double);                                   \
-    KIND Eigen::MatrixXd stability_detail::low_modes<double>(const Pencil&);                \
-    KIND std::vector<double> stability_detail::frequency_changes<double>(const Pencil&,     \
+#define TAUT_COMPILED_PENCILS(KIND)                                            \
+    KIND class SpringPencil<1>;                                                \
+    KIND class SpringPencil<2>;                                                \
+    KIND class SpringPencil<3>;                                                \
+    KIND RitzPair largest_ritz_pair<double>(const Pencil&, const Combination&, \
+                                            const LanczosOptions&, const Eigen::VectorXd&);
+
+#define TAUT_COMPILED_DENSE(KIND) KIND class DenseAnalysis<double>;
+
+#define TAUT_COMPILED_KRYLOV(KIND)                                                      \
+    KIND double explicit_estimate(const Pencil&, double);                               \
+    KIND Eigen::MatrixXd stability_detail::low_modes<double>(const Pencil&);            \
+    KIND std::vector<double> stability_detail::frequency_changes<double>(const Pencil&, \
                                                                          const Pencil&);
 
 #define TAUT_COMPILED_STEPPER(KIND, ...) \
@@ -158,6 +161,8 @@ namespace {
 }  // namespace
 #endif
 TAUT_COMPILED_PENCILS(extern template)
+TAUT_COMPILED_DENSE(extern template)
+TAUT_COMPILED_KRYLOV(extern template)
 TAUT_COMPILED_SOLVERS(extern template, float)
 TAUT_COMPILED_SOLVERS(extern template, double)
 TAUT_COMPILED_ANALYSIS(extern template, float)

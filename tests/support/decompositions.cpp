@@ -8,22 +8,8 @@ namespace taut_test {
 
 RealVector eigenvalues(const RealMatrix& A) { return modes(A).values; }
 
-Eigen::VectorXd spectrum(const Eigen::MatrixXd& A) { return symmetric_modes(A).values; }
-
-double least_eigenvalue(const Eigen::MatrixXd& A) { return spectrum(A)[0]; }
-
 Modes<RealMatrix> modes(const RealMatrix& A) {
     const Eigen::SelfAdjointEigenSolver<RealMatrix> solver(A);
-    return {solver.eigenvalues(), solver.eigenvectors()};
-}
-
-Modes<Eigen::MatrixXd> symmetric_modes(const Eigen::MatrixXd& A) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(A);
-    return {solver.eigenvalues(), solver.eigenvectors()};
-}
-
-Modes<Eigen::MatrixXd> generalized_modes(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(A, B);
     return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
@@ -37,12 +23,6 @@ Modes<ComplexMatrix> general_modes(const RealMatrix& A) {
 }
 
 RealMatrix solve(const RealMatrix& A, const RealMatrix& B) { return A.fullPivLu().solve(B); }
-
-Eigen::MatrixXd dense_solve(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
-    return A.fullPivLu().solve(B);
-}
-
-double determinant(const Eigen::MatrixXd& A) { return A.determinant(); }
 
 RealMatrix orthogonal(const RealMatrix& A) {
     return Eigen::HouseholderQR<RealMatrix>(A).householderQ();

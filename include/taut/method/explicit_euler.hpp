@@ -52,9 +52,9 @@ struct ExplicitEuler : KeepsNoEnergy {
         return taut::method_detail::exponent(z, zeta);
     }
     // Of KeepsNoEnergy: kept_energy(books, h), the energy that steps of h, s, keep on a linear
-    // scene, up to what moving pins do [T36]; energy_lag(books, h), the part that gravity and
-    // moving pins have in what of it oscillates; energy_band(share, braked), where it lies at steps
-    // of that share of any_pose_limit, the stepper's own damping being braked/share² of its step.
+    // scene while pins rest [T36]. It oscillates about H: energy_lag(books, h) is what gravity and
+    // moving pins add to that, and energy_band(share, braked) bounds the rest, at steps of that
+    // share of any_pose_limit, the stepper's own damping being braked/share² of its step.
 };
 
 }  // namespace taut::method

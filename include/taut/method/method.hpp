@@ -16,7 +16,7 @@ enum class Method {
     last = bdf2  ///< the last method above; move it when you add one, at the end
 };
 
-/// The older name, of those whose cost and error are compared.
+/// The older name of Method.
 using Scheme = Method;
 
 /// The characteristic polynomial μ² + b μ + c of one step on one mode.
@@ -41,7 +41,8 @@ inline constexpr bool is_absent_v = std::is_same_v<std::remove_cv_t<T>, Absent>;
 struct LimitedByDamping {};
 /// 4M − 2hD − h²K ≻ 0 [T10], [T19].
 struct LimitedByStiffness {};
-/// Nothing but a K that is not positive semi-definite, and on springs K⁺ is [T20], [T21], [T27].
+/// Stable at every h where K is positive semi-definite [T20], [T21]. On springs K⁺ stands for K,
+/// and K⁺ always is [T27].
 struct LimitedByIndefiniteness {};
 
 /// Which steps a moving scene may be given, linearised at each of its poses.

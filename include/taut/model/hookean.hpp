@@ -9,7 +9,8 @@ namespace taut {
 /// The linear spring: tension T = k(l − L), energy ½k(l − L)².
 ///
 /// Every law has this form (docs/concepts.md). Its functions take the parameters of one spring, its
-/// rest length L and its present length l > 0, in m, and are accurate to a few ulp of the bound.
+/// rest length L and its present length l > 0, in m, and are accurate to a few ulp: of the
+/// bound for slopes, N/m, and of the bound times the larger of L and l for T, N.
 struct Hookean {
     /// Whether the energy is convex in the positions, as theory [T24] asks.
     static constexpr bool convex = false;

@@ -42,7 +42,7 @@ std::vector<Plan> feasible_plans(const SpringSystem<Scalar, Dim, Laws...>& syste
     double zeta = 0;
     if (goal.accuracy) {
         require_positive("recommend", "Goal::up_to_frequency", goal.up_to_frequency);
-        // An overdamped mode has no period; what errs least is asked of it instead.
+        // An overdamped mode has no period to err in: judge by the strongest damping with one.
         zeta = std::min(0.95, damping_ratio(system.rayleigh(), goal.up_to_frequency));
     }
     const auto limit = static_cast<double>(any_pose_limit(system).certified);

@@ -42,12 +42,14 @@ StepLimit<Scalar> rounded(const UnroundedLimit& limit, std::uint64_t revision) {
     return answer;
 }
 
-/// An effort, which is how much a search may spend: bounds alone …
+// An effort says what a search for a limit may compute: Bounds or Factorisations.
+
+/// Eigenvalue bounds and vectors, by products with the matrices: no factorisation.
 struct Bounds {
     static constexpr bool factorises = false;
 };
 
-/// … or factorisations as well.
+/// Sparse factorisations as well, until the bracket is as narrow as `tightness` asks.
 template <class Cholesky>
 struct Factorisations {
     static constexpr bool factorises = true;

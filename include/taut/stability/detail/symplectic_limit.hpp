@@ -80,7 +80,8 @@ double refuted_symplectic(const Pencil& pencil, Eigen::VectorXd& vector) {
     return h;
 }
 
-/// Which term of 2hD + h²K the refuting vector u feels most; half of 4M is D's when hd = 1.
+/// Which term of 2hD + h²K is the larger on the refuting vector u. Their sum is 4M there, so
+/// damping is when 2hD has more than half of it.
 inline Cause symplectic_cause(const Pencil& pencil, double h, const Eigen::VectorXd& u) {
     const double m = pencil.quadratic(M, u).value;
     return h * pencil.quadratic(D, u).value > m ? Cause::damping : Cause::stiffness;
@@ -105,7 +106,7 @@ void narrow_symplectic(const Pencil& pencil, Factorisations<Cholesky>& effort, B
 
 /// The bracket of the largest stable step.
 /// @param enough  a bound on k_max, 1/s², that need not be improved
-/// @param start   start(h): a vector that 2hD + h²K⁺ feels about most, N
+/// @param start   start(h): N, near the vector on which 2hD + h²K⁺ is largest, to begin a search
 template <class Effort, class Start>
 UnroundedLimit symplectic_limit(const Pencil& pencil, Effort& effort, double enough,
                                 Start&& start) {
