@@ -51,7 +51,7 @@ TEMPLATE_TEST_CASE("energy_limit: above the edge a network gains energy, whateve
                    (Case<float, 2>)) {
     using Scalar = typename TestType::Scalar;
     constexpr int Dim = TestType::Dim;
-    using System = SpringSystem<Scalar, Dim, Hookean>;
+    using System = SpringSystem<Scalar, Dim>;
     Random random(3420 + Dim);
     for (int repeat = 0; repeat < 60; ++repeat) {
         // On a line L_k is the stiffness itself. Let go from rest in its stiffest mode, a step at

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <taut/model/buckling.hpp>
 #include <taut/model/hookean.hpp>
+#include <taut/model/spring_system.hpp>
 #include <taut/model/tension_only.hpp>
+#include <type_traits>
 
 #include "random.hpp"
 
@@ -77,5 +79,16 @@ Glue::Parameters<Scalar> draw_parameters(Random& random, Glue) {
     const auto stiffness = static_cast<Scalar>(random.uniform(20, 200));
     return {stiffness, static_cast<Scalar>(random.uniform(0.3, 1))};
 }
+
+// Systems of which Taut::Compiled holds the steppers: to name others costs a test minutes.
+
+/// Springs of two laws; in one dimension of one.
+template <class Scalar, int Dim>
+using Mixed = std::conditional_t<Dim == 1, taut::SpringSystem<Scalar, Dim>,
+                                 taut::SpringSystem<Scalar, Dim, taut::Hookean, Buckling>>;
+/// Springs that do not push; in one dimension they do.
+template <class Scalar, int Dim>
+using Strings = std::conditional_t<Dim == 1, taut::SpringSystem<Scalar, Dim>,
+                                   taut::SpringSystem<Scalar, Dim, TensionOnly>>;
 
 }  // namespace taut_test
