@@ -14,6 +14,23 @@
 
 namespace taut {
 
+namespace model_detail {
+
+template <class Set>
+struct SpringIterator {
+    const Set* set;
+    std::size_t s;
+
+    auto operator*() const { return (*set)[s]; }
+    SpringIterator& operator++() {
+        ++s;
+        return *this;
+    }
+    bool operator!=(const SpringIterator& other) const { return s != other.s; }
+};
+
+}  // namespace model_detail
+
 /// The springs of one law, which has what require_law asks for: structure of arrays, without
 /// damping until a damped one is added.
 template <class Scalar, class Law_>
@@ -35,24 +52,10 @@ struct SpringSet {
     Spring<Scalar, Law> operator[](std::size_t s) const {
         return {a[s], b[s], parameters[s], rest_length[s], damping_of(s)};
     }
-    /// Makes a Spring of each in turn: `for (const auto spring : set)`, in the order of their
-    /// indices.
-    class Iterator {
-    public:
-        Iterator(const SpringSet& set, std::size_t s) : set_(&set), s_(s) {}
-        Spring<Scalar, Law> operator*() const { return (*set_)[s_]; }
-        Iterator& operator++() {
-            ++s_;
-            return *this;
-        }
-        bool operator!=(const Iterator& other) const { return s_ != other.s_; }
-
-    private:
-        const SpringSet* set_;
-        std::size_t s_;
-    };
-    Iterator begin() const { return {*this, 0}; }
-    Iterator end() const { return {*this, a.size()}; }
+    /// The Spring of each in turn, in the order of their indices: `for (const auto spring : set)`.
+    auto begin() const { return model_detail::SpringIterator<SpringSet>{this, 0}; }
+    /// Where that ends.
+    auto end() const { return model_detail::SpringIterator<SpringSet>{this, a.size()}; }
 
     /// Appends a spring whose values SpringSystem has checked.
     void add(const Spring<Scalar, Law>& spring) {
