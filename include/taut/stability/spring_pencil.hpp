@@ -220,7 +220,6 @@ SpringPencil<Dim> SpringPencil<Dim>::any_pose(const System& system, Damping coun
     if (counted == Damping::all) pencil.rayleigh_.stiffness_proportional += graph;
     if (counted == Damping::none) pencil.rayleigh_ = {};
     system.for_each_set([&](const auto& set) {
-        using Law = typename std::decay_t<decltype(set)>::Law;
         for (std::size_t s = 0; s < set.a.size(); ++s) {
             pencil.add_link(set, s, [&](int index) {
                 const Real bound = set[s].template cast<Real>().stiffness_bound();
