@@ -29,6 +29,24 @@ TEST_CASE(
     CHECK(set.size() == 4);
 }
 
+TEST_CASE("spring_set: a loop over a set meets its springs in their order", "[model]") {
+    Random random(610);
+    for (const int count : {0, 1, 20}) {
+        Set set;
+        for (int s = 0; s < count; ++s)
+            set.add({s, s + 1, {random.uniform(1, 9)}, random.uniform(0, 1), s % 3 == 0 ? 2.0 : 0});
+        std::size_t s = 0;
+        for (const auto spring : set) {
+            CHECK(spring.a == set.a[s]);
+            CHECK(spring.b == set.b[s]);
+            CHECK(spring.parameters.stiffness == set.parameters[s].stiffness);
+            CHECK(spring.rest_length == set.rest_length[s]);
+            CHECK(spring.damping == set.damping_of(s++));
+        }
+        CHECK(static_cast<int>(s) == count);
+    }
+}
+
 TEST_CASE("spring_set: the tangent of a stretched, a compressed and a flat spring by hand",
           "[model]") {
     Set set;

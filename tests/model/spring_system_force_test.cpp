@@ -237,4 +237,36 @@ TEST_CASE("spring_system: an external force is added after all others, with the 
     CHECK((after == before));
 }
 
+TEMPLATE_TEST_CASE("spring_system: what is not finite in a state is not in the forces either",
+                   "[model][bad_input]", float, double) {
+    using Limits = std::numeric_limits<TestType>;
+    for (const bool damped : {false, true}) {
+        taut::SpringSystem<TestType, 2> system;
+        for (int i = 0; i < 3; ++i) system.add_particle({TestType(i), TestType(0)}, TestType(1));
+        system.add_spring(0, 1, TestType(10), TestType(0.5));
+        system.add_spring(taut::Spring<TestType, taut::Hookean>{
+            1, 2, {TestType(10)}, TestType(0.5), TestType(damped ? 1 : 0)});
+        typename decltype(system)::Force f;
+        for (const TestType bad : {Limits::quiet_NaN(), Limits::infinity()}) {
+            auto state = system.initial_state();
+            state.x(0, 1) = bad;
+            system.force(state, f);
+            for (Index i = 0; i < 3; ++i) CHECK_FALSE(f.col(i).allFinite());
+            state = system.initial_state();
+            state.v(0, 2) = bad;
+            system.force(state, f);
+            CHECK(f.col(0).allFinite());
+            CHECK(f.col(1).allFinite() == !damped);
+            CHECK(f.col(2).allFinite() == !damped);
+        }
+        // Finite velocities whose difference is not.
+        auto state = system.initial_state();
+        state.v(0, 1) = -Limits::max() / 2;
+        state.v(0, 2) = Limits::max();
+        system.force(state, f);
+        CHECK(f.col(0).allFinite());
+        CHECK(f.col(2).allFinite() == !damped);
+    }
+}
+
 }  // namespace taut_test::spring_system_force_test

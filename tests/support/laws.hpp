@@ -86,9 +86,8 @@ Glue::Parameters<Scalar> draw_parameters(Random& random, Glue) {
 template <class Scalar, int Dim>
 using Mixed = std::conditional_t<Dim == 1, taut::SpringSystem<Scalar, Dim>,
                                  taut::SpringSystem<Scalar, Dim, taut::Hookean, Buckling>>;
-/// Springs that do not push; in one dimension they do.
+/// Springs that do not push; the library has those of two and three dimensions.
 template <class Scalar, int Dim>
-using Strings = std::conditional_t<Dim == 1, taut::SpringSystem<Scalar, Dim>,
-                                   taut::SpringSystem<Scalar, Dim, TensionOnly>>;
+using Strings = taut::SpringSystem<Scalar, Dim, TensionOnly>;
 
 }  // namespace taut_test

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/stability_scenes.hpp"
 
+#include <taut/taut.hpp>  // what Taut::Compiled holds
+
 namespace taut_test {
 
 template <class Scalar>

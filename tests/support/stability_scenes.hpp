@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <taut/scene/chain.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/scene/with_law.hpp>
+#include <taut/stability/stability.hpp>
 #include <utility>
 
 #include "referee.hpp"

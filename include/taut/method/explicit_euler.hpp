@@ -52,9 +52,10 @@ struct ExplicitEuler : KeepsNoEnergy {
         return taut::method_detail::exponent(z, zeta);
     }
     // Of KeepsNoEnergy: kept_energy(books, h), the energy that steps of h, s, keep on a linear
-    // scene while pins rest [T36]. It oscillates about H: energy_lag(books, h) is what gravity and
-    // moving pins add to that, and energy_band(share, braked) bounds the rest, at steps of that
-    // share of any_pose_limit, the stepper's own damping being braked/share² of its step.
+    // scene while pins rest [T36]; energy_lag(books, h), the part that gravity and moving pins have
+    // in its difference from H; energy_band(share, braked), the least and the largest ratio of the
+    // rest to T + V, at steps of that share of any_pose_limit, the stepper's own damping being
+    // braked/share² of its step.
 };
 
 }  // namespace taut::method

@@ -165,7 +165,7 @@ EIGEN_ALWAYS_INLINE Pull<Real> pull_coefficients(const AnySpring& spring,
 template <class Scalar, class Law, class Vector>
 EIGEN_ALWAYS_INLINE Vector pull(const Spring<Scalar, Law>& spring, const Vector& dx) {
     const Scalar l2 = dx.squaredNorm();
-    if (!(l2 > 0)) return Vector::Zero();
+    if (l2 == 0) return Vector::Zero();
     const StiffnessDamping<Scalar> none;
     return pull_coefficients<false, Proportional::none>(spring, none, l2, Scalar(0)).of_dx * dx;
 }
@@ -185,7 +185,7 @@ Vector pull(const Spring<Scalar, Law>& spring, const Vector& dx, const Vector& d
         : spring.damping > 0 ? pull_coefficients<true, none>(spring, by, l2, dx_dv)
                              : pull_coefficients<false, none>(spring, by, l2, dx_dv);
     Vector force = Vector::Zero();
-    if (l2 > 0) force = c.of_dx * dx;
+    if (!(l2 == 0)) force = c.of_dx * dx;  // what is not a number stays so
     if (proportional) force += c.of_dv * dv;
     return force;
 }

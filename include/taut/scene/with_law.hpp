@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <utility>
+
 #include "../model/spring_system.hpp"
 
 namespace taut {
@@ -19,7 +21,7 @@ Copy with_springs(const System& system, Add&& add) {
         if (system.is_pinned(i)) copy.pin(i);
     }
     Index index = 0;
-    system.visit_springs([&](const auto& spring) { add(copy, spring, index++); });
+    system.visit_springs([&](auto spring) { add(copy, std::move(spring), index++); });
     copy.set_gravity(system.gravity());
     copy.set_rayleigh(system.rayleigh());
     copy.set_graph_damping(system.graph_damping());

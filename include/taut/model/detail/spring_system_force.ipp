@@ -31,7 +31,8 @@ void SpringSystem<Scalar, Dim, Laws...>::force(const State& state, Force& f,
         }
         for (const auto spring : set) {
             const Vector dv = between(state.v, spring);
-            const Vector dx = between(state.x, spring) + ahead * dv;
+            Vector dx = between(state.x, spring);
+            if (ahead != 0) dx += ahead * dv;  // 0·∞ would hide an overflow
             const Vector force = pull(spring, dx, dv, by);
             f.col(spring.a) += force;
             f.col(spring.b) -= force;
