@@ -144,15 +144,16 @@ Run run(System system, const typename System::State& start, const Setting& setti
     const double h = setting.share * limit;
     setting.damping.set(system, h);
     const auto own = setting.damping.own();
-    switch (setting.method) {
-        case taut::Method::velocity_verlet:
-            return run_with<taut::VelocityVerlet<System>>(system, start, own, h, steps);
-        case taut::Method::explicit_euler:
-            return run_with<taut::ExplicitEuler<System>>(system, start, own, h, steps);
-        case taut::Method::symplectic_euler:
-            return run_with<taut::SymplecticEuler<System>>(system, start, own, h, steps);
-        default: taut::fail("survival: ", taut::name(setting.method), " is not explicit");
-    }
+    return taut::method::visit(setting.method, [&](auto descriptor) -> Run {
+        using Descriptor = decltype(descriptor);
+        if constexpr (Descriptor::is_implicit) {
+            taut::fail("survival: ", Descriptor::name, " is not explicit");
+        } else {
+            using Stepper =
+                typename taut::tradeoff_detail::StepperOf<Descriptor, System, void>::type;
+            return run_with<Stepper>(system, start, own, h, steps);
+        }
+    });
 }
 
 /// What became of the runs of one cell.

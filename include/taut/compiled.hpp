@@ -21,9 +21,9 @@
 #include "stability/stability.hpp"
 
 // What the library Taut::Compiled holds: explicit instantiations for float and double, two and
-// three dimensions, springs by Hookean, by TensionOnly, and by Hookean with Buckling. Its users see
-// them declared by taut.hpp; every other law, scalar or solver is compiled with the program as
-// without it.
+// three dimensions, springs by Hookean, by TensionOnly, and by Hookean with Buckling; Hookean
+// springs in one dimension, and LinearSystem. Its users see them declared by taut.hpp; every other
+// law, scalar or solver is compiled with the program as without it.
 //
 // KIND is `template` in the library's own sources, `extern template` elsewhere. A system's template
 // arguments come last: its scalar, its dimension, its laws.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "../support/tolerance.hpp"
@@ -75,10 +76,10 @@ inline Eigen::MatrixXd random_graph(Random& random, Index n, Index degree) {
 inline bool make_indefinite(Eigen::MatrixXd& A, double hair) {
     const Index n = A.rows();
     const RealMatrix exact = A.cast<Real>();
-    const RealMatrix B = exact.topLeftCorner(n - 1, n - 1);
-    if (!(eigenvalues(B)[0] > 0)) return false;
-    const RealMatrix b = exact.col(n - 1).head(n - 1);
-    const Real schur = (b.transpose() * solve(B, b))(0, 0);
+    const Eigen::LLT<RealMatrix> llt(exact.topLeftCorner(n - 1, n - 1));
+    if (llt.info() != Eigen::Success) return false;
+    const RealVector b = exact.col(n - 1).head(n - 1);
+    const Real schur = b.dot(llt.solve(b));
     if (!(schur > 0)) return false;
     A(n - 1, n - 1) = static_cast<double>(schur * (1 - static_cast<Real>(hair)));
     return static_cast<Real>(A(n - 1, n - 1)) < schur * (1 - 1e-17L);

@@ -15,7 +15,7 @@ using RealVector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
 using ComplexVector = Eigen::Matrix<std::complex<Real>, Eigen::Dynamic, 1>;
 using ComplexMatrix = Eigen::Matrix<std::complex<Real>, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// Eigenvalues, ascending, with the eigenvectors as columns.
+/// Eigenvalues, and the eigenvectors as columns.
 template <class Matrix>
 struct Modes {
     Eigen::Matrix<typename Matrix::Scalar, Eigen::Dynamic, 1> values;
@@ -33,7 +33,7 @@ Eigen::VectorXd stiffness_eigenvalues(const LinearSystem& system) {
     const Eigen::MatrixXd K = Eigen::MatrixXd(system.stiffness().template cast<double>());
     return spectrum(scale.asDiagonal() * K * scale.asDiagonal());
 }
-/// Of a symmetric matrix; orthonormal.
+/// Of a symmetric matrix, ascending; orthonormal.
 Modes<RealMatrix> modes(const RealMatrix& A);
 Modes<Eigen::MatrixXd> symmetric_modes(const Eigen::MatrixXd& A);
 /// Of A x = λ B x, both symmetric, B positive definite; VᵀBV = 1.

@@ -161,17 +161,14 @@ Index most_loaded_spring(const System& system, const State& state) {
     Index found = -1;
     Index index = 0;
     double most = -1;
-    system.for_each_set([&](const auto& set) {
-        using Law = typename std::decay_t<decltype(set)>::Law;
-        for (std::size_t s = 0; s < set.a.size(); ++s, ++index) {
-            const auto dx = (state.x.col(set.b[s]) - state.x.col(set.a[s])).template cast<double>();
-            const double energy = Law::energy(set.parameters[s].template cast<double>(),
-                                              static_cast<double>(set.rest_length[s]), dx.norm());
-            if (energy > most) {
-                most = energy;
-                found = index;
-            }
+    system.visit_springs([&](const auto& spring) {
+        const auto dx = (state.x.col(spring.b) - state.x.col(spring.a)).template cast<double>();
+        const double energy = spring.template cast<double>().energy(dx.norm());
+        if (energy > most) {
+            most = energy;
+            found = index;
         }
+        ++index;
     });
     return found;
 }
