@@ -3,9 +3,8 @@
 #pragma once
 
 #include "../method/velocity_verlet.hpp"
+#include "detail/explicit_steps.hpp"
 #include "detail/last_state.hpp"
-#include "detail/step_loop.hpp"
-#include "explicit_options.hpp"
 
 namespace taut {
 
@@ -26,11 +25,8 @@ public:
     static constexpr int order = method::VelocityVerlet::order;
 
     /// Keeps a reference: the system must outlive the stepper.
-    /// @param options  its damping; one thread whatever it says
     explicit VelocityVerlet(const System& system, const Options& options = {})
-        : system_(&system), damping_(options.damping) {
-        integrator_detail::require_step_damping<System>(options.damping);
-    }
+        : system_(&system), steps_(options) {}
     explicit VelocityVerlet(const System&&, const Options& = {}) = delete;
 
     /// Takes `count` steps of h, s, finite and > 0, of a State or StateView. On failure the state
@@ -39,46 +35,42 @@ public:
     Report step(AnyState& state, Scalar h, Index count = 1);
 
     /// The stepper's own damping, as shares of the step.
-    const StepDamping& damping() const { return damping_; }
+    const StepDamping& damping() const { return steps_.damping(); }
 
 private:
-    void force(const State& state, [[maybe_unused]] Scalar h) {
-        if constexpr (model_detail::is_spring_system_v<System>) {
-            system_->force(state, f_, damping_.times(static_cast<double>(h)));
-        } else {
-            system_->force(state, f_);
-        }
-    }
-    void kick(State& state, Scalar h) const {
-        state.v.array() += h * (f_.array().rowwise() * system_->inverse_mass().transpose().array());
-    }
-
     const System* system_;
-    StepDamping damping_;
-    Scalar last_h_ = 0;  // of f_
-    integrator_detail::StepLoop<State> loop_;
-    decltype(State::x) f_;                      // force at the end of the last step, Dim × n, N
-    integrator_detail::LastState<State> last_;  // what f_ belongs to
+    integrator_detail::ExplicitSteps<System> steps_;
+    integrator_detail::LastState<State> last_;  // what the force at the end of the last step is of
+    bool last_by_sweep_ = false;                // or by the plain path: who knows it
+    Scalar last_h_ = 0;
 };
 
 template <class System>
 template <class AnyState>
 Report VelocityVerlet<System>::step(AnyState& state, Scalar h, Index count) {
     // With damping of its own a force belongs to one step size.
-    bool known = last_.is(*system_, state) && (!damping_ || h == last_h_);
-    const Report report = loop_.run(*system_, state, h, count, [&](State& own) -> Report {
-        if (!known) force(own, h);
-        known = true;
-        kick(own, h / 2);
-        own.x += h * own.v;
-        own.time += h;
-        force(own, h);
-        kick(own, h / 2);
-        return {};
-    });
+    const bool known = last_.is(*system_, state) && (!damping() || h == last_h_);
+    bool plain_knows = known && !last_by_sweep_;
+    bool swept = false;
+    const Report report = steps_.run(
+        *system_, state, h, count,
+        [&](auto& sweep, const auto&... how) {
+            return swept =
+                       sweep.run_verlet(*system_, state, h, count, how..., known && last_by_sweep_);
+        },
+        [&](State& own) {
+            if (!plain_knows) steps_.update_force(*system_, own, h);
+            plain_knows = true;
+            own.v.array() += h / 2 * steps_.acceleration(*system_);
+            own.x += h * own.v;
+            own.time += h;
+            steps_.update_force(*system_, own, h);
+            own.v.array() += h / 2 * steps_.acceleration(*system_);
+        });
     if (!report) last_.forget();
     if (report && report.iterations > 0) {
         last_.keep(*system_, state);
+        last_by_sweep_ = swept;
         last_h_ = h;
     }
     return report;

@@ -28,31 +28,54 @@ public:
     }
     const StepDamping& damping() const { return options_.damping; }
 
+    /// Steps of a method that needs one acceleration.
     /// @param update  update(x, v, a, h): x and v, of one step, by the acceleration a = M⁻¹f(x, v);
-    ///                arrays or registers. A method that needs two accelerations cannot use this
+    ///                arrays or registers
     template <class AnyState, class Update>
     Report run(const System& system, AnyState& state, Scalar h, Index count, const Update& update) {
-        [[maybe_unused]] const auto added = options_.damping.times(static_cast<double>(h));
+        return run(
+            system, state, h, count,
+            [&](auto& sweep, const auto&... how) {
+                return sweep.run(system, state, h, count, how..., update);
+            },
+            [&](State& own) {
+                update_force(system, own, h);
+                update(own.x.array(), own.v.array(), acceleration(system), h);
+            });
+    }
+    /// @param by_sweep  bool by_sweep(sweep, threads, damping): all steps at once; where not all is
+    ///                  finite, `state` is not touched
+    /// @param plain     plain(State&): one step in place
+    template <class AnyState, class BySweep, class Plain>
+    Report run(const System& system, AnyState& state, Scalar h, Index count, BySweep&& by_sweep,
+               Plain&& plain) {
         if constexpr (model_detail::is_spring_system_v<System>) {
             if (!system.has_external_force()) {
                 const Report report = StepLoop<State>::check(system, state, h);
-                if (!report) return report;
-                if (sweep_.run(system, state, h, count, options_.threads, added, update)) {
-                    return {Status::ok, static_cast<int>(std::max<Index>(count, 0))};
+                if (!report || count <= 0) return report;
+                const auto added = options_.damping.times(static_cast<double>(h));
+                if (by_sweep(sweep_, options_.threads, added)) {
+                    return {Status::ok, static_cast<int>(count)};
                 }
                 // Not finite: the steps below find out which step and which particle.
             }
         }
         return loop_.run(system, state, h, count, [&](State& own) -> Report {
-            if constexpr (model_detail::is_spring_system_v<System>) {
-                system.force(own, f_, added);
-            } else {
-                system.force(own, f_);
-            }
-            update(own.x.array(), own.v.array(),
-                   f_.array().rowwise() * system.inverse_mass().transpose().array(), h);
+            plain(own);
             return {};
         });
+    }
+    /// The force at a state, by the plain path.
+    void update_force(const System& system, const State& state, [[maybe_unused]] Scalar h) {
+        if constexpr (model_detail::is_spring_system_v<System>) {
+            system.force(state, f_, options_.damping.times(static_cast<double>(h)));
+        } else {
+            system.force(state, f_);
+        }
+    }
+    /// M⁻¹f of that force, Dim × n, m/s².
+    auto acceleration(const System& system) const {
+        return f_.array().rowwise() * system.inverse_mass().transpose().array();
     }
 
 private:

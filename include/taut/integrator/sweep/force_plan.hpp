@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <tuple>
 #include <vector>
@@ -13,8 +14,8 @@
 namespace taut::integrator_detail::sweep {
 
 /// All springs of a SpringSystem, law by law, and the places of its particles. Where most springs
-/// are scattered, particles get an order that brings ends together; only the planes that this class
-/// reads and writes know of it.
+/// are scattered, particles get an order that brings ends together, and where most still are, all
+/// springs are in stars; only the planes that this class reads and writes know of either.
 template <class System>
 class ForcePlan {
 public:
@@ -26,9 +27,15 @@ public:
 
     /// n, the number of particles and of places.
     Index size() const { return size_; }
-    /// Scalars from one plane to the next: size() and the padding.
+    int blocks() const { return blocks_of(size_); }
+    /// Whether springs are in stars: then one plane holds points, x y z 0.
+    bool has_stars() const { return stars_; }
+    /// Of one vector.
+    int planes() const { return stars_ ? 1 : Dim; }
+    /// Scalars of a place in a plane.
+    Index grain() const { return stars_ ? 4 : 1; }
+    /// Scalars from one plane to the next: size()·grain() and the padding.
     Index stride() const { return stride_; }
-    int blocks() const { return static_cast<int>((size_ + block_size - 1) / block_size); }
 
     /// Whether a spring has a damper of its own.
     bool damped() const {
@@ -39,17 +46,25 @@ public:
     template <class Matrix>
     void to_planes(const Matrix& points, const Planes<Scalar>& planes) const {
         for_each_place([&](Index i, Index place) {
-            for (int d = 0; d < points.rows(); ++d)
-                planes[d][place] = static_cast<Scalar>(points(d, i));
+            for (int d = 0; d < Dim; ++d) at(planes, d, place) = static_cast<Scalar>(points(d, i));
+            for (int d = Dim; d < 4 && stars_; ++d) at(planes, d, place) = 0;
         });
     }
     /// Points ← planes.
     template <class Matrix>
     void from_planes(const Planes<Scalar>& planes, Matrix& points) const {
         for_each_place([&](Index i, Index place) {
-            for (int d = 0; d < points.rows(); ++d) {
-                points(d, i) = static_cast<typename Matrix::Scalar>(planes[d][place]);
+            for (int d = 0; d < Dim; ++d) {
+                points(d, i) = static_cast<typename Matrix::Scalar>(at(planes, d, place));
             }
+        });
+    }
+
+    /// Plane ← values, one a particle; with stars, one for each scalar of its point.
+    template <class Vector>
+    void to_plane(const Vector& values, Scalar* plane) const {
+        for_each_place([&](Index i, Index place) {
+            std::fill_n(plane + grain() * place, grain(), static_cast<Scalar>(values[i]));
         });
     }
 
@@ -58,7 +73,7 @@ public:
         std::apply(
             [&](const auto&... plan) {
                 const auto add = [&](auto kind) {
-                    (plan.template add_forces<decltype(kind)::value>(view), ...);
+                    (plan.template add_forces<decltype(kind)::value>(view, stars_), ...);
                 };
                 if (view.damping.projected > 0) {
                     add(std::integral_constant<Proportional, Proportional::projected>{});
@@ -85,6 +100,9 @@ private:
         using type = std::tuple<typename PlanOf<Sets>::type...>;
     };
 
+    Scalar& at(const Planes<Scalar>& planes, int d, Index place) const {
+        return stars_ ? planes.first[4 * place + d] : planes[d][place];
+    }
     template <class Visitor>
     void for_each_place(Visitor&& visit) const {
         if (order_.empty()) {
@@ -102,6 +120,7 @@ private:
     Index size_ = 0;
     Index stride_ = 0;
     std::uint64_t springs_ = 0;  // the system's spring_revision()
+    bool stars_ = false;
     bool built_ = false;
 };
 
@@ -120,16 +139,15 @@ bool ForcePlan<System>::update(const System& system) {
     springs_ = system.spring_revision();
     built_ = true;
     size_ = system.size();
-    // No two planes of one vector begin at the same byte of a page: a store to one would hold up
-    // loads of the other.
-    const Index page = static_cast<Index>(4096 / sizeof(Scalar));
-    stride_ = (size_ + 2 * max_width + page - 1) / page * page + page / 8;
-
     auto springs = sort(system, [](int i) { return i; });
-    std::size_t scattered = 0;
-    for (const auto& of_law : springs) scattered += of_law.scattered().size();
+    const auto mostly_scattered = [&] {
+        std::size_t scattered = 0;
+        for (const auto& of_law : springs) scattered += of_law.scattered().size();
+        return 2 * scattered > static_cast<std::size_t>(system.spring_count());
+    };
     order_.clear();
-    if (2 * scattered > static_cast<std::size_t>(system.spring_count())) {
+    stars_ = false;
+    if (mostly_scattered()) {
         std::vector<Edge> edges;
         system.for_each_spring([&](Index a, Index b) {
             edges.emplace_back(static_cast<int>(a), static_cast<int>(b));
@@ -138,10 +156,16 @@ bool ForcePlan<System>::update(const System& system) {
         std::vector<int> place(order_.size());
         for (std::size_t p = 0; p < order_.size(); ++p) place[order_[p]] = static_cast<int>(p);
         springs = sort(system, [&](int i) { return place[i]; });
+        stars_ = Dim > 1 && mostly_scattered();
     }
+    // No two planes of one vector begin at the same byte of a page: a store to one would hold up
+    // loads of the other.
+    const Index page = static_cast<Index>(4096 / sizeof(Scalar));
+    stride_ = (size_ * grain() + 2 * max_width + page - 1) / page * page + page / 8;
+
     system.for_each_set([&, next = springs.cbegin()](const auto& set) mutable {
         using Plan = typename PlanOf<std::decay_t<decltype(set)>>::type;
-        std::get<Plan>(plans_) = Plan(set, *next++, blocks() * tiles_per_block);
+        std::get<Plan>(plans_) = Plan(set, *next++, static_cast<int>(size_), stars_);
     });
     return true;
 }

@@ -4,39 +4,50 @@
 
 #include "batch_plan.hpp"
 #include "run_plan.hpp"
+#include "star_plan.hpp"
 
 namespace taut::integrator_detail::sweep {
 
-/// The springs of one law: runs, and batches of those that fit none.
+/// The springs of one law: runs, and batches of those that fit none; or all of them in stars.
 template <class Scalar, int Dim, class Law>
 class LawPlan {
 public:
     LawPlan() = default;
-    LawPlan(const SpringSet<Scalar, Law>& set, const SortedSprings& springs, int tiles)
-        : runs_(set, springs.runs(), tiles, table_),
-          batches_(set, springs.scattered(), tiles, table_),
-          damped_(!set.damping.empty()) {
-        table_.finish();
+    /// @param places  of all blocks
+    LawPlan(const SpringSet<Scalar, Law>& set, const SortedSprings& springs, int places, bool stars)
+        : damped_(!set.damping.empty()) {
+        if (stars) {
+            stars_ = {set, springs.all(), places};
+        } else {
+            const int tiles = blocks_of(places) * tiles_per_block;
+            runs_ = {set, springs.runs(), tiles, table_};
+            batches_ = {set, springs.scattered(), tiles, table_};
+            table_.finish();
+        }
     }
 
     /// Whether a spring has a damper of its own.
     bool damped() const { return damped_; }
     /// Adds the forces of the tile's springs on the places of its block.
     template <Proportional Kind>
-    void add_forces(const TileView<Scalar>& view) const {
-        damped_ ? add_forces<true, Kind>(view) : add_forces<false, Kind>(view);
+    void add_forces(const TileView<Scalar>& view, bool stars) const {
+        damped_ ? add_forces<true, Kind>(view, stars) : add_forces<false, Kind>(view, stars);
     }
 
 private:
     template <bool Dampers, Proportional Kind>
-    void add_forces(const TileView<Scalar>& view) const {
+    void add_forces(const TileView<Scalar>& view, bool stars) const {
+        if constexpr (Dim > 1) {
+            if (stars) return stars_.template add_forces<Dampers, Kind>(view);
+        }
         runs_.template add_forces<Dampers, Kind>(table_, view);
         batches_.template add_forces<Dampers, Kind>(table_, view);
     }
 
-    SpringTable<Scalar, Law> table_;  // before those that fill it
+    SpringTable<Scalar, Law> table_;  // of runs and batches
     RunPlan<Scalar, Dim, Law> runs_;
     BatchPlan<Scalar, Dim, Law> batches_;
+    StarPlan<Scalar, Law> stars_;
     bool damped_ = false;
 };
 

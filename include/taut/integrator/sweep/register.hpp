@@ -21,7 +21,7 @@ EIGEN_ALWAYS_INLINE Packet select_less_packet(const Packet& a, const Packet& b, 
 template <class Packet>
 EIGEN_ALWAYS_INLINE Packet unless_negative_packet(const Packet& sign, const Packet& value) {
     const Packet zero = Eigen::internal::pset1<Packet>(0);
-    return Eigen::internal::pselect(Eigen::internal::pcmp_lt(sign, zero), zero, value);
+    return Eigen::internal::pandnot(value, Eigen::internal::pcmp_lt(sign, zero));
 }
 
 #ifdef EIGEN_VECTORIZE_AVX512
@@ -54,12 +54,72 @@ EIGEN_ALWAYS_INLINE __m512 select_less_packet(const __m512& a, const __m512& b, 
     return _mm512_mask_blend_ps(_mm512_cmp_ps_mask(a, b, _CMP_LT_OQ), no, yes);
 }
 #endif
+#ifdef __AVX512VL__
+EIGEN_ALWAYS_INLINE __m256d rsqrt_packet(const __m256d& a) {
+    const __m256d y = _mm256_rsqrt14_pd(a);
+    const __m256d e = _mm256_fnmadd_pd(_mm256_mul_pd(a, y), y, _mm256_set1_pd(1));
+    const __m256d p = _mm256_fmadd_pd(e, _mm256_set1_pd(0.3125), _mm256_set1_pd(0.375));
+    const __m256d q = _mm256_fmadd_pd(e, p, _mm256_set1_pd(0.5));
+    return _mm256_fmadd_pd(_mm256_mul_pd(y, e), q, y);
+}
+EIGEN_ALWAYS_INLINE __m256 rsqrt_packet(const __m256& a) {
+    const __m256 y = _mm256_rsqrt14_ps(a);
+    const __m256 e = _mm256_fnmadd_ps(_mm256_mul_ps(a, y), y, _mm256_set1_ps(1));
+    return _mm256_fmadd_ps(_mm256_mul_ps(y, e), _mm256_set1_ps(0.5f), y);
+}
+#endif
+
+// Deduced: a template argument would lose the attributes of a packet, which GCC warns of.
+template <class Packet>
+typename Eigen::internal::unpacket_traits<Packet>::half half_of(const Packet& packet);
+/// Columns ↔ rows.
+template <class Packet>
+EIGEN_ALWAYS_INLINE void transpose(Packet& a, Packet& b, Packet& c, Packet& d) {
+    Eigen::internal::PacketBlock<Packet, 4> block;
+    block.packet[0] = a;
+    block.packet[1] = b;
+    block.packet[2] = c;
+    block.packet[3] = d;
+    Eigen::internal::ptranspose(block);
+    a = block.packet[0];
+    b = block.packet[1];
+    c = block.packet[2];
+    d = block.packet[3];
+}
+template <class Packet>
+EIGEN_ALWAYS_INLINE void transpose(Packet& a, Packet& b) {
+    Eigen::internal::PacketBlock<Packet, 2> block;
+    block.packet[0] = a;
+    block.packet[1] = b;
+    Eigen::internal::ptranspose(block);
+    a = block.packet[0];
+    b = block.packet[1];
+}
+
+/// Eigen's widest packet, halved so many times.
+template <class Scalar, int halvings>
+struct HalvedPacket {
+    using type = typename Eigen::internal::packet_traits<Scalar>::type;
+};
+template <class Scalar>
+struct HalvedPacket<Scalar, 1> {
+    using type = typename Eigen::internal::packet_traits<Scalar>::half;
+};
+template <class Scalar>
+struct HalvedPacket<Scalar, 2> {
+    using type = decltype(half_of(typename HalvedPacket<Scalar, 1>::type()));
+};
+constexpr int halvings(int lanes, int most) {
+    return lanes > most ? 1 + halvings(lanes / 2, most) : 0;
+}
 
 /// One vector register with a scalar's arithmetic, on Eigen's packets: as wide as the compiler's
-/// flags allow (SSE2 on plain x86-64), of one lane where there is nothing.
-template <class Scalar>
+/// flags and `most` allow (SSE2 on plain x86-64), of one lane where there is nothing.
+template <class Scalar, int most = max_width>
 struct VectorRegister {
-    using Packet = typename Eigen::internal::packet_traits<Scalar>::type;
+    using Packet =
+        typename HalvedPacket<Scalar,
+                              halvings(Eigen::internal::packet_traits<Scalar>::size, most)>::type;
     static constexpr int width = Eigen::internal::unpacket_traits<Packet>::size;
 
     Packet packet;

@@ -62,6 +62,8 @@ public:
     SortedSprings(SortedSprings&&) = default;
     SortedSprings& operator=(SortedSprings&&) = default;
 
+    /// By offset, then by a.
+    const std::vector<PlacedSpring>& all() const { return springs_; }
     const std::vector<Run>& runs() const { return runs_; }
     const std::vector<PlacedSpring>& scattered() const { return scattered_; }
 
@@ -71,7 +73,7 @@ private:
         return next.offset() == last.offset() && next.a > last.a && next.a <= last.a + max_width;
     }
 
-    std::vector<PlacedSpring> springs_;  // by offset, then by a
+    std::vector<PlacedSpring> springs_;
     std::vector<Run> runs_;
     std::vector<PlacedSpring> scattered_;
 };

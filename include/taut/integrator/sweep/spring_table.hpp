@@ -14,9 +14,9 @@
 namespace taut {
 
 /// The lengths of as many springs as a register has lanes; a division by them is a product.
-template <class Scalar>
-struct SpringLength<integrator_detail::sweep::VectorRegister<Scalar>> {
-    using Register = integrator_detail::sweep::VectorRegister<Scalar>;
+template <class Scalar, int most>
+struct SpringLength<integrator_detail::sweep::VectorRegister<Scalar, most>> {
+    using Register = integrator_detail::sweep::VectorRegister<Scalar, most>;
     Register l2, inverse, l;
 
     explicit EIGEN_ALWAYS_INLINE SpringLength(const Register& square)
@@ -40,10 +40,9 @@ inline constexpr bool is_vectorizable_v<Law, std::void_t<decltype(Law::vectoriza
 
 /// Rest lengths, dampings and parameters of one law's springs, in the order in which a sweep reads
 /// them: a column for each quantity of each run and each batch.
-template <class Scalar, class Law>
+template <class Scalar, class Law, class Register = VectorRegister<Scalar>>
 class SpringTable {
     using Parameters = typename Law::template Parameters<Scalar>;
-    using Register = VectorRegister<Scalar>;
     static constexpr bool vectorizable = is_vectorizable_v<Law>;
     static constexpr std::size_t fields = vectorizable ? sizeof(Parameters) / sizeof(Scalar) : 0;
     static_assert(!vectorizable || (std::is_trivially_copyable_v<Parameters> &&

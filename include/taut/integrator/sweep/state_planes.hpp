@@ -25,17 +25,18 @@ struct StatePlanes {
 };
 
 /// The memory of StatePlanes.
-template <class Scalar, int Dim>
+template <class Scalar>
 class StateMemory {
 public:
-    /// Makes room for `size` places in planes `stride` scalars apart.
+    /// Makes room for vectors of so many planes, `size` scalars in each, `stride` apart.
     /// @param looks_ahead      whether springs look ahead
     /// @param with_velocities  whether springs ask for velocities
-    void resize(Index size, Index stride, bool looks_ahead, bool with_velocities) {
+    void resize(int planes, Index size, Index stride, bool looks_ahead, bool with_velocities) {
+        planes_of_vector_ = planes;
         size_ = size;
         stride_ = stride;
         const Index vectors = 3 + (with_velocities ? 1 : 0) + (looks_ahead ? 1 : 0);
-        memory_.resize(vectors * Dim * stride);
+        memory_.resize(vectors * planes * stride);
         // The padding takes part in the steps: from rest.
         const Index padding = stride - size;
         for (Index end = stride; end <= memory_.size(); end += stride) {
@@ -50,11 +51,15 @@ public:
     void look_ahead(Scalar ahead) {
         whole(planes_.spring_x) = whole(planes_.x) + ahead * whole(planes_.v);
     }
+    /// A vector's planes one after another, padding included.
+    Eigen::Map<VectorX<Scalar>> whole(const Planes<Scalar>& of) const {
+        return {of.first, planes_of_vector_ * stride_};
+    }
     bool finite() const {
         // x − x is 0, or NaN where x is not finite; and so is the sum.
         const auto all = [&](const Planes<Scalar>& of) {
             Scalar sum = 0;
-            for (int d = 0; d < Dim; ++d) {
+            for (int d = 0; d < planes_of_vector_; ++d) {
                 const Eigen::Map<const VectorX<Scalar>> plane(of[d], size_);
                 sum += (plane - plane).sum();
             }
@@ -68,12 +73,10 @@ public:
 
 private:
     Planes<Scalar> vector(Index number) {
-        return {memory_.data() + number * Dim * stride_, stride_};
-    }
-    Eigen::Map<VectorX<Scalar>> whole(const Planes<Scalar>& of) const {
-        return {of.first, Dim * stride_};
+        return {memory_.data() + number * planes_of_vector_ * stride_, stride_};
     }
 
+    int planes_of_vector_ = 0;
     Index size_ = 0;
     Index stride_ = 0;
     VectorX<Scalar> memory_;

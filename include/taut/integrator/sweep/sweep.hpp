@@ -11,9 +11,9 @@
 // A spring takes some dozens of operations. A vector register does several of each at once, if the
 // numbers lie side by side in memory. In a plain loop over springs they do not: both ends are
 // looked up by index, a coordinate at a time, and each addition to a force may
-// wait for the store of the one before. So particles lie in planes, one array a coordinate,
-// and springs are sorted once so that a step reads memory forwards: a plan, which lasts until the
-// springs change. A state is converted once a call, however many steps it takes.
+// wait for the store of the one before. So particles lie in planes, one array a coordinate (but see
+// 7), and springs are sorted once so that a step reads memory forwards: a plan, which lasts until
+// the springs change. A state is converted once a call, however many steps it takes.
 //
 //
 // 2. Places, tiles, blocks
@@ -89,6 +89,24 @@
 // particles get an order that brings ends together before runs are sought again.
 //
 //
+// 7. Stars
+//
+//           tip                   point    x  y  z  0
+//            |                    hub      .  .  .  .
+//     tip---hub---tip             tips     .  .  .  .     four differences, twelve squares;
+//            |                             .  .  .  .     four lengths in one register,
+//           tip                            .  .  .  .     a lane each; four forces
+//                                          .  .  .  .
+//
+// Where most springs are scattered even in that order, as in a garment, all of them are in stars
+// and none in runs or batches. A star is four springs with one end in common. There is one plane,
+// of points: one load brings a place's whole vector. Either end of a spring may be its hub, so
+// places hand springs to later ones until nearly all are the hub of a multiple of four; what lacks
+// is a gap from the hub to itself. A star that reaches into another block is outer: it goes with
+// the first tile of each of its blocks, and forces on other blocks go behind the block's last
+// place. The others go with the first tile that waits for them.
+//
+//
 // Words, each for one thing
 //
 //   place         a particle's index in the planes; its index in the system, if there is no order
@@ -102,6 +120,11 @@
 //   run           springs of one offset and ascending a                      sorted_springs.hpp
 //   gap           a place between springs of a run where no spring begins
 //   segment       what one tile takes of a run                                     run_plan.hpp
+//   star          up to four springs with one end in common                           stars.hpp
+//   hub, tip      that end, and another end of a star                                  hubs.hpp
+//   outer         of a star: in more than one block
+//   point         one vector of one place, x y z 0; with stars a plane has points
+//   grain         scalars of a place in a plane: 1, or 4 with stars
 //   scattered     of a spring: in no run
 //   batch         scattered springs of one tile that touch few places            batch_plan.hpp
 //   gathered      of places: copied for a batch
@@ -123,7 +146,7 @@
 #include <algorithm>
 
 #include "force_plan.hpp"
-#include "state_planes.hpp"
+#include "place_update.hpp"
 
 #ifdef _OPENMP
 #include <omp.h>
@@ -145,6 +168,11 @@ public:
     template <class AnyState, class Update>
     bool run(const System& system, AnyState& state, Scalar h, Index count, int threads,
              const StepDamping& added, const Update& update);
+    /// Takes `count` > 0 steps of velocity Verlet.
+    /// @param go_on  whether state and system are as the last call of this left them
+    template <class AnyState>
+    bool run_verlet(const System& system, AnyState& state, Scalar h, Index count, int threads,
+                    const StepDamping& added, bool go_on);
 
 private:
     using Register = VectorRegister<Scalar>;
@@ -156,28 +184,24 @@ private:
     /// Brings all members up to date.
     template <class AnyState>
     void load(const System& system, const AnyState& state, const StepDamping& added);
+    /// @returns whether all is finite
     template <class Update>
-    void steps(Scalar h, Index count, int threads, const Update& update);
+    bool steps(Scalar h, Index count, int threads, const Update& update);
+    template <class Update>
+    void some_steps(Scalar h, Index count, int threads, const Update& update);
     template <bool Pins, bool Drag, class Update>
-    void steps(Scalar h, Index count, int threads, const Update& update);
-    template <bool Pins, bool Drag, class Update>
+    void some_steps(Scalar h, Index count, int threads, const Update& update);
+    template <bool Pins, bool Drag, bool Stars, class Update>
     void step_block(const StatePlanes<Scalar>& planes, int block, Scalar h, Scalar* scratch,
                     const Update& update) const;
-    /// The places first, first + 1, … by the forces on them, which are cleared.
-    template <bool Pins, bool Drag, class Update>
-    void move(const StatePlanes<Scalar>& planes, Index first, Index count, Scalar h,
-              const Planes<Scalar>& force_a, const Planes<Scalar>& force_b,
-              const Update& update) const;
 
     ForcePlan<System> plan_;
-    StateMemory<Scalar, Dim> state_;
-    VectorX<Scalar> inverse_mass_;  // 1/kg, 0 if pinned
+    StateMemory<Scalar> state_;
+    PlaceUpdate<Scalar, Dim> update_;
     VectorX<Scalar> scratch_;       // forces on one block for each thread, N; 0 between blocks
-    Eigen::Matrix<Scalar, Dim, 1> gravity_;
-    Scalar drag_ = 0;  // d0, 1/s
+    VectorX<Scalar> acceleration_;  // at the end of run_verlet, planes, m/s²
     StiffnessDamping<Scalar> damping_;
     Scalar ahead_ = 0;  // s, by which springs see x ahead
-    bool pins_ = false;
 };
 
 template <class System>
@@ -185,12 +209,7 @@ template <class AnyState, class Update>
 bool Sweep<System>::run(const System& system, AnyState& state, Scalar h, Index count, int threads,
                         const StepDamping& added, const Update& update) {
     load(system, state, added);
-    for (Index done = 0; done < count;) {
-        const Index next = std::min(steps_between_checks, count - done);
-        steps(h, next, threads, update);
-        if (!state_.finite()) return false;
-        done += next;
-    }
+    if (!steps(h, count, threads, update)) return false;
     plan_.from_planes(state_.planes().x, state.x);
     plan_.from_planes(state_.planes().v, state.v);
     for (Index i = 0; i < count; ++i) state.time += h;
@@ -199,35 +218,85 @@ bool Sweep<System>::run(const System& system, AnyState& state, Scalar h, Index c
 
 template <class System>
 template <class AnyState>
+bool Sweep<System>::run_verlet(const System& system, AnyState& state, Scalar h, Index count,
+                               int threads, const StepDamping& added, bool go_on) {
+    load(system, state, added);
+    const Scalar half = h / 2;
+    const auto kick_and_drift = [half](auto& x, auto& v, const auto& a, const auto& step) {
+        v += Register(half) * a;
+        x += step * v;
+    };
+    // Two half kicks, as at the end of one call and the start of the next: to the same bits.
+    const auto kick_twice_and_drift = [half](auto& x, auto& v, const auto& a, const auto& step) {
+        v += Register(half) * a;
+        v += Register(half) * a;
+        x += step * v;
+    };
+    if (go_on) {
+        auto x = state_.whole(state_.planes().x);
+        auto v = state_.whole(state_.planes().v);
+        v += half * acceleration_;
+        x += h * v;
+        if (ahead_ > 0) state_.look_ahead(ahead_);
+    } else {
+        some_steps(h, 1, threads, kick_and_drift);
+    }
+    if (!steps(h, count - 1, threads, kick_twice_and_drift) || !state_.finite()) return false;
+    acceleration_ = state_.whole(state_.planes().x);
+    // x, which is known now, makes room for the acceleration.
+    some_steps(h, 1, threads, [half](auto& x, auto& v, const auto& a, const auto&) {
+        v += Register(half) * a;
+        x = a;
+    });
+    if (!state_.finite()) return false;
+    plan_.from_planes({acceleration_.data(), plan_.stride()}, state.x);
+    plan_.from_planes(state_.planes().v, state.v);
+    acceleration_ = state_.whole(state_.planes().x);
+    for (Index i = 0; i < count; ++i) state.time += h;
+    return true;
+}
+
+template <class System>
+template <class AnyState>
 void Sweep<System>::load(const System& system, const AnyState& state, const StepDamping& added) {
-    gravity_ = system.gravity();
-    drag_ = static_cast<Scalar>(system.rayleigh().mass_proportional);
     damping_ = system.stiffness_damping(added).template cast<Scalar>();
     ahead_ = static_cast<Scalar>(added.look_ahead);
-    plan_.update(system);
-    state_.resize(plan_.size(), plan_.stride(), ahead_ > 0, plan_.damped() || bool(damping_));
+    if (plan_.update(system)) scratch_.setZero();  // it may have other places for what is discarded
+    const Index size = plan_.size() * plan_.grain();
+    state_.resize(plan_.planes(), size, plan_.stride(), ahead_ > 0,
+                  plan_.damped() || bool(damping_));
     plan_.to_planes(state.x, state_.planes().x);
     plan_.to_planes(state.v, state_.planes().v);
     if (ahead_ > 0) state_.look_ahead(ahead_);
-    inverse_mass_.resize(plan_.stride());
-    inverse_mass_.tail(plan_.stride() - plan_.size()).setZero();
-    plan_.to_planes(system.inverse_mass().transpose(), {inverse_mass_.data(), plan_.stride()});
-    pins_ = (inverse_mass_.head(plan_.size()).array() == Scalar(0)).any();
+    update_.load(system, plan_, ahead_);
 }
 
 template <class System>
 template <class Update>
-void Sweep<System>::steps(Scalar h, Index count, int threads, const Update& update) {
-    const bool drag = drag_ > 0;
-    if (pins_ && drag) steps<true, true>(h, count, threads, update);
-    if (pins_ && !drag) steps<true, false>(h, count, threads, update);
-    if (!pins_ && drag) steps<false, true>(h, count, threads, update);
-    if (!pins_ && !drag) steps<false, false>(h, count, threads, update);
+bool Sweep<System>::steps(Scalar h, Index count, int threads, const Update& update) {
+    for (Index done = 0; done < count;) {
+        const Index next = std::min(steps_between_checks, count - done);
+        some_steps(h, next, threads, update);
+        if (!state_.finite()) return false;
+        done += next;
+    }
+    return true;
+}
+
+template <class System>
+template <class Update>
+void Sweep<System>::some_steps(Scalar h, Index count, int threads, const Update& update) {
+    const bool pins = update_.has_pins();
+    const bool drag = update_.has_drag();
+    if (pins && drag) some_steps<true, true>(h, count, threads, update);
+    if (pins && !drag) some_steps<true, false>(h, count, threads, update);
+    if (!pins && drag) some_steps<false, true>(h, count, threads, update);
+    if (!pins && !drag) some_steps<false, false>(h, count, threads, update);
 }
 
 template <class System>
 template <bool Pins, bool Drag, class Update>
-void Sweep<System>::steps(Scalar h, Index count, int threads, const Update& update) {
+void Sweep<System>::some_steps(Scalar h, Index count, int threads, const Update& update) {
     const int blocks = plan_.blocks();
     threads = std::max(1, std::min(threads, blocks));
     const Index scratch_size = 3 * Dim * scratch_stride;
@@ -236,8 +305,14 @@ void Sweep<System>::steps(Scalar h, Index count, int threads, const Update& upda
         StatePlanes<Scalar> planes = state_.planes();
         Scalar* scratch = scratch_.data() + thread * scratch_size;
         for (Index step = 0; step < count; ++step) {
-            for_each_block(
-                [&](int block) { step_block<Pins, Drag>(planes, block, h, scratch, update); });
+            for_each_block([&](int block) {
+                if (plan_.has_stars()) {
+                    if constexpr (Dim > 1)
+                        step_block<Pins, Drag, true>(planes, block, h, scratch, update);
+                } else {
+                    step_block<Pins, Drag, false>(planes, block, h, scratch, update);
+                }
+            });
             planes.swap();
         }
     };
@@ -259,7 +334,7 @@ void Sweep<System>::steps(Scalar h, Index count, int threads, const Update& upda
 }
 
 template <class System>
-template <bool Pins, bool Drag, class Update>
+template <bool Pins, bool Drag, bool Stars, class Update>
 void Sweep<System>::step_block(const StatePlanes<Scalar>& planes, int block, Scalar h,
                                Scalar* scratch, const Update& update) const {
     const auto vector = [&](int number) {
@@ -275,49 +350,13 @@ void Sweep<System>::step_block(const StatePlanes<Scalar>& planes, int block, Sca
                           vector(2)};
     const Index begin = static_cast<Index>(block) * block_size;
     const Index count = std::min<Index>(block_size, plan_.size() - begin);
+    constexpr Index grain = Stars ? 4 : 1;
     for (Index i = 0; i < count; i += tile_size) {
         view.tile = static_cast<int>((begin + i) / tile_size);
         plan_.add_forces(view);
-        move<Pins, Drag>(planes, begin + i, std::min<Index>(tile_size, count - i), h,
-                         view.force_a.at(i), view.force_b.at(i), update);
-    }
-}
-
-template <class System>
-template <bool Pins, bool Drag, class Update>
-void Sweep<System>::move(const StatePlanes<Scalar>& planes, Index first, Index count, Scalar h,
-                         const Planes<Scalar>& force_a, const Planes<Scalar>& force_b,
-                         const Update& update) const {
-    const Register step(h);
-    const Register zero(Scalar(0));
-    const Register ahead(ahead_);
-    const bool looks_ahead = ahead_ > 0;
-    [[maybe_unused]] const Register d0(drag_);
-    for (int d = 0; d < Dim; ++d) {
-        const Register gravity(gravity_[d]);
-        const Scalar* inverse_masses = inverse_mass_.data() + first;
-        const Scalar* xs = planes.x[d] + first;
-        const Scalar* vs = planes.v[d] + first;
-        Scalar* new_xs = planes.new_x[d] + first;
-        Scalar* new_vs = planes.new_v[d] + first;
-        Scalar* new_spring_xs = planes.new_spring_x[d] + first;
-        Scalar* forces_a = force_a[d];
-        Scalar* forces_b = force_b[d];
-        for (Index i = 0; i < count; i += Register::width) {
-            const Register inverse_mass = Register::load(inverse_masses + i);
-            Register x = Register::load(xs + i);
-            Register v = Register::load(vs + i);
-            Register free_fall = gravity;
-            if constexpr (Drag) free_fall -= d0 * v;
-            if constexpr (Pins) free_fall = where_less(zero, inverse_mass, free_fall, zero);
-            const Register f = Register::load(forces_a + i) + Register::load(forces_b + i);
-            zero.store(forces_a + i);
-            zero.store(forces_b + i);
-            update(x, v, free_fall + inverse_mass * f, step);
-            x.store(new_xs + i);
-            v.store(new_vs + i);
-            if (looks_ahead) (x + ahead * v).store(new_spring_xs + i);
-        }
+        update_.template move<Pins, Drag, Stars>(
+            planes, (begin + i) * grain, std::min<Index>(tile_size, count - i) * grain, h,
+            view.force_a.at(i * grain), view.force_b.at(i * grain), update);
     }
 }
 

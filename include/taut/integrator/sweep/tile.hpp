@@ -14,6 +14,10 @@ inline constexpr int block_size = 2048;
 inline constexpr int tile_size = 256;
 inline constexpr int tiles_per_block = block_size / tile_size;
 
+inline constexpr int blocks_of(Index places) {
+    return static_cast<int>((places + block_size - 1) / block_size);
+}
+
 /// What the springs of one tile read and write.
 template <class Scalar>
 struct TileView {

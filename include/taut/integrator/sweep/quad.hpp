@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <type_traits>
+#include <utility>
+
+#include "register.hpp"
+
+namespace taut::integrator_detail::sweep {
+
+/// A vector of one place or spring, x y z 0, in registers. Whatever the compiler's flags, no loop
+/// is left: packs say what loops would.
+template <class Scalar>
+struct Quad {
+    using Part = VectorRegister<Scalar, 4>;
+    static constexpr int parts = 4 / Part::width;
+    using All = std::make_integer_sequence<int, parts>;
+
+    std::array<Part, parts> part;
+
+    static EIGEN_ALWAYS_INLINE Quad load(const Scalar* from) { return load(from, All()); }
+    EIGEN_ALWAYS_INLINE void store(Scalar* to) const { store(to, All()); }
+
+    friend EIGEN_ALWAYS_INLINE Quad operator+(const Quad& a, const Quad& b) {
+        return add(a, b, All());
+    }
+    friend EIGEN_ALWAYS_INLINE Quad operator-(const Quad& a, const Quad& b) {
+        return subtract(a, b, All());
+    }
+    friend EIGEN_ALWAYS_INLINE Quad operator*(const Quad& a, const Quad& b) {
+        return multiply(a, b, All());
+    }
+    friend EIGEN_ALWAYS_INLINE Quad operator*(const Part& factor, const Quad& a) {
+        return scale(factor, a, All());
+    }
+
+    /// Four factors, each in all lanes.
+    static EIGEN_ALWAYS_INLINE std::array<Part, 4> factors(const Scalar* from) {
+        if constexpr (Part::width == 4) {
+            std::array<Part, 4> all;
+            Eigen::internal::pbroadcast4(from, all[0].packet, all[1].packet, all[2].packet,
+                                         all[3].packet);
+            return all;
+        } else {
+            return {Part(from[0]), Part(from[1]), Part(from[2]), Part(from[3])};
+        }
+    }
+    /// The sums x + y + z of four vectors, a lane each.
+    static EIGEN_ALWAYS_INLINE Quad sums(const Quad& a, const Quad& b, const Quad& c,
+                                         const Quad& d);
+
+private:
+    template <int... i>
+    using Parts = std::integer_sequence<int, i...>;
+
+    template <int... i>
+    static EIGEN_ALWAYS_INLINE Quad load(const Scalar* from, Parts<i...>) {
+        return {{Part::load(from + i * Part::width)...}};
+    }
+    template <int... i>
+    EIGEN_ALWAYS_INLINE void store(Scalar* to, Parts<i...>) const {
+        (part[i].store(to + i * Part::width), ...);
+    }
+    template <int... i>
+    static EIGEN_ALWAYS_INLINE Quad add(const Quad& a, const Quad& b, Parts<i...>) {
+        return {{(a.part[i] + b.part[i])...}};
+    }
+    template <int... i>
+    static EIGEN_ALWAYS_INLINE Quad subtract(const Quad& a, const Quad& b, Parts<i...>) {
+        return {{(a.part[i] - b.part[i])...}};
+    }
+    template <int... i>
+    static EIGEN_ALWAYS_INLINE Quad multiply(const Quad& a, const Quad& b, Parts<i...>) {
+        return {{(a.part[i] * b.part[i])...}};
+    }
+    template <int... i>
+    static EIGEN_ALWAYS_INLINE Quad scale(const Part& factor, const Quad& a, Parts<i...>) {
+        return {{(factor * a.part[i])...}};
+    }
+    static EIGEN_ALWAYS_INLINE Part sum(const Quad& a) { return a.part[0] + a.part[1] + a.part[2]; }
+    static EIGEN_ALWAYS_INLINE Part sums_of_two(Quad a, Quad b) {
+        transpose(a.part[0].packet, b.part[0].packet);
+        transpose(a.part[1].packet, b.part[1].packet);
+        return a.part[0] + b.part[0] + a.part[1];
+    }
+};
+
+template <class Scalar>
+EIGEN_ALWAYS_INLINE Quad<Scalar> Quad<Scalar>::sums(const Quad& a, const Quad& b, const Quad& c,
+                                                    const Quad& d) {
+    if constexpr (Part::width == 1) {
+        return {{sum(a), sum(b), sum(c), sum(d)}};
+    } else if constexpr (Part::width == 2) {
+        return {{sums_of_two(a, b), sums_of_two(c, d)}};
+    } else {
+        Part x = a.part[0];
+        Part y = b.part[0];
+        Part z = c.part[0];
+        Part none = d.part[0];
+        transpose(x.packet, y.packet, z.packet, none.packet);
+        return {{x + y + z}};
+    }
+}
+
+#ifdef EIGEN_VECTORIZE_AVX
+// With half the shuffles.
+template <>
+EIGEN_ALWAYS_INLINE Quad<double> Quad<double>::sums(const Quad& a, const Quad& b, const Quad& c,
+                                                    const Quad& d) {
+    const __m256d ab = _mm256_hadd_pd(a.part[0].packet, b.part[0].packet);
+    const __m256d cd = _mm256_hadd_pd(c.part[0].packet, d.part[0].packet);
+    return {{Part::of(
+        _mm256_add_pd(_mm256_blend_pd(ab, cd, 12), _mm256_permute2f128_pd(ab, cd, 0x21)))}};
+}
+#endif
+
+/// The lanes of two registers side by side in one of twice the width.
+template <class Scalar, int lanes>
+EIGEN_ALWAYS_INLINE VectorRegister<Scalar, 2 * lanes> join(
+    const VectorRegister<Scalar, lanes>& first, const VectorRegister<Scalar, lanes>& second) {
+#ifdef EIGEN_VECTORIZE_AVX
+    if constexpr (std::is_same_v<Scalar, float> && lanes == 4) {
+        return VectorRegister<float, 8>::of(
+            _mm256_insertf128_ps(_mm256_castps128_ps256(first.packet), second.packet, 1));
+    }
+#endif
+    std::array<Scalar, 2 * lanes> numbers;
+    first.store(numbers.data());
+    second.store(numbers.data() + lanes);
+    return VectorRegister<Scalar, 2 * lanes>::load(numbers.data());
+}
+
+}  // namespace taut::integrator_detail::sweep

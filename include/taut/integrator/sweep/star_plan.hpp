@@ -1,0 +1,221 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <tuple>
+#include <vector>
+
+#include "quad.hpp"
+#include "spring_table.hpp"
+#include "stars.hpp"
+
+namespace taut::integrator_detail::sweep {
+
+/// The springs of one law in stars, and the forces of these.
+template <class Scalar, class Law>
+class StarPlan {
+    using Set = SpringSet<Scalar, Law>;
+    using Point = Quad<Scalar>;
+    /// Never wider than 32 bytes, like points: beside wider ones Intel's processors add on two
+    /// ports instead of three.
+    using Register = std::conditional_t<sizeof(Scalar) == 4 && VectorRegister<Scalar>::width >= 8,
+                                        VectorRegister<Scalar, 8>, typename Point::Part>;
+    using Table = SpringTable<Scalar, Law, Register>;
+    /// Stars whose springs fill whole registers.
+    static constexpr int group = std::max(1, Register::width / star_size);
+    /// The springs of a group, a lane each.
+    using Lanes = std::array<Register, group * star_size / Register::width>;
+
+public:
+    StarPlan() = default;
+    /// @param places  of all blocks
+    StarPlan(const Set& set, const std::vector<PlacedSpring>& springs, int places);
+
+    /// Adds the forces of the stars after which those on the tile's places are whole.
+    template <bool Dampers, Proportional Kind>
+    void add_forces(const TileView<Scalar>& view) const {
+        const auto tile = static_cast<std::size_t>(view.tile);
+        const Index first = static_cast<Index>(view.block) * block_size * 4;
+        Group of{view.x.first + first, view.v.first + first, nullptr, nullptr, view.force_a.first};
+        constexpr std::make_integer_sequence<int, group> all;
+        std::size_t g = tile == 0 ? 0 : ends_[tile - 1].all;
+        typename Table::Reader springs(table_, columns_, g * group * star_size);
+        for (const std::size_t end = ends_[tile].outer; g < end; ++g) {
+            of.stars = &stars_[g * group];
+            const auto inside = within_block(of.stars);
+            of.targets = inside.data();
+            add_group<Dampers, Kind>(view.damping, springs, of, all);
+        }
+        for (const std::size_t end = ends_[tile].all; g < end; ++g) {
+            of.stars = of.targets = &stars_[g * group];
+            add_group<Dampers, Kind>(view.damping, springs, of, all);
+        }
+    }
+
+private:
+    /// Springs with one end in common, by where the points of their ends begin, counted from the
+    /// block's first. Where there are fewer than four, the rest are gaps from the hub to itself.
+    struct Star {
+        int hub;
+        std::array<int, star_size> tips;
+    };
+    /// Where the groups of a tile end: of outer stars, and of all.
+    struct Ends {
+        std::size_t outer, all;
+    };
+    using Vectors = std::array<Point, star_size>;
+    template <int... i>
+    using Numbers = std::integer_sequence<int, i...>;
+    static constexpr std::make_integer_sequence<int, star_size> all_tips{};
+
+    /// What lies in other blocks goes behind the last place of this one.
+    static std::array<Star, group> within_block(const Star* stars) {
+        constexpr int end = 4 * block_size;
+        const auto inside = [](int place) { return place < 0 || place >= end ? end : place; };
+        std::array<Star, group> result;
+        for (int s = 0; s < group; ++s) {
+            result[s].hub = inside(stars[s].hub);
+            for (int k = 0; k < star_size; ++k) result[s].tips[k] = inside(stars[s].tips[k]);
+        }
+        return result;
+    }
+    /// What tips have more than their hub.
+    template <int... k>
+    static EIGEN_ALWAYS_INLINE Vectors differences(const Scalar* points, const Star& star,
+                                                   Numbers<k...>) {
+        const Point hub = Point::load(points + star.hub);
+        return {(Point::load(points + star.tips[k]) - hub)...};
+    }
+    static EIGEN_ALWAYS_INLINE Point dots(const Vectors& a, const Vectors& b) {
+        return Point::sums(a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]);
+    }
+    static EIGEN_ALWAYS_INLINE Lanes lanes(const std::array<Point, group>& points) {
+        if constexpr (group == 2) {
+            return {join(points[0].part[0], points[1].part[0])};
+        } else {
+            return points[0].part;
+        }
+    }
+    static EIGEN_ALWAYS_INLINE void add(Scalar* to, const Point& force) {
+        (Point::load(to) + force).store(to);
+    }
+    static EIGEN_ALWAYS_INLINE void subtract(Scalar* from, const Point& force) {
+        (Point::load(from) - force).store(from);
+    }
+    template <int... k>
+    static EIGEN_ALWAYS_INLINE void add_star(Scalar* forces, const Star& targets,
+                                             const Vectors& force, Numbers<k...>) {
+        (subtract(forces + targets.tips[k], force[k]), ...);
+        add(forces + targets.hub, (force[0] + force[1]) + (force[2] + force[3]));
+    }
+
+    /// What a group of stars reads and writes.
+    struct Group {
+        const Scalar* x;
+        const Scalar* v;
+        const Star* stars;
+        const Star* targets;
+        Scalar* forces;
+    };
+    template <bool Dampers, Proportional Kind, int... s>
+    static EIGEN_ALWAYS_INLINE void add_group(const StiffnessDamping<Scalar>& damping,
+                                              typename Table::Reader& springs, const Group& of,
+                                              Numbers<s...>);
+    /// Coefficients of the springs of a group.
+    struct Pulls {
+        alignas(64) std::array<Scalar, group * star_size> of_dx, of_dv;
+    };
+    template <bool Dampers, Proportional Kind>
+    static EIGEN_ALWAYS_INLINE void pull(const StiffnessDamping<Scalar>& damping,
+                                         typename Table::Reader& springs, const Register& l2,
+                                         const Register& dx_dv, Pulls& pulls, int first) {
+        const auto pull = springs.template pull<Dampers, Kind>(damping, l2, dx_dv);
+        pull.of_dx.store(pulls.of_dx.data() + first);
+        if constexpr (Kind != Proportional::none) pull.of_dv.store(pulls.of_dv.data() + first);
+        springs.next();
+    }
+    template <bool Dampers, Proportional Kind, int... i>
+    static EIGEN_ALWAYS_INLINE void pull(const StiffnessDamping<Scalar>& damping,
+                                         typename Table::Reader& springs, const Lanes& l2,
+                                         const Lanes& dx_dv, Pulls& pulls, Numbers<i...>) {
+        (pull<Dampers, Kind>(damping, springs, l2[i], dx_dv[i], pulls, i * Register::width), ...);
+    }
+    template <Proportional Kind, int... k>
+    static EIGEN_ALWAYS_INLINE Vectors forces(const Pulls& pulls, int first, const Vectors& dx,
+                                              [[maybe_unused]] const Vectors& dv, Numbers<k...>) {
+        const auto of_dx = Point::factors(pulls.of_dx.data() + first);
+        if constexpr (Kind == Proportional::none) {
+            return {(of_dx[k] * dx[k])...};
+        } else {
+            const auto of_dv = Point::factors(pulls.of_dv.data() + first);
+            return {(of_dx[k] * dx[k] + of_dv[k] * dv[k])...};
+        }
+    }
+
+    std::vector<Star> stars_;  // tile by tile, in groups
+    std::vector<Ends> ends_;   // of each tile
+    Table table_;
+    typename Table::Columns columns_{};
+};
+
+template <class Scalar, class Law>
+StarPlan<Scalar, Law>::StarPlan(const Set& set, const std::vector<PlacedSpring>& springs,
+                                int places) {
+    const auto by_hub = choose_hubs(springs, places);
+    const auto stars = plan_stars(by_hub);
+    std::vector<int> index;
+    const auto append = [&](const PlannedStar& star) {
+        const auto* spring = &by_hub[static_cast<std::size_t>(star.first)];
+        const int block_begin = star.tile / tiles_per_block * block_size;
+        Star result;
+        result.hub = 4 * (spring->hub - block_begin);
+        for (int k = 0; k < star_size; ++k) {
+            const bool there = k < star.count;
+            result.tips[k] = there ? 4 * (spring[k].tip - block_begin) : result.hub;
+            index.push_back(there ? spring[k].index : Table::gap(spring->index));
+        }
+        stars_.push_back(result);
+    };
+    auto next = stars.cbegin();
+    const auto append_all = [&](int tile, bool outer) {
+        for (; next != stars.cend() && next->tile == tile && next->outer == outer; ++next) {
+            append(*next);
+        }
+        while (stars_.size() % group != 0) {
+            stars_.push_back({});
+            index.insert(index.end(), star_size, Table::gap(by_hub.front().index));
+        }
+        return stars_.size() / group;
+    };
+    for (int tile = 0; tile < blocks_of(places) * tiles_per_block; ++tile) {
+        const std::size_t outer = append_all(tile, true);
+        ends_.push_back({outer, append_all(tile, false)});
+    }
+    columns_ = table_.add(set, index);
+    table_.finish();
+}
+
+template <class Scalar, class Law>
+template <bool Dampers, Proportional Kind, int... s>
+EIGEN_ALWAYS_INLINE void StarPlan<Scalar, Law>::add_group(const StiffnessDamping<Scalar>& damping,
+                                                          typename Table::Reader& springs,
+                                                          const Group& of, Numbers<s...>) {
+    const std::array<Vectors, group> dx{differences(of.x, of.stars[s], all_tips)...};
+    [[maybe_unused]] std::array<Vectors, group> dv;
+    Lanes dx_dv{};
+    if constexpr (Dampers || Kind != Proportional::none) {
+        dv = {differences(of.v, of.stars[s], all_tips)...};
+        dx_dv = lanes({dots(dx[s], dv[s])...});
+    }
+    Pulls pulls;
+    pull<Dampers, Kind>(damping, springs, lanes({dots(dx[s], dx[s])...}), dx_dv, pulls,
+                        std::make_integer_sequence<int, std::tuple_size_v<Lanes>>());
+    (add_star(of.forces, of.targets[s], forces<Kind>(pulls, s * star_size, dx[s], dv[s], all_tips),
+              all_tips),
+     ...);
+}
+
+}  // namespace taut::integrator_detail::sweep
