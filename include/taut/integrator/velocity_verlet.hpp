@@ -64,6 +64,7 @@ Report VelocityVerlet<System>::step(AnyState& state, Scalar h, Index count) {
             own.v.array() += h / 2 * steps_.acceleration(*system_);
             own.x += h * own.v;
             own.time += h;
+            if (!own.finite()) return;  // nobody's force is asked there
             steps_.update_force(*system_, own, h);
             own.v.array() += h / 2 * steps_.acceleration(*system_);
         });

@@ -13,9 +13,9 @@ namespace taut {
 /// An engine's own arrays as a state: steppers take it where they take a State, and Guarded too.
 ///
 /// Explicit steps of springs read and write the arrays themselves, once a call, as they do a
-/// State's. Implicit steps, and all under an external force, work on a State of their own and copy
-/// it back, one pass a call. Each number is converted where Stored is not the system's Scalar; what
-/// is too large for Stored becomes infinite, and the next step refuses it.
+/// State's. Implicit steps work on a State of their own and copy it back, one pass a call. Each
+/// number is converted where Stored is not the system's Scalar; what is too large for Stored
+/// becomes infinite, and the next step refuses it.
 ///
 ///     struct Particle { float x[3], v[3], wear; };
 ///     taut::StateView<float, 3> view(particles[0].x, particles[0].v, count,

@@ -50,15 +50,13 @@ public:
     Report run(const System& system, AnyState& state, Scalar h, Index count, BySweep&& by_sweep,
                Plain&& plain) {
         if constexpr (model_detail::is_spring_system_v<System>) {
-            if (!system.has_external_force()) {
-                const Report report = StepLoop<State>::check(system, state, h);
-                if (!report || count <= 0) return report;
-                const auto added = options_.damping.times(static_cast<double>(h));
-                if (by_sweep(sweep_, options_.threads, added)) {
-                    return {Status::ok, static_cast<int>(count)};
-                }
-                // Not finite: the steps below find out which step and which particle.
+            const Report report = StepLoop<State>::check(system, state, h);
+            if (!report || count <= 0) return report;
+            const auto added = options_.damping.times(static_cast<double>(h));
+            if (by_sweep(sweep_, options_.threads, added)) {
+                return {Status::ok, static_cast<int>(count)};
             }
+            // Not finite: the steps below find out which step and which particle.
         }
         return loop_.run(system, state, h, count, [&](State& own) -> Report {
             plain(own);

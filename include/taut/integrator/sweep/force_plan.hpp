@@ -101,7 +101,7 @@ private:
     };
 
     Scalar& at(const Planes<Scalar>& planes, int d, Index place) const {
-        return stars_ ? planes.first[4 * place + d] : planes[d][place];
+        return planes.first[d * (stars_ ? 1 : planes.stride) + place * grain()];
     }
     template <class Visitor>
     void for_each_place(Visitor&& visit) const {

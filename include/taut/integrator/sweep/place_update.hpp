@@ -33,6 +33,9 @@ public:
     bool has_pins() const { return pins_; }
     bool has_drag() const { return drag_ > 0; }
 
+    /// Forces beside those of springs, N; empty planes for none.
+    void set_external(const Planes<Scalar>& force) { external_ = force; }
+
     /// The scalars first, first + 1, … of planes by the forces on them, which are cleared.
     /// @param update  update(x, v, a, h) of registers, see Sweep::run
     template <bool Pins, bool Drag, bool Stars, class Update>
@@ -45,6 +48,7 @@ private:
 
     Eigen::Matrix<Scalar, Dim, 1> gravity_;            // m/s²
     std::array<Scalar, max_width> gravity_of_points_;  // x y z 0 x y z 0 …
+    Planes<Scalar> external_;                          // N
     VectorX<Scalar> inverse_mass_;                     // a plane, 1/kg, 0 if pinned
     Scalar drag_ = 0;                                  // d0, 1/s
     Scalar ahead_ = 0;
@@ -77,6 +81,7 @@ void PlaceUpdate<Scalar, Dim>::move(const StatePlanes<Scalar>& planes, Index fir
         Scalar* new_xs = planes.new_x[d] + first;
         Scalar* new_vs = planes.new_v[d] + first;
         Scalar* new_spring_xs = planes.new_spring_x[d] + first;
+        const Scalar* external = external_.first ? external_[d] + first : nullptr;
         Scalar* forces_a = force_a[d];
         [[maybe_unused]] Scalar* forces_b = force_b[d];
         const auto move_register = [&](Index i, const Register& g) {
@@ -92,6 +97,7 @@ void PlaceUpdate<Scalar, Dim>::move(const StatePlanes<Scalar>& planes, Index fir
                 f += Register::load(forces_b + i);
                 zero.store(forces_b + i);
             }
+            if (external) f += Register::load(external + i);
             update(x, v, free_fall + inverse_mass * f, step);
             x.store(new_xs + i);
             v.store(new_vs + i);

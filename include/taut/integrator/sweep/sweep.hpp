@@ -154,7 +154,7 @@
 
 namespace taut::integrator_detail::sweep {
 
-/// Explicit steps of a SpringSystem without external forces.
+/// Explicit steps of a SpringSystem.
 template <class System>
 class Sweep {
 public:
@@ -186,7 +186,9 @@ private:
     void load(const System& system, const AnyState& state, const StepDamping& added);
     /// @returns whether all is finite
     template <class Update>
-    bool steps(Scalar h, Index count, int threads, const Update& update);
+    bool steps(const System& system, Scalar h, Index count, int threads, const Update& update);
+    /// The external force at the state between two steps.
+    void load_external(const System& system);
     template <class Update>
     void some_steps(Scalar h, Index count, int threads, const Update& update);
     template <bool Pins, bool Drag, class Update>
@@ -198,8 +200,11 @@ private:
     ForcePlan<System> plan_;
     StateMemory<Scalar> state_;
     PlaceUpdate<Scalar, Dim> update_;
-    VectorX<Scalar> scratch_;       // forces on one block for each thread, N; 0 between blocks
-    VectorX<Scalar> acceleration_;  // at the end of run_verlet, planes, m/s²
+    VectorX<Scalar> scratch_;          // forces on one block for each thread, N; 0 between blocks
+    typename System::State outside_;   // what the external force sees, if there is one
+    typename System::Force external_;  // N
+    VectorX<Scalar> external_planes_;  // N
+    VectorX<Scalar> acceleration_;     // at the end of run_verlet, planes, m/s²
     StiffnessDamping<Scalar> damping_;
     Scalar ahead_ = 0;  // s, by which springs see x ahead
 };
@@ -209,7 +214,7 @@ template <class AnyState, class Update>
 bool Sweep<System>::run(const System& system, AnyState& state, Scalar h, Index count, int threads,
                         const StepDamping& added, const Update& update) {
     load(system, state, added);
-    if (!steps(h, count, threads, update)) return false;
+    if (!steps(system, h, count, threads, update)) return false;
     plan_.from_planes(state_.planes().x, state.x);
     plan_.from_planes(state_.planes().v, state.v);
     for (Index i = 0; i < count; ++i) state.time += h;
@@ -237,18 +242,20 @@ bool Sweep<System>::run_verlet(const System& system, AnyState& state, Scalar h, 
         auto v = state_.whole(state_.planes().v);
         v += half * acceleration_;
         x += h * v;
+        outside_.time += h;
         if (ahead_ > 0) state_.look_ahead(ahead_);
-    } else {
-        some_steps(h, 1, threads, kick_and_drift);
+    } else if (!steps(system, h, 1, threads, kick_and_drift)) {
+        return false;
     }
-    if (!steps(h, count - 1, threads, kick_twice_and_drift) || !state_.finite()) return false;
+    if (!state_.finite()) return false;
+    if (!steps(system, h, count - 1, threads, kick_twice_and_drift)) return false;
     acceleration_ = state_.whole(state_.planes().x);
     // x, which is known now, makes room for the acceleration.
-    some_steps(h, 1, threads, [half](auto& x, auto& v, const auto& a, const auto&) {
+    const auto kick = [half](auto& x, auto& v, const auto& a, const auto&) {
         v += Register(half) * a;
         x = a;
-    });
-    if (!state_.finite()) return false;
+    };
+    if (!steps(system, h, 1, threads, kick)) return false;
     plan_.from_planes({acceleration_.data(), plan_.stride()}, state.x);
     plan_.from_planes(state_.planes().v, state.v);
     acceleration_ = state_.whole(state_.planes().x);
@@ -269,18 +276,38 @@ void Sweep<System>::load(const System& system, const AnyState& state, const Step
     plan_.to_planes(state.v, state_.planes().v);
     if (ahead_ > 0) state_.look_ahead(ahead_);
     update_.load(system, plan_, ahead_);
+    update_.set_external({});
+    outside_.time = static_cast<Scalar>(state.time);
 }
 
 template <class System>
 template <class Update>
-bool Sweep<System>::steps(Scalar h, Index count, int threads, const Update& update) {
+bool Sweep<System>::steps(const System& system, Scalar h, Index count, int threads,
+                          const Update& update) {
+    const bool external = system.has_external_force();
+    if (external && !state_.finite()) return false;  // as a Scalar, it may not be what it was
     for (Index done = 0; done < count;) {
-        const Index next = std::min(steps_between_checks, count - done);
+        const Index next = external ? 1 : std::min(steps_between_checks, count - done);
+        if (external) load_external(system);
         some_steps(h, next, threads, update);
         if (!state_.finite()) return false;
+        outside_.time += h;
         done += next;
     }
     return true;
+}
+
+template <class System>
+void Sweep<System>::load_external(const System& system) {
+    outside_.x.resize(Dim, plan_.size());
+    outside_.v.resize(Dim, plan_.size());
+    plan_.from_planes(state_.planes().x, outside_.x);
+    plan_.from_planes(state_.planes().v, outside_.v);
+    system.external_force(outside_, external_);
+    external_planes_.resize(plan_.planes() * plan_.stride());
+    const Planes<Scalar> planes{external_planes_.data(), plan_.stride()};
+    plan_.to_planes(external_, planes);
+    update_.set_external(planes);
 }
 
 template <class System>

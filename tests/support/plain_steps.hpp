@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <taut/method/method.hpp>
+#include <taut/model/spring_system.hpp>
+
+namespace taut_test {
+
+/// Takes `count` explicit steps of h, s, as the method's formula says, by System::force alone.
+/// @param damping  the stepper's own
+template <taut::Method method, class System>
+void plain_steps(const System& system, typename System::State& state, typename System::Scalar h,
+                 int count, const taut::StepDamping& damping = {}) {
+    typename System::Force f;
+    const auto kick = [&](typename System::Scalar time) {
+        state.v.array() += time * (f.array().rowwise() * system.inverse_mass().transpose().array());
+    };
+    const auto update_force = [&] {
+        system.force(state, f, damping.times(static_cast<double>(h)));
+    };
+    if (method == taut::Method::velocity_verlet && count > 0) update_force();
+    for (int i = 0; i < count; ++i) {
+        if (method == taut::Method::velocity_verlet) {
+            kick(h / 2);
+            state.x += h * state.v;
+            state.time += h;
+            update_force();
+            kick(h / 2);
+            continue;
+        }
+        update_force();
+        if (method == taut::Method::explicit_euler) state.x += h * state.v;
+        kick(h);
+        if (method == taut::Method::symplectic_euler) state.x += h * state.v;
+        state.time += h;
+    }
+}
+
+}  // namespace taut_test
