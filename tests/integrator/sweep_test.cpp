@@ -134,6 +134,24 @@ taut::SpringSystem<Scalar, Dim> irregular(Random& random, int particles, bool da
 
 }  // namespace
 
+TEMPLATE_TEST_CASE("sweep: a law without springs, or no spring at all", "[integrator]", float,
+                   double) {
+    Random random(57);
+    for (const bool springs : {false, true}) {
+        taut::SpringSystem<TestType, 3, taut::Hookean, TensionOnly> system;
+        for (int i = 0; i < 9; ++i) {
+            system.add_particle(random.vector<TestType, 3>(-1, 1), TestType(1));
+        }
+        system.set_gravity({0, 0, -10});
+        for (Index i = 0; springs && i < 9; ++i) {
+            system.template add_spring<TensionOnly>(
+                {i, (4 * i + 1) % 9 == i ? (i + 2) % 9 : (4 * i + 1) % 9, {80}, TestType(0.1)});
+        }
+        check_equals_plain_path<taut::SymplecticEuler>(system, random_state(random, system));
+        check_equals_plain_path<taut::VelocityVerlet>(system, random_state(random, system));
+    }
+}
+
 TEMPLATE_TEST_CASE("sweep: a scene without order is stepped as by the plain path", "[integrator]",
                    (Case<float, 2>), (Case<double, 1>), (Case<double, 3>)) {
     using Scalar = typename TestType::Scalar;

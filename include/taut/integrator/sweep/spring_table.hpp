@@ -76,6 +76,7 @@ public:
     Columns add(const SpringSet<Scalar, Law>& set, const std::vector<int>& index) {
         const auto spring = [&](std::size_t i) { return index[i] < 0 ? gap(index[i]) : index[i]; };
         Columns columns;
+        if (index.empty()) return columns;
         columns.rest_length = add_column(index.size(), [&](std::size_t i) {
             return index[i] < 0 ? Scalar(-1) : set.rest_length[index[i]];
         });

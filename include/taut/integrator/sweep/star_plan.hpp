@@ -45,8 +45,8 @@ public:
         typename Table::Reader springs(table_, columns_, g * group * star_size);
         for (const std::size_t end = ends_[tile].outer; g < end; ++g) {
             of.stars = &stars_[g * group];
-            const auto inside = within_block(of.stars);
-            of.targets = inside.data();
+            const auto targets = within_block(of.stars);
+            of.targets = targets.data();
             add_group<Dampers, Kind>(view.damping, springs, of, all);
         }
         for (const std::size_t end = ends_[tile].all; g < end; ++g) {
@@ -72,9 +72,11 @@ private:
     static constexpr std::make_integer_sequence<int, star_size> all_tips{};
 
     /// What lies in other blocks goes behind the last place of this one.
-    static std::array<Star, group> within_block(const Star* stars) {
+    static int inside(int place) {
         constexpr int end = 4 * block_size;
-        const auto inside = [](int place) { return place < 0 || place >= end ? end : place; };
+        return place < 0 || place >= end ? end : place;
+    }
+    static std::array<Star, group> within_block(const Star* stars) {
         std::array<Star, group> result;
         for (int s = 0; s < group; ++s) {
             result[s].hub = inside(stars[s].hub);
