@@ -94,6 +94,25 @@ void compare_damping(const char* label, const Net<Scalar>& net, int runs, int co
     row("on K⁺", Stepper(rayleigh));
 }
 
+/// What else is asked of a step, beside the step without.
+void compare_kinds(const char* label, const Net<double>& net, int runs, int count) {
+    const double h = 0.5 * taut::any_pose_limit(net).certified;
+    const auto row = [&](const char* kind, auto&& stepper) {
+        taut::SymplecticEuler plain(net);
+        auto state = net.initial_state();
+        auto state_of_plain = state;
+        Comparison comparison;
+        comparison.run(
+            runs, count, [&](int steps) { std::ignore = stepper.step(state, h, steps); },
+            [&](int steps) { std::ignore = plain.step(state_of_plain, h, steps); });
+        comparison.print((std::string(label) + ", " + kind).c_str());
+    };
+    row("velocity Verlet", taut::VelocityVerlet(net));
+    auto dragged = net;
+    dragged.set_external_force([](const auto& state, auto& f) { f -= 1e-6 * state.v; });
+    row("a drag from outside", taut::SymplecticEuler(dragged));
+}
+
 /// Two threads beside one.
 void compare_threads(const char* label, const Net<double>& net, int runs, int count) {
     const double h = 0.9 * taut::any_pose_limit(net).certified;
@@ -145,6 +164,15 @@ Net<double> lattice(Index n) {
         }
     }
     net.set_gravity({0, 0, -9.81});
+    return net;
+}
+
+template <class Scalar>
+Net<Scalar> mesh_in(const example::MeshFile& file) {
+    const taut::Points<Scalar, 3> vertices = file.vertices.cast<Scalar>();
+    auto net = taut::springs_from_mesh<Scalar>(vertices, file.faces).system;
+    net.set_gravity({0, 0, Scalar(-9.81)});
+    net.pin(0);
     return net;
 }
 
@@ -215,10 +243,9 @@ int main(int argc, char** argv) {
     taut::SpringSystem<double, 3> mesh;
     if (argc > 1) {
         const auto file = example::read_obj(argv[1]);
-        mesh = taut::springs_from_mesh<double>(file.vertices, file.faces).system;
-        mesh.set_gravity({0, 0, -9.81});
-        mesh.pin(0);
+        mesh = mesh_in<double>(file);
         compare<double>("mesh", mesh, 21, 100);
+        compare<float>("mesh, float", mesh_in<float>(file), 21, 100);
     }
     const auto cloth = taut::hanging_cloth<double>({100, 100});
     std::printf(
@@ -227,12 +254,16 @@ int main(int argc, char** argv) {
     compare_damping<float>("hanging_cloth 100, float", taut::hanging_cloth<float>({100, 100}), 21,
                            100);
     if (mesh.size() > 0) compare_damping<double>("mesh", mesh, 21, 100);
+    std::printf("\n| scene, step | symplectic | this: min (median) | ratio |\n|---|---|---|---|\n");
+    compare_kinds("hanging_cloth 100", cloth, 21, 100);
+    if (mesh.size() > 0) compare_kinds("mesh", mesh, 21, 100);
     std::printf("\n| scene | Boost.odeint | Taut: min (median) | ratio |\n|---|---|---|---|\n");
     compare_odeint("hanging_cloth 100", cloth, 7, 100);
 #ifdef _OPENMP
     std::printf("\n| scene | one thread | two: min (median) | ratio |\n|---|---|---|---|\n");
     compare_threads("hanging_cloth 100", cloth, 11, 100);
     compare_threads("hanging_cloth 400", taut::hanging_cloth<double>({400, 400}), 7, 100);
+    if (mesh.size() > 0) compare_threads("mesh", mesh, 11, 100);
 #endif
     std::printf(
         "\n## One second in frames of 1/60 s at the any-pose limit\n\n"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -25,39 +26,34 @@ inline constexpr int star_size = 4;
 /// four springs: what is more than that, a place hands to the later ends of its springs.
 /// @returns the springs by hubs, and by tips for each hub
 inline std::vector<HubSpring> choose_hubs(const std::vector<PlacedSpring>& springs, int places) {
-    const auto at = [](int i) { return static_cast<std::size_t>(i); };
-    std::vector<int> end(at(places) + 1, 0);  // of the springs from each place to later ones
-    for (const auto& spring : springs) ++end[at(spring.a) + 1];
-    for (std::size_t i = 1; i < end.size(); ++i) end[i] += end[i - 1];
-    std::vector<HubSpring> later(springs.size());
-    auto next = end;
-    for (const auto& spring : springs) {
-        later[at(next[at(spring.a)]++)] = {spring.a, spring.b, spring.index};
-    }
-
+    // By lower ends: the springs from each place to later ones.
+    auto later = counting_sort(springs, places, [](const auto& spring) { return spring.a; });
     std::vector<HubSpring> result;
     result.reserve(springs.size());
-    constexpr int none = -1;
-    std::vector<int> handed(at(places), none);      // the last one handed to each place, in later
-    std::vector<int> before(springs.size(), none);  // the one handed to that place before
-    const auto by_tip = [](const HubSpring& s, const HubSpring& t) {
-        return s.tip != t.tip ? s.tip < t.tip : s.index < t.index;
-    };
+    constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+    std::vector<std::size_t> handed(static_cast<std::size_t>(places), none);  // the last to each
+    std::vector<std::size_t> before(springs.size(), none);  // the one handed there before
+    auto first = later.begin();
     for (int p = 0; p < places; ++p) {
+        const auto last =
+            std::find_if(first, later.end(), [p](const auto& spring) { return spring.a != p; });
         const auto mine = static_cast<std::ptrdiff_t>(result.size());
-        for (int s = handed[at(p)]; s != none; s = before[at(s)]) {
-            result.push_back({p, later[at(s)].hub, later[at(s)].index});
+        for (auto s = handed[static_cast<std::size_t>(p)]; s != none; s = before[s]) {
+            result.push_back({p, later[s].a, later[s].index});
         }
-        const int first = end[at(p)];
-        const int last = end[at(p) + 1];
-        const int count = last - first + static_cast<int>(result.size()) - static_cast<int>(mine);
-        const int surplus = count % star_size <= last - first ? count % star_size : 0;
-        std::sort(later.begin() + first, later.begin() + last, by_tip);
-        for (int s = first; s < first + surplus; ++s) {
-            before[at(s)] = std::exchange(handed[at(later[at(s)].tip)], s);
+        const auto count = last - first + static_cast<std::ptrdiff_t>(result.size()) - mine;
+        const auto surplus = count % star_size <= last - first ? count % star_size : 0;
+        std::sort(first, last, [](const auto& s, const auto& t) {
+            return s.b != t.b ? s.b < t.b : s.index < t.index;
+        });
+        for (const auto kept = first + surplus; first != kept; ++first) {
+            const auto s = static_cast<std::size_t>(first - later.begin());
+            before[s] = std::exchange(handed[static_cast<std::size_t>(first->b)], s);
         }
-        result.insert(result.end(), later.begin() + first + surplus, later.begin() + last);
-        std::sort(result.begin() + mine, result.end(), by_tip);
+        for (; first != last; ++first) result.push_back({p, first->b, first->index});
+        std::sort(result.begin() + mine, result.end(), [](const auto& s, const auto& t) {
+            return s.tip != t.tip ? s.tip < t.tip : s.index < t.index;
+        });
     }
     return result;
 }

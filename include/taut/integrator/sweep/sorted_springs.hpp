@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <tuple>
 #include <vector>
 
 #include "register.hpp"
@@ -21,10 +20,22 @@ struct PlacedSpring {
     int index;
 
     int offset() const { return b - a; }
-    friend bool operator<(const PlacedSpring& s, const PlacedSpring& t) {
-        return std::tuple(s.offset(), s.a, s.index) < std::tuple(t.offset(), t.a, t.index);
-    }
 };
+
+/// Springs by a key in 0 … keys − 1; those of one key stay in their order.
+/// @param key_of  key_of(spring)
+template <class KeyOf>
+std::vector<PlacedSpring> counting_sort(const std::vector<PlacedSpring>& springs, int keys,
+                                        const KeyOf& key_of) {
+    std::vector<std::size_t> next(static_cast<std::size_t>(keys) + 1, 0);
+    for (const auto& spring : springs) ++next[static_cast<std::size_t>(key_of(spring)) + 1];
+    for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
+    std::vector<PlacedSpring> sorted(springs.size());
+    for (const auto& spring : springs) {
+        sorted[next[static_cast<std::size_t>(key_of(spring))]++] = spring;
+    }
+    return sorted;
+}
 
 /// The springs of a set sorted into runs, and the scattered ones that fit none.
 class SortedSprings {
@@ -40,12 +51,15 @@ public:
     template <class Set, class PlaceOf>
     SortedSprings(const Set& set, const PlaceOf& place_of) {
         springs_.reserve(set.a.size());
+        int places = 0;
         for (std::size_t s = 0; s < set.a.size(); ++s) {
             const int a = place_of(set.a[s]);
             const int b = place_of(set.b[s]);
             springs_.push_back({std::min(a, b), std::max(a, b), static_cast<int>(s)});
+            places = std::max(places, springs_.back().b + 1);
         }
-        std::sort(springs_.begin(), springs_.end());
+        springs_ = counting_sort(springs_, places, [](const auto& spring) { return spring.a; });
+        springs_ = counting_sort(springs_, places, [](const auto& s) { return s.offset(); });
         for (Run run{springs_.cbegin(), {}}; run.begin != springs_.cend(); run.begin = run.end) {
             run.end = run.begin + 1;
             while (run.end != springs_.cend() && goes_on(run.back(), *run.end)) ++run.end;
