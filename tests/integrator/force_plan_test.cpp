@@ -31,6 +31,24 @@ TEST_CASE("force_plan: planes give back the points they took, whatever the order
     check(taut::hanging_cloth<double>({9, 8}));
 }
 
+TEST_CASE("force_plan: springs without order are in stars, those of grids and chains are not",
+          "[integrator]") {
+    Random random(54);
+    RandomOptions options;
+    options.particles = 70;
+    options.springs = 200;
+    const auto stars = [](const auto& system) {
+        taut::integrator_detail::sweep::ForcePlan<std::decay_t<decltype(system)>> plan;
+        plan.update(system);
+        return plan.has_stars();
+    };
+    CHECK(stars(random_system<double, 3>(random, options)));
+    CHECK(stars(random_system<float, 2>(random, options)));
+    CHECK_FALSE(stars(random_system<double, 1>(random, options)));
+    CHECK_FALSE(stars(taut::hanging_cloth<double>({30, 40})));
+    CHECK_FALSE(stars(taut::SpringSystem<double, 3>()));
+}
+
 TEST_CASE("force_plan: it changes with the springs and not with masses or damping",
           "[integrator]") {
     Random random(53);

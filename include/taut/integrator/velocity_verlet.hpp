@@ -40,7 +40,7 @@ public:
 private:
     const System* system_;
     integrator_detail::ExplicitSteps<System> steps_;
-    integrator_detail::LastState<State> last_;  // what the force at the end of the last step is of
+    integrator_detail::LastState<State> last_;  // that the kept force belongs to
     bool last_by_sweep_ = false;                // or by the plain path: who knows it
     Scalar last_h_ = 0;
 };

@@ -52,7 +52,8 @@ public:
     using State = taut::State<Scalar, Dim>;
     using Vector = Eigen::Matrix<Scalar, Dim, 1>;
     using Force = Points<Scalar, Dim>;
-    /// Adds forces, N, to its second argument (Dim × n). Taken as constant over a step.
+    /// Adds forces, N, to its second argument (Dim × n), which may hold other forces already. Taken
+    /// as constant over a step. Where an explicit call diverges, it is asked again from the start.
     using ExternalForce = std::function<void(const State&, Force&)>;
     using SpringSets =
         std::conditional_t<sizeof...(Laws) == 0, std::tuple<SpringSet<Scalar, Hookean>>,

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <type_traits>
 
 #include "../../model/spring_system.hpp"
@@ -14,7 +13,7 @@ namespace taut {
 
 namespace integrator_detail {
 
-/// Steps of an explicit method: springs by a sweep, whatever else by System::force.
+/// Steps of an explicit method: of a SpringSystem by a sweep, of other systems by System::force.
 template <class System>
 class ExplicitSteps {
 public:

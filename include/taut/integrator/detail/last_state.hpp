@@ -28,7 +28,8 @@ public:
     bool is(const System& system, const AnyState& state) const {
         using Scalar = typename State::Scalar;
         return system.force_revision() == force_revision_ && state_.x.cols() == state.x.cols() &&
-               state.x.cols() > 0 && static_cast<Scalar>(state.time) == state_.time &&
+               state_.v.cols() == state.v.cols() && state.x.cols() > 0 &&
+               static_cast<Scalar>(state.time) == state_.time &&
                state.x.template cast<Scalar>() == state_.x &&
                state.v.template cast<Scalar>() == state_.v;
     }

@@ -54,7 +54,7 @@ EIGEN_ALWAYS_INLINE __m512 select_less_packet(const __m512& a, const __m512& b, 
     return _mm512_mask_blend_ps(_mm512_cmp_ps_mask(a, b, _CMP_LT_OQ), no, yes);
 }
 #endif
-#ifdef __AVX512VL__
+#if defined(EIGEN_VECTORIZE_AVX512) && defined(__AVX512VL__)
 EIGEN_ALWAYS_INLINE __m256d rsqrt_packet(const __m256d& a) {
     const __m256d y = _mm256_rsqrt14_pd(a);
     const __m256d e = _mm256_fnmadd_pd(_mm256_mul_pd(a, y), y, _mm256_set1_pd(1));

@@ -39,7 +39,7 @@ inline constexpr bool is_vectorizable_v<Law, std::void_t<decltype(Law::vectoriza
     Law::vectorizable;
 
 /// Rest lengths, dampings and parameters of one law's springs, in the order in which a sweep reads
-/// them: a column for each quantity of each run and each batch.
+/// them: a column for each quantity of each run and each batch, or of all stars.
 template <class Scalar, class Law, class Register = VectorRegister<Scalar>>
 class SpringTable {
     using Parameters = typename Law::template Parameters<Scalar>;
@@ -61,7 +61,7 @@ class SpringTable {
     };
 
 public:
-    /// Where a run or a batch has its springs.
+    /// Where a run, a batch or a plan of stars has its springs.
     struct Columns {
         Column rest_length;
         Column damping;
@@ -110,7 +110,7 @@ public:
         parameters_.shrink_to_fit();
     }
 
-    /// Goes forward through the springs of a run or a batch, as many at a time as a register has
+    /// Goes forward through the springs of some columns, as many at a time as a register has
     /// lanes.
     class Reader {
     public:

@@ -24,7 +24,7 @@ class StarPlan {
     using Register = std::conditional_t<sizeof(Scalar) == 4 && VectorRegister<Scalar>::width >= 8,
                                         VectorRegister<Scalar, 8>, typename Point::Part>;
     using Table = SpringTable<Scalar, Law, Register>;
-    /// Stars whose springs fill whole registers.
+    /// So many stars fill whole registers.
     static constexpr int group = std::max(1, Register::width / star_size);
     /// The springs of a group, a lane each.
     using Lanes = std::array<Register, group * star_size / Register::width>;
@@ -34,7 +34,7 @@ public:
     /// @param places  of all blocks
     StarPlan(const Set& set, const std::vector<PlacedSpring>& springs, int places);
 
-    /// Adds the forces of the stars after which those on the tile's places are whole.
+    /// Adds the forces of the tile's stars; then those on its places are complete.
     template <bool Dampers, Proportional Kind>
     void add_forces(const TileView<Scalar>& view) const {
         const auto tile = static_cast<std::size_t>(view.tile);
@@ -84,7 +84,7 @@ private:
         }
         return result;
     }
-    /// What tips have more than their hub.
+    /// Tips minus hub.
     template <int... k>
     static EIGEN_ALWAYS_INLINE Vectors differences(const Scalar* points, const Star& star,
                                                    Numbers<k...>) {

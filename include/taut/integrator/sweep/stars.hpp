@@ -44,7 +44,7 @@ inline std::vector<PlannedStar> plan_stars(const std::vector<HubSpring>& by_hub)
         }
         s += count;
     }
-    // Hubs are in order and tips are not: a star waits for no tile later than its successors'.
+    // A star goes no later than those after it, so that springs are read in order.
     int tile = blocks_of(springs == 0 ? 0 : spring(springs - 1).hub + 1) * tiles_per_block;
     for (auto star = stars.rbegin(); star != stars.rend(); ++star) {
         if (!star->outer) tile = star->tile = std::min(tile, star->tile);

@@ -55,7 +55,7 @@
 //        spring_x, v of the old step, of any place        the plan
 //                                |                           |
 //                                v                           v
-//                   springs of the tile: segments, then batches
+//                   springs of the tile: segments, then batches; or stars
 //                                |                           |
 //                                v                           v
 //          force_a, force_b on places of the block        discard: segments' on other blocks
@@ -94,17 +94,18 @@
 //           tip                   point    x  y  z  0
 //            |                    hub      .  .  .  .
 //     tip---hub---tip             tips     .  .  .  .     four differences, twelve squares;
-//            |                             .  .  .  .     four lengths in one register,
+//            |                             .  .  .  .     four lengths side by side,
 //           tip                            .  .  .  .     a lane each; four forces
 //                                          .  .  .  .
 //
 // Where most springs are scattered even in that order, as in a garment, all of them are in stars
-// and none in runs or batches. A star is four springs with one end in common. There is one plane,
-// of points: one load brings a place's whole vector. Either end of a spring may be its hub, so
-// places hand springs to later ones until nearly all are the hub of a multiple of four; what lacks
-// is a gap from the hub to itself. A star that reaches into another block is outer: it goes with
-// the first tile of each of its blocks, and forces on other blocks go behind the block's last
-// place. The others go with the first tile that waits for them.
+// and none in runs or batches; in one dimension there are none. A star is four springs with one end
+// in common. There is one plane, of points, in which a place's vector lies in one piece. Either end
+// of a spring may be its hub, so places hand springs to later ones until nearly all are the hub of
+// a multiple of four; what is missing is filled with gaps, from the hub to itself. A star that
+// reaches into another block is outer: it goes with the first tile of each of its blocks, and
+// forces on other blocks go behind the block's last place. The others go with a tile that none of
+// their places comes before, in the order of hubs. Registers are no wider than 32 bytes here.
 //
 //
 // Words, each for one thing
@@ -118,7 +119,7 @@
 //   ends a, b     of a spring, places, a < b
 //   offset        b - a
 //   run           springs of one offset and ascending a                      sorted_springs.hpp
-//   gap           a place between springs of a run where no spring begins
+//   gap           a place between springs of a run where no spring begins; or what a star lacks
 //   segment       what one tile takes of a run                                     run_plan.hpp
 //   star          up to four springs with one end in common                           stars.hpp
 //   hub, tip      that end, and another end of a star                                  hubs.hpp
@@ -130,9 +131,9 @@
 //   gathered      of places: copied for a batch
 //   chunk         springs of a batch that are computed together
 //   table         rest lengths, dampings and parameters of one law's springs   spring_table.hpp
-//   column        one of these quantities, of the springs of a run or a batch
+//   column        one of these quantities, of the springs of a run or a batch, or of all stars
 //   field         one Scalar of a law's parameters: a column, if the law is plain arithmetic
-//   reader        goes through the columns of a run or a batch, a register at a time
+//   reader        goes through columns, a register at a time
 //   register      a vector register, which Eigen calls a packet                    register.hpp
 //   lane          one number of a register
 //   width         the number of lanes
@@ -169,7 +170,8 @@ public:
     bool run(const System& system, AnyState& state, Scalar h, Index count, int threads,
              const StepDamping& added, const Update& update);
     /// Takes `count` > 0 steps of velocity Verlet.
-    /// @param go_on  whether state and system are as the last call of this left them
+    /// @param go_on  whether state and system are as the last call of this left them, and h is the
+    ///               same or `added` none
     template <class AnyState>
     bool run_verlet(const System& system, AnyState& state, Scalar h, Index count, int threads,
                     const StepDamping& added, bool go_on);
@@ -204,7 +206,8 @@ private:
     typename System::State outside_;   // what the external force sees, if there is one
     typename System::Force external_;  // N
     VectorX<Scalar> external_planes_;  // N
-    VectorX<Scalar> acceleration_;     // at the end of run_verlet, planes, m/s²
+    VectorX<Scalar> end_x_;            // of run_verlet, planes, m
+    VectorX<Scalar> acceleration_;     // at the end of the last run_verlet, planes, m/s²
     StiffnessDamping<Scalar> damping_;
     Scalar ahead_ = 0;  // s, by which springs see x ahead
 };
@@ -249,14 +252,14 @@ bool Sweep<System>::run_verlet(const System& system, AnyState& state, Scalar h, 
     }
     if (!state_.finite()) return false;
     if (!steps(system, h, count - 1, threads, kick_twice_and_drift)) return false;
-    acceleration_ = state_.whole(state_.planes().x);
-    // x, which is known now, makes room for the acceleration.
+    end_x_ = state_.whole(state_.planes().x);
+    // The acceleration takes the place of x.
     const auto kick = [half](auto& x, auto& v, const auto& a, const auto&) {
         v += Register(half) * a;
         x = a;
     };
     if (!steps(system, h, 1, threads, kick)) return false;
-    plan_.from_planes({acceleration_.data(), plan_.stride()}, state.x);
+    plan_.from_planes({end_x_.data(), plan_.stride()}, state.x);
     plan_.from_planes(state_.planes().v, state.v);
     acceleration_ = state_.whole(state_.planes().x);
     for (Index i = 0; i < count; ++i) state.time += h;
@@ -285,7 +288,7 @@ template <class Update>
 bool Sweep<System>::steps(const System& system, Scalar h, Index count, int threads,
                           const Update& update) {
     const bool external = system.has_external_force();
-    if (external && !state_.finite()) return false;  // as a Scalar, it may not be what it was
+    if (external && !state_.finite()) return false;  // a finite double may be infinite as a float
     for (Index done = 0; done < count;) {
         const Index next = external ? 1 : std::min(steps_between_checks, count - done);
         if (external) load_external(system);
@@ -304,7 +307,8 @@ void Sweep<System>::load_external(const System& system) {
     plan_.from_planes(state_.planes().x, outside_.x);
     plan_.from_planes(state_.planes().v, outside_.v);
     system.external_force(outside_, external_);
-    external_planes_.resize(plan_.planes() * plan_.stride());
+    const Index size = plan_.planes() * plan_.stride();
+    if (external_planes_.size() != size) external_planes_.setZero(size);  // padding takes part
     const Planes<Scalar> planes{external_planes_.data(), plan_.stride()};
     plan_.to_planes(external_, planes);
     update_.set_external(planes);

@@ -27,7 +27,8 @@ struct TileView {
     int block;
     int tile;  // among those of all blocks
     /// Forces on the places of the block, N: those on ends a and those on ends b. Apart, because a
-    /// register stored to one address and loaded from the next would wait for the store.
+    /// register stored to one address and loaded from the next would wait for the store. Stars' are
+    /// all in the first.
     Planes<Scalar> force_a;
     Planes<Scalar> force_b;
     /// For forces on places of other blocks. Its numbers are never used.
