@@ -16,6 +16,10 @@
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace taut_test::sweep_test {
 
 namespace {
@@ -60,6 +64,13 @@ void check_equals_plain_path(const System& system, const typename System::State&
     CHECK(distance(state.v, expected.v) <= Tolerance<Scalar>::rounding * force_scale);
     CHECK(distance(state.v, start.v) > 1e-4);
     CHECK(state.time == expected.time);
+}
+
+/// Where the C library can: all bits of what is allocated from now on are 1.
+void fill_new_memory_with_nan([[maybe_unused]] bool yes) {
+#ifdef __GLIBC__
+    mallopt(M_PERTURB, yes ? 0x100 : 0);  // the byte's complement
+#endif
 }
 
 /// Depends on x, v, time and index.
@@ -217,14 +228,11 @@ TEST_CASE("sweep: an external force is asked once a step, whatever memory held b
             f.array() += 1e-3;
         });
         auto state = cloth.initial_state();
-        const Index plane = (columns * columns + 32 + 511) / 512 * 512 + 64;
-        for (const Index size : {plane, 3 * plane, 4 * plane}) {  // what was freed comes back
-            const Eigen::VectorXd poison =
-                Eigen::VectorXd::Constant(size, std::numeric_limits<double>::quiet_NaN());
-            CHECK(poison.size() == size);
-        }
         taut::SymplecticEuler stepper(cloth);
-        REQUIRE(stepper.step(state, 1e-5, 5));
+        fill_new_memory_with_nan(true);
+        const auto report = stepper.step(state, 1e-5, 5);
+        fill_new_memory_with_nan(false);
+        CHECK(report);
         CHECK(calls == 5);
     }
 }
