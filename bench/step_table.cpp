@@ -12,6 +12,7 @@
 #include <string>
 #include <taut/taut.hpp>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "../examples/common/mesh_file.hpp"
@@ -72,22 +73,29 @@ void compare(const char* label, const Net<Scalar>& net, int runs, int count) {
     comparison.print(label);
 }
 
+/// Another step of h beside the plain symplectic one.
+template <class Scalar, class Stepper>
+void compare_steppers(const std::string& label, const Net<Scalar>& net, Scalar h, Stepper stepper,
+                      int runs, int count) {
+    taut::SymplecticEuler plain(net);
+    auto state = net.initial_state();
+    auto state_of_plain = state;
+    Comparison comparison;
+    comparison.run(
+        runs, count, [&](int steps) { std::ignore = stepper.step(state, h, steps); },
+        [&](int steps) { std::ignore = plain.step(state_of_plain, h, steps); });
+    comparison.print(label.c_str());
+}
+
 /// A damped step beside the undamped one: springs that look ahead, α = h on L_k, α = 0.4 h on K⁺.
 template <class Scalar>
-void compare_damping(const char* label, const Net<Scalar>& net, int runs, int count) {
+void compare_damping(const std::string& label, const Net<Scalar>& net, int runs, int count) {
     const Scalar h = Scalar(0.5) * taut::any_pose_limit(net).certified;
     auto rayleigh = net;
     rayleigh.set_rayleigh({0, 0.4 * static_cast<double>(h)});
     using Stepper = taut::SymplecticEuler<Net<Scalar>>;
     const auto row = [&](const char* kind, Stepper damped) {
-        Stepper plain(net);
-        auto state = net.initial_state();
-        auto undamped = state;
-        Comparison comparison;
-        comparison.run(
-            runs, count, [&](int steps) { std::ignore = damped.step(state, h, steps); },
-            [&](int steps) { std::ignore = plain.step(undamped, h, steps); });
-        comparison.print((std::string(label) + ", " + kind).c_str());
+        compare_steppers(label + ", " + kind, net, h, std::move(damped), runs, count);
     };
     row("springs look ahead", Stepper(net, {1, taut::recipe.damping}));
     row("on L_k", Stepper(net, {1, {0, 1}}));
@@ -95,22 +103,13 @@ void compare_damping(const char* label, const Net<Scalar>& net, int runs, int co
 }
 
 /// What else is asked of a step, beside the step without.
-void compare_kinds(const char* label, const Net<double>& net, int runs, int count) {
+void compare_kinds(const std::string& label, const Net<double>& net, int runs, int count) {
     const double h = 0.5 * taut::any_pose_limit(net).certified;
-    const auto row = [&](const char* kind, auto&& stepper) {
-        taut::SymplecticEuler plain(net);
-        auto state = net.initial_state();
-        auto state_of_plain = state;
-        Comparison comparison;
-        comparison.run(
-            runs, count, [&](int steps) { std::ignore = stepper.step(state, h, steps); },
-            [&](int steps) { std::ignore = plain.step(state_of_plain, h, steps); });
-        comparison.print((std::string(label) + ", " + kind).c_str());
-    };
-    row("velocity Verlet", taut::VelocityVerlet(net));
+    compare_steppers(label + ", velocity Verlet", net, h, taut::VelocityVerlet(net), runs, count);
     auto dragged = net;
     dragged.set_external_force([](const auto& state, auto& f) { f -= 1e-6 * state.v; });
-    row("a drag from outside", taut::SymplecticEuler(dragged));
+    compare_steppers(label + ", a drag from outside", net, h, taut::SymplecticEuler(dragged), runs,
+                     count);
 }
 
 /// Two threads beside one.

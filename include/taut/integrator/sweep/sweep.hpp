@@ -247,10 +247,10 @@ bool Sweep<System>::run_verlet(const System& system, AnyState& state, Scalar h, 
         x += h * v;
         outside_.time += h;
         if (ahead_ > 0) state_.look_ahead(ahead_);
+        if (!state_.finite()) return false;
     } else if (!steps(system, h, 1, threads, kick_and_drift)) {
         return false;
     }
-    if (!state_.finite()) return false;
     if (!steps(system, h, count - 1, threads, kick_twice_and_drift)) return false;
     end_x_ = state_.whole(state_.planes().x);
     // The acceleration takes the place of x.
