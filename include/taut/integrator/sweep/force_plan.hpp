@@ -28,6 +28,8 @@ public:
     /// n, the number of particles and of places.
     Index size() const { return size_; }
     int blocks() const { return blocks_of(size_); }
+    /// The most blocks between the ends of a spring.
+    int reach() const { return reach_; }
     /// Whether springs are in stars: then one plane holds points, x y z 0.
     bool has_stars() const { return stars_; }
     /// Of one vector.
@@ -119,6 +121,7 @@ private:
     std::vector<int> order_;  // the particle at each place; empty: particle i at place i
     Index size_ = 0;
     Index stride_ = 0;
+    int reach_ = 0;
     std::uint64_t springs_ = 0;  // the system's spring_revision()
     bool stars_ = false;
     bool built_ = false;
@@ -157,6 +160,12 @@ bool ForcePlan<System>::update(const System& system) {
         for (std::size_t p = 0; p < order_.size(); ++p) place[order_[p]] = static_cast<int>(p);
         springs = sort(system, [&](int i) { return place[i]; });
         stars_ = Dim > 1 && mostly_scattered();
+    }
+    reach_ = 0;
+    for (const auto& of_law : springs) {
+        for (const auto& spring : of_law.all()) {
+            reach_ = std::max(reach_, std::abs(spring.b / block_size - spring.a / block_size));
+        }
     }
     // No two planes of one vector begin at the same byte of a page: a store to one would hold up
     // loads of the other.

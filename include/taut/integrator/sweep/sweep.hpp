@@ -72,6 +72,9 @@
 // is evaluated in both, and each keeps its own end. Blocks have the same size and each sum the same
 // order for any number of threads, and so results have the same bits.
 //
+// One thread goes in waves: a block takes its next step as soon as the blocks that its springs
+// reach have taken the last one. So a large scene comes from memory once in several steps.
+//
 //
 // 5. What a register holds
 //
@@ -114,6 +117,8 @@
 //   order         the particle at each place
 //   plane         one coordinate of one vector, of all places                        planes.hpp
 //   block         2048 consecutive places: what a thread does at a time                tile.hpp
+//   reach         the most blocks between the ends of a spring
+//   wave          steps that one thread takes block by block, not one by one           tile.hpp
 //   tile          256 of them: what the first cache holds                              tile.hpp
 //   view          what the springs of a tile read and write                            tile.hpp
 //   ends a, b     of a spring, places, a < b
@@ -332,34 +337,28 @@ void Sweep<System>::some_steps(Scalar h, Index count, int threads, const Update&
     threads = std::max(1, std::min(threads, blocks));
     const Index scratch_size = 3 * Dim * scratch_stride;
     if (scratch_.size() < threads * scratch_size) scratch_.setZero(threads * scratch_size);
-    const auto work = [&](int thread, const auto& for_each_block) {
+    const auto visit = [&](int thread, Index step, int block) {
         StatePlanes<Scalar> planes = state_.planes();
+        if (step % 2 == 1) planes.swap();
         Scalar* scratch = scratch_.data() + thread * scratch_size;
-        for (Index step = 0; step < count; ++step) {
-            for_each_block([&](int block) {
-                if (plan_.has_stars()) {
-                    if constexpr (Dim > 1)
-                        step_block<Pins, Drag, true>(planes, block, h, scratch, update);
-                } else {
-                    step_block<Pins, Drag, false>(planes, block, h, scratch, update);
-                }
-            });
-            planes.swap();
+        if (plan_.has_stars()) {
+            if constexpr (Dim > 1) step_block<Pins, Drag, true>(planes, block, h, scratch, update);
+        } else {
+            step_block<Pins, Drag, false>(planes, block, h, scratch, update);
         }
     };
 #ifdef _OPENMP
     if (threads > 1) {
 #pragma omp parallel num_threads(threads)
-        work(omp_get_thread_num(), [&](const auto& visit) {
+        for (Index step = 0; step < count; ++step) {
 #pragma omp for schedule(static)
-            for (int block = 0; block < blocks; ++block) visit(block);
-        });
+            for (int block = 0; block < blocks; ++block) visit(omp_get_thread_num(), step, block);
+        }
     } else
 #endif
     {
-        work(0, [&](const auto& visit) {
-            for (int block = 0; block < blocks; ++block) visit(block);
-        });
+        for_each_in_waves(blocks, plan_.reach(), count,
+                          [&](Index step, int block) { visit(0, step, block); });
     }
     if (count % 2 == 1) state_.swap();
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+
 #include "../../model/damping.hpp"
 #include "planes.hpp"
 
@@ -16,6 +18,25 @@ inline constexpr int tiles_per_block = block_size / tile_size;
 
 inline constexpr int blocks_of(Index places) {
     return static_cast<int>((places + block_size - 1) / block_size);
+}
+
+/// Most steps in a wave.
+inline constexpr int steps_of_wave = 8;
+
+/// visit(step, block) for all steps of all blocks on one thread, in waves: a block takes a step as
+/// soon as all blocks within `reach` have taken the one before. So a few blocks stay in the cache
+/// for several steps. Neither order nor values of a block's sums change.
+template <class Visitor>
+void for_each_in_waves(int blocks, int reach, Index steps, Visitor&& visit) {
+    for (Index first = 0; first < steps; first += steps_of_wave) {
+        const int here = static_cast<int>(std::min<Index>(steps_of_wave, steps - first));
+        for (int front = 0; front < blocks + (here - 1) * reach; ++front) {
+            for (int step = 0; step < here; ++step) {
+                const int block = front - step * reach;
+                if (block >= 0 && block < blocks) visit(first + step, block);
+            }
+        }
+    }
 }
 
 /// What the springs of one tile read and write.
