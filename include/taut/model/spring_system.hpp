@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <tuple>
@@ -14,6 +15,7 @@
 #include "../core/revision.hpp"
 #include "damping.hpp"
 #include "detail/law_check.hpp"
+#include "external_forces.hpp"
 #include "hookean.hpp"
 #include "linear_system.hpp"
 #include "spring_set.hpp"
@@ -108,11 +110,36 @@ public:
     /// bound: D = α(L_k ⊗ I) [T34]. energy_limit says at which α and h no energy can be gained.
     /// It slows rotation, too. @param alpha  s, ≥ 0 and finite in Scalar
     void set_graph_damping(double alpha);
-    /// The analysis does not see this force's dependence on x and v.
+
+    // External forces add up. No step limit and no certificate sees any of them: they are proved
+    // for the scene without. A strong drag on light particles can make an explicit step unstable.
+
+    /// An empty function ends it.
     void set_external_force(ExternalForce force) {
-        external_force_ = std::move(force);
+        external_.whole = std::move(force);
         ++force_revision_;
     }
+    /// A force on each particle alone: what an explicit step asks at least cost. @param force
+    /// Vector force(x, v, i), N, of position, m, velocity, m/s, and index; it must not throw, and
+    /// threads of a step call it at the same time. In a call that diverges it may see numbers that
+    /// are not finite.
+    template <class Function>
+    void set_particle_force(Function force) {
+        external_.by_particle = model_detail::make_particle_force<Scalar, Dim>(std::move(force));
+        ++force_revision_;
+    }
+    /// Ends it.
+    void set_particle_force(std::nullptr_t) {
+        external_.by_particle = nullptr;
+        ++force_revision_;
+    }
+    /// A force that stays, on particle i. @param force  N, finite
+    void set_constant_force(Index i, const Vector& force);
+    /// In three dimensions. Wind without triangles ends it. @param wind  taken over
+    template <class Air>
+    void set_wind(Air wind);
+    /// Of the wind that there is, as in a gust: at no cost. @param velocity  m/s, finite
+    void set_wind_velocity(const Eigen::Matrix<Scalar, 3, 1>& velocity);
 
     // ---- queries ----
 
@@ -161,12 +188,14 @@ public:
     /// f ← total force on every particle, N, Dim × n; on a pinned one, what its pin has to bear.
     /// @param added  a stepper's own damping beside the system's, StepDamping::times(h)
     void force(const State& state, Force& f, const StepDamping& added = {}) const;
-    /// Whether one was set that is not empty.
-    bool has_external_force() const { return static_cast<bool>(external_force_); }
-    /// f ← the external force alone, N, Dim × n.
+    /// Whether there is one of whatever kind.
+    bool has_external_force() const { return external_.any(); }
+    /// All of them.
+    const ExternalForces<Scalar, Dim>& external_forces() const { return external_; }
+    /// f ← the sum of external forces alone, N, Dim × n.
     void external_force(const State& state, Force& f) const {
         f.setZero(Dim, size());
-        if (external_force_) external_force_(state, f);
+        external_.add(state, f);
     }
     /// Kinetic energy of the free particles, J.
     Scalar kinetic_energy(const State& state) const;
@@ -226,7 +255,7 @@ private:
     Vector gravity_ = Vector::Zero();  // m/s²
     RayleighDamping rayleigh_;
     double graph_damping_ = 0;  // s
-    ExternalForce external_force_;
+    ExternalForces<Scalar, Dim> external_;
     Revision revision_;
     Revision topology_revision_;
     Revision parameter_revision_;  // of springs that stayed

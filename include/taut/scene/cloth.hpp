@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vector>
+
 #include "../model/spring_system.hpp"
 
 namespace taut {
@@ -78,6 +80,20 @@ SpringSystem<Scalar, 3> hanging_cloth(const ClothOptions& options = {}) {
     }
     system.set_gravity({Scalar(0), Scalar(0), static_cast<Scalar>(-options.gravity)});
     return system;
+}
+
+/// The triangles of that cloth, two of each square, particle indices: for Wind.
+inline std::vector<Triangle> cloth_triangles(const ClothOptions& options = {}) {
+    std::vector<Triangle> triangles;
+    for (Index r = 0; r + 1 < options.rows; ++r) {
+        for (Index c = 0; c + 1 < options.columns; ++c) {
+            const Index a = r * options.columns + c;
+            const Index d = a + options.columns;
+            triangles.push_back({a, a + 1, d});
+            triangles.push_back({a + 1, d + 1, d});
+        }
+    }
+    return triangles;
 }
 
 }  // namespace taut

@@ -27,6 +27,7 @@ struct MeshSprings {
     Index unused_vertices = 0;
     Index stretch_springs = 0;  ///< they come first
     Index bend_springs = 0;
+    std::vector<Triangle> triangles;  ///< of all faces, particle indices: for Wind
 };
 
 /// Springs over a polygon mesh, at rest as the mesh lies: one for each edge, two more across each
@@ -150,6 +151,11 @@ MeshSprings<Scalar> springs_from_mesh(const Points<Scalar, 3>& vertices,
             const auto& hinge = hinges[edges.key(from, to)];
             const auto [p, q] = hinge.opposite;
             if (hinge.triangles == 2 && p != q) edges.add(p, q);
+        }
+    }
+    for (const auto& face : faces) {
+        for (std::size_t i = 1; i + 1 < face.size(); ++i) {
+            mesh.triangles.push_back({particle[face[0]], particle[face[i]], particle[face[i + 1]]});
         }
     }
     mesh.bend_springs = static_cast<Index>(edges.pairs().size()) - mesh.stretch_springs;

@@ -10,6 +10,8 @@
 #include "../../model/spring_system.hpp"
 #include "cache_order.hpp"
 #include "law_plan.hpp"
+#include "triangle_fours.hpp"
+#include "triangle_rows.hpp"
 
 namespace taut::integrator_detail::sweep {
 
@@ -44,6 +46,9 @@ public:
         return std::apply([](const auto&... plan) { return (plan.damped() || ...); }, plans_);
     }
 
+    /// Whether there is a wind on triangles.
+    bool has_wind() const { return wind_; }
+
     /// Planes ← points, Dim × size(), converted where they hold another number type.
     template <class Matrix>
     void to_planes(const Matrix& points, const Planes<Scalar>& planes) const {
@@ -70,8 +75,17 @@ public:
         });
     }
 
-    /// Adds the forces of the tile's springs, and of all their damping, on the places of its block.
+    /// The particles at `place` and on, or null where each is at its own place.
+    const int* order_from(Index place) const {
+        return order_.empty() ? nullptr : order_.data() + place;
+    }
+
+    /// Adds the forces of the tile's springs, of all their damping, and of the wind, on the places
+    /// of its block.
     void add_forces(const TileView<Scalar>& view) const {
+        if constexpr (Dim == 3) {
+            if (wind_) stars_ ? fours_.add_forces(view) : rows_.add_forces(view);
+        }
         std::apply(
             [&](const auto&... plan) {
                 const auto add = [&](auto kind) {
@@ -113,6 +127,8 @@ private:
             for (Index place = 0; place < size_; ++place) visit(order_[place], place);
         }
     }
+    void plan_springs(const System& system);
+    void plan_triangles(const std::vector<Triangle>& triangles);
     /// The springs of each law.
     template <class PlaceOf>
     std::vector<SortedSprings> sort(const System& system, const PlaceOf& place_of) const;
@@ -123,6 +139,10 @@ private:
     Index stride_ = 0;
     int reach_ = 0;
     std::uint64_t springs_ = 0;  // the system's spring_revision()
+    TriangleRows<Scalar> rows_;
+    TriangleFours<Scalar> fours_;
+    std::uint64_t triangles_ = 0;  // the revision of the system's
+    bool wind_ = false;
     bool stars_ = false;
     bool built_ = false;
 };
@@ -138,9 +158,39 @@ std::vector<SortedSprings> ForcePlan<System>::sort(const System& system,
 
 template <class System>
 bool ForcePlan<System>::update(const System& system) {
-    if (built_ && springs_ == system.spring_revision()) return false;
+    const auto& external = system.external_forces();
+    const bool same_springs = built_ && springs_ == system.spring_revision();
+    const bool wind = external.wind.blows();
+    if (same_springs && wind == wind_ && (!wind || triangles_ == external.triangles)) return false;
+    if (!same_springs) plan_springs(system);
     springs_ = system.spring_revision();
     built_ = true;
+    wind_ = wind;
+    triangles_ = external.triangles;
+    if constexpr (Dim == 3) {
+        if (wind) plan_triangles(external.wind.triangles);
+    }
+    return true;
+}
+
+template <class System>
+void ForcePlan<System>::plan_triangles(const std::vector<Triangle>& triangles) {
+    std::vector<int> place_of(static_cast<std::size_t>(size_));
+    for_each_place([&](Index i, Index place) { place_of[i] = static_cast<int>(place); });
+    std::vector<PlacedTriangle> placed;
+    for (const auto& [a, b, c] : triangles) {
+        placed.push_back({place_of[a], place_of[b], place_of[c]});
+    }
+    const int tiles = blocks() * tiles_per_block;
+    if (stars_) {
+        fours_ = {pair_triangles(placed), tiles};
+    } else {
+        rows_ = {pair_triangles(placed), tiles};
+    }
+}
+
+template <class System>
+void ForcePlan<System>::plan_springs(const System& system) {
     size_ = system.size();
     auto springs = sort(system, [](int i) { return i; });
     const auto mostly_scattered = [&] {
@@ -176,7 +226,6 @@ bool ForcePlan<System>::update(const System& system) {
         using Plan = typename PlanOf<std::decay_t<decltype(set)>>::type;
         std::get<Plan>(plans_) = Plan(set, *next++, static_cast<int>(size_), stars_);
     });
-    return true;
 }
 
 }  // namespace taut::integrator_detail::sweep

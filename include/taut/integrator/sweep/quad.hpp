@@ -47,6 +47,8 @@ struct Quad {
             return {Part(from[0]), Part(from[1]), Part(from[2]), Part(from[3])};
         }
     }
+    /// Four vectors ↔ all x, all y, all z and all zeros.
+    static EIGEN_ALWAYS_INLINE void transpose(Quad& a, Quad& b, Quad& c, Quad& d);
     /// The sums x + y + z of four vectors, a lane each.
     static EIGEN_ALWAYS_INLINE Quad sums(const Quad& a, const Quad& b, const Quad& c,
                                          const Quad& d);
@@ -81,11 +83,32 @@ private:
     }
     static EIGEN_ALWAYS_INLINE Part sum(const Quad& a) { return a.part[0] + a.part[1] + a.part[2]; }
     static EIGEN_ALWAYS_INLINE Part sums_of_two(Quad a, Quad b) {
-        transpose(a.part[0].packet, b.part[0].packet);
-        transpose(a.part[1].packet, b.part[1].packet);
+        sweep::transpose(a.part[0].packet, b.part[0].packet);
+        sweep::transpose(a.part[1].packet, b.part[1].packet);
         return a.part[0] + b.part[0] + a.part[1];
     }
 };
+
+template <class Scalar>
+EIGEN_ALWAYS_INLINE void Quad<Scalar>::transpose(Quad& a, Quad& b, Quad& c, Quad& d) {
+    if constexpr (Part::width == 1) {
+        std::swap(a.part[1], b.part[0]);
+        std::swap(a.part[2], c.part[0]);
+        std::swap(a.part[3], d.part[0]);
+        std::swap(b.part[2], c.part[1]);
+        std::swap(b.part[3], d.part[1]);
+        std::swap(c.part[3], d.part[2]);
+    } else if constexpr (Part::width == 2) {
+        sweep::transpose(a.part[0].packet, b.part[0].packet);
+        sweep::transpose(c.part[0].packet, d.part[0].packet);
+        sweep::transpose(a.part[1].packet, b.part[1].packet);
+        sweep::transpose(c.part[1].packet, d.part[1].packet);
+        std::swap(a.part[1], c.part[0]);
+        std::swap(b.part[1], d.part[0]);
+    } else {
+        sweep::transpose(a.part[0].packet, b.part[0].packet, c.part[0].packet, d.part[0].packet);
+    }
+}
 
 template <class Scalar>
 EIGEN_ALWAYS_INLINE Quad<Scalar> Quad<Scalar>::sums(const Quad& a, const Quad& b, const Quad& c,
@@ -99,7 +122,7 @@ EIGEN_ALWAYS_INLINE Quad<Scalar> Quad<Scalar>::sums(const Quad& a, const Quad& b
         Part y = b.part[0];
         Part z = c.part[0];
         Part none = d.part[0];
-        transpose(x.packet, y.packet, z.packet, none.packet);
+        sweep::transpose(x.packet, y.packet, z.packet, none.packet);
         return {{x + y + z}};
     }
 }

@@ -12,10 +12,11 @@ namespace taut::integrator_detail::sweep {
 /// step and one for the new; the rest is stepped where it is.
 template <class Scalar>
 struct StatePlanes {
-    Planes<Scalar> x, new_x;                // m; one and the same where springs look ahead
+    Planes<Scalar> x, new_x;                // m; one and the same where only springs read any
+                                            // place's, and look ahead
     Planes<Scalar> spring_x, new_spring_x;  // m, where springs take the particles to be: x, or
                                             // x + ahead·v
-    Planes<Scalar> v, new_v;  // m/s; one and the same where no spring asks for velocities
+    Planes<Scalar> v, new_v;  // m/s; one and the same where nothing asks for any place's
 
     void swap() {
         std::swap(x, new_x);
@@ -24,28 +25,33 @@ struct StatePlanes {
     }
 };
 
+/// What a step reads of any place, beside the positions that springs see.
+struct ReadAnywhere {
+    bool velocities;  // by damped springs, or a wind
+    bool positions;   // by a wind
+};
+
 /// The memory of StatePlanes.
 template <class Scalar>
 class StateMemory {
 public:
     /// Makes room for vectors of so many planes, `size` scalars in each, `stride` apart.
-    /// @param looks_ahead      whether springs look ahead
-    /// @param with_velocities  whether springs ask for velocities
-    void resize(int planes, Index size, Index stride, bool looks_ahead, bool with_velocities) {
+    /// @param looks_ahead  whether springs look ahead
+    void resize(int planes, Index size, Index stride, bool looks_ahead, const ReadAnywhere& read) {
         planes_of_vector_ = planes;
         size_ = size;
         stride_ = stride;
-        const Index vectors = 3 + (with_velocities ? 1 : 0) + (looks_ahead ? 1 : 0);
+        Index vectors = 3;
+        const Index old_x = looks_ahead ? vectors++ : 0;
+        const Index new_x = !looks_ahead ? 1 : read.positions ? vectors++ : old_x;
+        const Index new_v = read.velocities ? vectors++ : 2;
         memory_.resize(vectors * planes * stride);
         // The padding takes part in the steps: from rest.
         const Index padding = stride - size;
         for (Index end = stride; end <= memory_.size(); end += stride) {
             memory_.segment(end - padding, padding).setZero();
         }
-        const Planes<Scalar> spring_x = vector(0);
-        const Planes<Scalar> x = looks_ahead ? vector(3) : spring_x;
-        const Index new_v = with_velocities ? (looks_ahead ? 4 : 3) : 2;
-        planes_ = {x, looks_ahead ? x : vector(1), spring_x, vector(1), vector(2), vector(new_v)};
+        planes_ = {vector(old_x), vector(new_x), vector(0), vector(1), vector(2), vector(new_v)};
     }
     /// Sets spring_x to x + ahead·v, with `ahead` in s.
     void look_ahead(Scalar ahead) {

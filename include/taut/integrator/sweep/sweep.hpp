@@ -152,6 +152,7 @@
 #include <algorithm>
 
 #include "force_plan.hpp"
+#include "outside.hpp"
 #include "place_update.hpp"
 
 #ifdef _OPENMP
@@ -193,9 +194,7 @@ private:
     void load(const System& system, const AnyState& state, const StepDamping& added);
     /// @returns whether all is finite
     template <class Update>
-    bool steps(const System& system, Scalar h, Index count, int threads, const Update& update);
-    /// The external force at the state between two steps.
-    void load_external(const System& system);
+    bool steps(Scalar h, Index count, int threads, const Update& update);
     template <class Update>
     void some_steps(Scalar h, Index count, int threads, const Update& update);
     template <bool Pins, bool Drag, class Update>
@@ -207,14 +206,14 @@ private:
     ForcePlan<System> plan_;
     StateMemory<Scalar> state_;
     PlaceUpdate<Scalar, Dim> update_;
-    VectorX<Scalar> scratch_;          // forces on one block for each thread, N; 0 between blocks
-    typename System::State outside_;   // what the external force sees, if there is one
-    typename System::Force external_;  // N
-    VectorX<Scalar> external_planes_;  // N
-    VectorX<Scalar> end_x_;            // of run_verlet, planes, m
-    VectorX<Scalar> acceleration_;     // at the end of the last run_verlet, planes, m/s²
+    Outside<System> outside_;
+    VectorX<Scalar> scratch_;       // forces on one block for each thread, N; 0 between blocks
+    VectorX<Scalar> end_x_;         // of run_verlet, planes, m
+    VectorX<Scalar> acceleration_;  // at the end of the last run_verlet, planes, m/s²
     StiffnessDamping<Scalar> damping_;
-    Scalar ahead_ = 0;  // s, by which springs see x ahead
+    Air<Scalar> air_;
+    bool in_step_ = false;  // still, where a force has thrown
+    Scalar ahead_ = 0;      // s, by which springs see x ahead
 };
 
 template <class System>
@@ -222,7 +221,7 @@ template <class AnyState, class Update>
 bool Sweep<System>::run(const System& system, AnyState& state, Scalar h, Index count, int threads,
                         const StepDamping& added, const Update& update) {
     load(system, state, added);
-    if (!steps(system, h, count, threads, update)) return false;
+    if (!steps(h, count, threads, update)) return false;
     plan_.from_planes(state_.planes().x, state.x);
     plan_.from_planes(state_.planes().v, state.v);
     for (Index i = 0; i < count; ++i) state.time += h;
@@ -250,20 +249,20 @@ bool Sweep<System>::run_verlet(const System& system, AnyState& state, Scalar h, 
         auto v = state_.whole(state_.planes().v);
         v += half * acceleration_;
         x += h * v;
-        outside_.time += h;
+        outside_.pass(h);
         if (ahead_ > 0) state_.look_ahead(ahead_);
         if (!state_.finite()) return false;
-    } else if (!steps(system, h, 1, threads, kick_and_drift)) {
+    } else if (!steps(h, 1, threads, kick_and_drift)) {
         return false;
     }
-    if (!steps(system, h, count - 1, threads, kick_twice_and_drift)) return false;
+    if (!steps(h, count - 1, threads, kick_twice_and_drift)) return false;
     end_x_ = state_.whole(state_.planes().x);
     // The acceleration takes the place of x.
     const auto kick = [half](auto& x, auto& v, const auto& a, const auto&) {
         v += Register(half) * a;
         x = a;
     };
-    if (!steps(system, h, 1, threads, kick)) return false;
+    if (!steps(h, 1, threads, kick)) return false;
     plan_.from_planes({end_x_.data(), plan_.stride()}, state.x);
     plan_.from_planes(state_.planes().v, state.v);
     acceleration_ = state_.whole(state_.planes().x);
@@ -276,47 +275,34 @@ template <class AnyState>
 void Sweep<System>::load(const System& system, const AnyState& state, const StepDamping& added) {
     damping_ = system.stiffness_damping(added).template cast<Scalar>();
     ahead_ = static_cast<Scalar>(added.look_ahead);
-    if (plan_.update(system)) scratch_.setZero();  // it may have other places for what is discarded
+    // A new plan may have other places for what is discarded.
+    if (plan_.update(system) || in_step_) scratch_.setZero();
     const Index size = plan_.size() * plan_.grain();
     state_.resize(plan_.planes(), size, plan_.stride(), ahead_ > 0,
-                  plan_.damped() || bool(damping_));
+                  {plan_.damped() || bool(damping_) || plan_.has_wind(), plan_.has_wind()});
     plan_.to_planes(state.x, state_.planes().x);
     plan_.to_planes(state.v, state_.planes().v);
     if (ahead_ > 0) state_.look_ahead(ahead_);
     update_.load(system, plan_, ahead_);
-    update_.set_external({});
-    outside_.time = static_cast<Scalar>(state.time);
+    const auto& wind = system.external_forces().wind;
+    air_ = {model_detail::WindFactors<Scalar>(wind), wind.velocity, {}};
+    outside_.begin(system, static_cast<Scalar>(state.time));
 }
 
 template <class System>
 template <class Update>
-bool Sweep<System>::steps(const System& system, Scalar h, Index count, int threads,
-                          const Update& update) {
-    const bool external = system.has_external_force();
-    if (external && !state_.finite()) return false;  // a finite double may be infinite as a float
+bool Sweep<System>::steps(Scalar h, Index count, int threads, const Update& update) {
+    const bool one_by_one = outside_.asks_for_state();
+    if (one_by_one && !state_.finite()) return false;  // a finite double may be infinite as a float
     for (Index done = 0; done < count;) {
-        const Index next = external ? 1 : std::min(steps_between_checks, count - done);
-        if (external) load_external(system);
+        const Index next = one_by_one ? 1 : std::min(steps_between_checks, count - done);
+        update_.set_external(outside_.at_state(plan_, state_.planes()));
         some_steps(h, next, threads, update);
         if (!state_.finite()) return false;
-        outside_.time += h;
+        outside_.pass(h);
         done += next;
     }
     return true;
-}
-
-template <class System>
-void Sweep<System>::load_external(const System& system) {
-    outside_.x.resize(Dim, plan_.size());
-    outside_.v.resize(Dim, plan_.size());
-    plan_.from_planes(state_.planes().x, outside_.x);
-    plan_.from_planes(state_.planes().v, outside_.v);
-    system.external_force(outside_, external_);
-    const Index size = plan_.planes() * plan_.stride();
-    if (external_planes_.size() != size) external_planes_.setZero(size);  // padding takes part
-    const Planes<Scalar> planes{external_planes_.data(), plan_.stride()};
-    plan_.to_planes(external_, planes);
-    update_.set_external(planes);
 }
 
 template <class System>
@@ -337,6 +323,7 @@ void Sweep<System>::some_steps(Scalar h, Index count, int threads, const Update&
     threads = std::max(1, std::min(threads, blocks));
     const Index scratch_size = 3 * Dim * scratch_stride;
     if (scratch_.size() < threads * scratch_size) scratch_.setZero(threads * scratch_size);
+    in_step_ = true;
     const auto visit = [&](int thread, Index step, int block) {
         StatePlanes<Scalar> planes = state_.planes();
         if (step % 2 == 1) planes.swap();
@@ -360,6 +347,7 @@ void Sweep<System>::some_steps(Scalar h, Index count, int threads, const Update&
         for_each_in_waves(blocks, plan_.reach(), count,
                           [&](Index step, int block) { visit(0, step, block); });
     }
+    in_step_ = false;
     if (count % 2 == 1) state_.swap();
 }
 
@@ -373,17 +361,21 @@ void Sweep<System>::step_block(const StatePlanes<Scalar>& planes, int block, Sca
     TileView<Scalar> view{{planes.spring_x.first, planes.spring_x.stride},
                           {planes.v.first, planes.v.stride},
                           damping_,
+                          air_,
                           block,
                           0,
                           vector(0),
                           vector(1),
                           vector(2)};
+    view.air.x = {planes.x.first, planes.x.stride};
     const Index begin = static_cast<Index>(block) * block_size;
     const Index count = std::min<Index>(block_size, plan_.size() - begin);
     constexpr Index grain = Stars ? 4 : 1;
     for (Index i = 0; i < count; i += tile_size) {
         view.tile = static_cast<int>((begin + i) / tile_size);
         plan_.add_forces(view);
+        outside_.add_by_particle(plan_, planes, begin + i, std::min<Index>(tile_size, count - i),
+                                 view.force_a.at(i * grain));
         update_.template move<Pins, Drag, Stars>(
             planes, (begin + i) * grain, std::min<Index>(tile_size, count - i) * grain, h,
             view.force_a.at(i * grain), view.force_b.at(i * grain), update);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "../../model/damping.hpp"
+#include "../../model/wind.hpp"
 #include "planes.hpp"
 
 namespace taut::integrator_detail::sweep {
@@ -39,12 +40,21 @@ void for_each_in_waves(int blocks, int reach, Index steps, Visitor&& visit) {
     }
 }
 
+/// The air of a Wind, as a step needs it.
+template <class Scalar>
+struct Air {
+    model_detail::WindFactors<Scalar> factors;
+    Eigen::Matrix<Scalar, 3, 1> velocity;  // m/s
+    Planes<const Scalar> x;                // m, of all places, as they are
+};
+
 /// What the springs of one tile read and write.
 template <class Scalar>
 struct TileView {
-    Planes<const Scalar> x;  // m, of all places
+    Planes<const Scalar> x;  // m, of all places, as springs see them
     Planes<const Scalar> v;  // m/s, of all places
     StiffnessDamping<Scalar> damping;
+    Air<Scalar> air;
     int block;
     int tile;  // among those of all blocks
     /// Forces on the places of the block, N: those on ends a and those on ends b. Apart, because a

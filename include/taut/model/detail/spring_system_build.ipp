@@ -139,6 +139,48 @@ void SpringSystem<Scalar, Dim, Laws...>::set_gravity(const Vector& gravity) {
 }
 
 template <class Scalar, int Dim, class... Laws>
+void SpringSystem<Scalar, Dim, Laws...>::set_constant_force(Index i, const Vector& force) {
+    require_particle("set_constant_force", "i", i);
+    if (!force.allFinite()) {
+        fail("SpringSystem::set_constant_force: the force on particle ", i, " is not finite");
+    }
+    auto& constant = external_.constant;
+    const Index before = constant.cols();
+    if (i >= before) {
+        constant.conservativeResize(Dim, size());
+        constant.rightCols(size() - before).setZero();
+    }
+    constant.col(i) = force;
+    ++force_revision_;
+}
+
+template <class Scalar, int Dim, class... Laws>
+template <class Air>
+void SpringSystem<Scalar, Dim, Laws...>::set_wind(Air wind) {
+    static_assert(Dim == 3 && std::is_same_v<Air, Wind<Scalar>>,
+                  "taut::SpringSystem::set_wind: takes a Wind<Scalar>, in three dimensions");
+    constexpr const char* where = "SpringSystem::set_wind";
+    if (!wind.velocity.allFinite()) fail(where, ": velocity is not finite");
+    require_held<Scalar>(where, "density", wind.density);
+    require_held<Scalar>(where, "drag", wind.drag);
+    require_held<Scalar>(where, "lift", wind.lift);
+    for (const auto& triangle : wind.triangles) {
+        for (const Index corner : triangle) require_particle("set_wind", "a corner", corner);
+    }
+    external_.wind = std::move(wind);
+    ++external_.triangles;
+    ++force_revision_;
+}
+
+template <class Scalar, int Dim, class... Laws>
+void SpringSystem<Scalar, Dim, Laws...>::set_wind_velocity(
+    const Eigen::Matrix<Scalar, 3, 1>& velocity) {
+    if (!velocity.allFinite()) fail("SpringSystem::set_wind_velocity: velocity is not finite");
+    external_.wind.velocity = velocity;
+    ++force_revision_;
+}
+
+template <class Scalar, int Dim, class... Laws>
 void SpringSystem<Scalar, Dim, Laws...>::set_rayleigh(const RayleighDamping& rayleigh) {
     constexpr const char* where = "SpringSystem::set_rayleigh";
     require_held<Scalar>(where, "mass_proportional", rayleigh.mass_proportional);

@@ -38,7 +38,7 @@ void SpringSystem<Scalar, Dim, Laws...>::force(const State& state, Force& f,
             f.col(spring.b) -= force;
         }
     });
-    if (external_force_) external_force_(state, f);
+    external_.add(state, f);
 }
 
 template <class Scalar, int Dim, class... Laws>

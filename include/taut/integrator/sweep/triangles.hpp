@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "../../model/wind.hpp"
+#include "tile.hpp"
+
+namespace taut::integrator_detail::sweep {
+
+/// A triangle by the places of its corners.
+using PlacedTriangle = std::array<int, 3>;
+
+/// The triangles a b c and d c b by the places of their corners, which meet in the edge b c; b < c.
+/// Alone, a triangle has d = b: the second one has no area.
+struct TrianglePair {
+    std::array<int, 4> corner;
+
+    int lowest() const { return *std::min_element(corner.begin(), corner.end()); }
+    int highest() const { return *std::max_element(corner.begin(), corner.end()); }
+    /// Whether the corners lie in different blocks.
+    bool is_outer() const { return lowest() / block_size != highest() / block_size; }
+    /// Appends the tiles that the pair is computed with: in each block that has one of its corners,
+    /// before any tile with one of them is moved.
+    void add_tiles(std::vector<int>& tiles) const {
+        if (!is_outer()) return tiles.push_back(lowest() / tile_size);
+        for (const int place : corner) tiles.push_back(place / block_size * tiles_per_block);
+    }
+};
+
+/// The corners of a triangle's edge opposite to corner k, ascending.
+inline std::pair<int, int> edge_opposite(const PlacedTriangle& t, int k) {
+    return std::minmax(t[(k + 1) % 3], t[(k + 2) % 3]);
+}
+/// The triangle in a pair of its own.
+inline TrianglePair pair_of(const PlacedTriangle& t) {
+    const auto [b, c] = edge_opposite(t, 0);
+    return {{t[0], b, c, b}};
+}
+/// @returns whether two triangles have just two corners in common; then `pair` is theirs
+inline bool join(const PlacedTriangle& s, const PlacedTriangle& t, TrianglePair& pair) {
+    for (int k = 0; k < 3; ++k) {
+        const auto edge = edge_opposite(s, k);
+        for (int other = 0; other < 3; ++other) {
+            if (edge_opposite(t, other) != edge) continue;
+            const auto [a, d] = std::minmax(s[k], t[other]);
+            pair = {{a, edge.first, edge.second, d}};
+            return a != d;
+        }
+    }
+    return false;
+}
+
+/// Pairs triangles: neighbours in the list, as those of a square often are, then any others.
+inline std::vector<TrianglePair> pair_triangles(const std::vector<PlacedTriangle>& triangles) {
+    std::vector<TrianglePair> pairs;
+    std::unordered_map<std::uint64_t, std::size_t> open;  // by edge, one that waits for another
+    std::vector<bool> paired(triangles.size(), false);
+    const auto edge = [](const PlacedTriangle& t, int k) {
+        const auto [low, high] = edge_opposite(t, k);
+        return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint64_t>(high);
+    };
+    TrianglePair pair;
+    std::vector<std::size_t> rest;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        if (t + 1 < triangles.size() && join(triangles[t], triangles[t + 1], pair)) {
+            pairs.push_back(pair);
+            ++t;
+        } else {
+            rest.push_back(t);
+        }
+    }
+    for (const std::size_t t : rest) {
+        for (int k = 0; k < 3 && !paired[t]; ++k) {
+            const auto other = open.find(edge(triangles[t], k));
+            if (other == open.end() || paired[other->second] ||
+                !join(triangles[t], triangles[other->second], pair)) {
+                continue;
+            }
+            pairs.push_back(pair);
+            paired[t] = paired[other->second] = true;
+        }
+        for (int k = 0; k < 3 && !paired[t]; ++k) open[edge(triangles[t], k)] = t;
+    }
+    for (const std::size_t t : rest) {
+        if (!paired[t]) pairs.push_back(pair_of(triangles[t]));
+    }
+    return pairs;
+}
+
+/// Each number once, ascending.
+inline std::vector<int> distinct(std::vector<int> numbers) {
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    return numbers;
+}
+
+/// The flow past a pair of triangles, before its forces are computed: registers with a pair in each
+/// lane. Apart, so that one pair's flow is computed while another's forces wait for a division.
+template <class Real>
+struct PairFlow {
+    model_detail::Flow<Real> at_a, at_d;
+};
+/// The velocity of the air relative to a triangle, m/s. @param v, w  sum to that of its corners
+template <class Real, class Scalar>
+EIGEN_ALWAYS_INLINE model_detail::Axes<Real> relative_to(const Air<Scalar>& air,
+                                                         const model_detail::Axes<Real>& v,
+                                                         const model_detail::Axes<Real>& w) {
+    const Real third(Scalar(1) / 3);
+    return {Real(air.velocity[0]) - third * (v[0] + w[0]),
+            Real(air.velocity[1]) - third * (v[1] + w[1]),
+            Real(air.velocity[2]) - third * (v[2] + w[2])};
+}
+/// @param x_ab  x_b − x_a, m, and so on   @param v_bc  v_b + v_c, m/s
+template <class Real, class Scalar>
+EIGEN_ALWAYS_INLINE PairFlow<Real> flow_past_pair(const Air<Scalar>& air,
+                                                  const model_detail::Axes<Real>& x_ab,
+                                                  const model_detail::Axes<Real>& x_bc,
+                                                  const model_detail::Axes<Real>& x_bd,
+                                                  const model_detail::Axes<Real>& v_a,
+                                                  const model_detail::Axes<Real>& v_bc,
+                                                  const model_detail::Axes<Real>& v_d) {
+    return {{x_ab, x_bc, relative_to<Real>(air, v_a, v_bc)},
+            {x_bd, x_bc, relative_to<Real>(air, v_d, v_bc)}};
+}
+
+}  // namespace taut::integrator_detail::sweep

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "../core/error.hpp"
+#include "../core/types.hpp"
+
+namespace taut {
+
+/// Corners of a triangle, particle indices.
+using Triangle = std::array<Index, 3>;
+
+/// Air that flows past triangles. With the area A and the unit normal n of a triangle, n on the
+/// side to which the air goes, u the air's velocity less the mean of its corners', û = u/|u| and c
+/// = n·û, the force of the air on it is
+///
+///     ½ ρ |u|² A c (drag û + lift (n − c û)),
+///
+/// a third on each corner: along the flow, and across it. A triangle along the flow has none.
+/// Only the velocity relative to the air brings or takes energy, and lift takes none.
+template <class Scalar>
+struct Wind {
+    Eigen::Matrix<Scalar, 3, 1> velocity = Eigen::Matrix<Scalar, 3, 1>::Zero();  ///< m/s
+    std::vector<Triangle> triangles;  ///< either way round; each counts once
+    double density = 1.2;             ///< ρ of the air, kg/m³, ≥ 0
+    double drag = 1.2;                ///< coefficient, ≥ 0; 1.2 is a plate across the flow
+    double lift = 1.2;                ///< coefficient, ≥ 0
+
+    /// Whether there is something for the air to act on.
+    bool blows() const { return !triangles.empty() && density > 0 && (drag > 0 || lift > 0); }
+};
+
+namespace model_detail {
+
+/// 1/√a of a normal number.
+template <class Real>
+Real reciprocal_sqrt(const Real& a) {
+    return 1 / std::sqrt(a);
+}
+
+/// Of the wind's force on a corner, with c twice the area times the normal, either way round: drag
+/// and lift times ρ/12. A third of the force for each corner, a half of c for the area.
+template <class Real>
+struct WindFactors {
+    Real drag;  // kg/m³
+    Real lift;  // kg/m³
+
+    WindFactors() = default;
+    template <class Scalar>
+    explicit WindFactors(const Wind<Scalar>& wind)
+        : drag(static_cast<Real>(wind.density * wind.drag / 12)),
+          lift(static_cast<Real>(wind.density * wind.lift / 12)) {}
+};
+
+template <class Real>
+using Axes = std::array<Real, 3>;
+
+template <class Real>
+EIGEN_ALWAYS_INLINE Real dot(const Axes<Real>& a, const Axes<Real>& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+template <class Real>
+EIGEN_ALWAYS_INLINE Axes<Real> cross(const Axes<Real>& a, const Axes<Real>& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// The flow past a triangle. @tparam Real  a number, or a register with a triangle in each lane
+template <class Real>
+struct Flow {
+    Axes<Real> c, u;  // twice the area times the normal, m²; relative velocity of the air, m/s
+    Real cu, u2, c2;  // their products
+
+    /// @param p, q      two sides, m
+    /// @param relative  u
+    EIGEN_ALWAYS_INLINE Flow(const Axes<Real>& p, const Axes<Real>& q, const Axes<Real>& relative)
+        : c(cross(p, q)), u(relative), cu(dot(c, u)), u2(dot(u, u)), c2(dot(c, c)) {}
+    /// The force on each corner, N.
+    template <class Scalar>
+    EIGEN_ALWAYS_INLINE Axes<Real> on_corner(const WindFactors<Scalar>& factors) const {
+        using std::max;
+        const Real s = max(cu, -cu);
+        // Where a triangle or the flow vanishes, so do s and cu, and the forces with them.
+        const Real inverse =
+            reciprocal_sqrt(max(c2 * u2, Real(std::numeric_limits<Scalar>::min())));
+        const Real lift = Real(factors.lift) * inverse;
+        const Real of_u = (Real(factors.drag) - lift * s) * s;
+        const Real of_c = lift * u2 * cu;
+        return {of_u * u[0] + of_c * c[0], of_u * u[1] + of_c * c[1], of_u * u[2] + of_c * c[2]};
+    }
+};
+
+/// f ← f + the force of the wind, N, Dim × n.
+template <class Scalar>
+void add_wind(const Wind<Scalar>& wind, const Points<Scalar, 3>& x, const Points<Scalar, 3>& v,
+              Points<Scalar, 3>& f) {
+    const WindFactors<Scalar> factors(wind);
+    for (const auto& [a, b, c] : wind.triangles) {
+        const Eigen::Matrix<Scalar, 3, 1> p = x.col(b) - x.col(a);
+        const Eigen::Matrix<Scalar, 3, 1> q = x.col(c) - x.col(a);
+        const Eigen::Matrix<Scalar, 3, 1> u =
+            wind.velocity - (v.col(a) + v.col(b) + v.col(c)) / Scalar(3);
+        const Flow<Scalar> flow({p[0], p[1], p[2]}, {q[0], q[1], q[2]}, {u[0], u[1], u[2]});
+        const Axes<Scalar> on_corner = flow.on_corner(factors);
+        for (const Index corner : {a, b, c}) {
+            for (int d = 0; d < 3; ++d) f(d, corner) += on_corner[d];
+        }
+    }
+}
+
+}  // namespace model_detail
+}  // namespace taut
