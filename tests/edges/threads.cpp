@@ -80,7 +80,18 @@ bool same_bits() {
         const taut::Index a = i * 31 % 9900;
         scattered.add_spring(a, (a + 1 + i * 17 % 9899) % 9900, Scalar(5), Scalar(0.01));
     }
-    for (const auto* system : {&cloth, &scattered}) {
+    taut::Wind<Scalar> wind;
+    wind.velocity = {1, 2, 3};
+    wind.triangles = taut::cloth_triangles({110, 90});
+    wind.triangles.push_back({1, 5000, 9000});
+    auto blown = cloth;
+    auto scattered_blown = scattered;
+    for (auto* system : {&blown, &scattered_blown}) {
+        system->set_wind(wind);
+        system->set_particle_force(
+            [](const auto& x, const auto&, taut::Index i) { return Scalar(i % 3) * x; });
+    }
+    for (const auto* system : {&cloth, &scattered, &blown, &scattered_blown}) {
         if (!same_bits<taut::SymplecticEuler>(*system, taut::recipe.damping)) return false;
         if (!same_bits<taut::SymplecticEuler>(*system, {})) return false;
         if (!same_bits<taut::ExplicitEuler>(*system, {})) return false;

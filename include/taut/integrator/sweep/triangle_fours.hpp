@@ -126,7 +126,7 @@ TriangleFours<Scalar>::TriangleFours(const std::vector<TrianglePair>& pairs, int
     for (const auto& pair : pairs) {
         std::vector<int> in_tiles;
         pair.add_tiles(in_tiles);
-        for (const int tile : distinct(std::move(in_tiles))) of_tile[tile].push_back(pair);
+        for (const int tile : first_of_blocks(std::move(in_tiles))) of_tile[tile].push_back(pair);
     }
     for (int tile = 0; tile < tiles; ++tile) {
         auto& here = of_tile[tile];

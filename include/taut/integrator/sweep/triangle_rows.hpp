@@ -100,7 +100,7 @@ TriangleRows<Scalar>::TriangleRows(std::vector<TrianglePair> pairs, int tiles) {
         }
         Row row{first->corner, kind->second};
         for (int& corner : row.first) corner -= lane(*first);
-        for (const int tile : distinct(std::move(in_tiles))) rows[tile].push_back(row);
+        for (const int tile : first_of_blocks(std::move(in_tiles))) rows[tile].push_back(row);
     }
     for (const auto& of_tile : rows) {
         rows_.insert(rows_.end(), of_tile.begin(), of_tile.end());

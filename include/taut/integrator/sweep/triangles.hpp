@@ -95,11 +95,12 @@ inline std::vector<TrianglePair> pair_triangles(const std::vector<PlacedTriangle
     return pairs;
 }
 
-/// Each number once, ascending.
-inline std::vector<int> distinct(std::vector<int> numbers) {
-    std::sort(numbers.begin(), numbers.end());
-    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-    return numbers;
+/// Of the tiles of each block the first, which is where all of them may be computed.
+inline std::vector<int> first_of_blocks(std::vector<int> tiles) {
+    std::sort(tiles.begin(), tiles.end());
+    const auto same_block = [](int s, int t) { return s / tiles_per_block == t / tiles_per_block; };
+    tiles.erase(std::unique(tiles.begin(), tiles.end(), same_block), tiles.end());
+    return tiles;
 }
 
 /// The flow past a pair of triangles, before its forces are computed: registers with a pair in each
