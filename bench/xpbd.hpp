@@ -40,7 +40,9 @@ public:
     void step(taut::Index count) {
         for (taut::Index i = 0; i < count; ++i) {
             predict();
-            for (const Group& group : groups_) move_all<Four>(group);
+            const Springs springs{a_.data(), b_.data(), rest_length_.data(), share_a_.data(),
+                                  share_b_.data()};
+            for (const Group& group : groups_) move_all<Four>(springs, x_.data(), group);
         }
     }
     const Net::State& state() {
@@ -75,24 +77,30 @@ private:
             before_[i] = x;
         }
     }
-    void move(std::size_t s) {
-        Vector& a = x_[a_[s]];
-        Vector& b = x_[b_[s]];
+    // By value in every pass: the members themselves would be read anew after every store.
+    struct Springs {
+        const int *a, *b;
+        const double *rest_length, *share_a, *share_b;
+    };
+    static EIGEN_ALWAYS_INLINE void move(const Springs springs, Vector* x, std::size_t s) {
+        Vector& a = x[springs.a[s]];
+        Vector& b = x[springs.b[s]];
         const Vector d = b - a;
-        const double change = 1 - rest_length_[s] / std::sqrt(d.squaredNorm() + tiny);
-        a += change * share_a_[s] * d;
-        b -= change * share_b_[s] * d;
+        const double change = 1 - springs.rest_length[s] / std::sqrt(d.squaredNorm() + tiny);
+        a += change * springs.share_a[s] * d;
+        b -= change * springs.share_b[s] * d;
     }
     template <class Register>
-    void move_four(std::size_t s);
-    // A template: where registers are narrower, all springs are moved one by one.
+    static void move_four(const Springs springs, Vector* x, std::size_t s);
+    // A template: where registers are narrower, all springs are moved one by one. Not inlined: the
+    // compiler finds enough registers then.
     template <class Register>
-    void move_all(const Group& group) {
+    static EIGEN_DONT_INLINE void move_all(const Springs springs, Vector* x, const Group group) {
         std::size_t s = group.first;
         if constexpr (Register::width == lanes) {
-            for (; s < group.first_single; s += lanes) move_four<Register>(s);
+            for (; s < group.first_single; s += lanes) move_four<Register>(springs, x, s);
         }
-        for (; s < group.end; ++s) move(s);
+        for (; s < group.end; ++s) move(springs, x, s);
     }
 
     // Keeps 0/0 away where the ends of a spring meet.
@@ -108,24 +116,24 @@ private:
 };
 
 template <class Register>
-EIGEN_ALWAYS_INLINE void Xpbd::move_four(std::size_t s) {
+EIGEN_ALWAYS_INLINE void Xpbd::move_four(const Springs springs, Vector* x, std::size_t s) {
     using taut::integrator_detail::sweep::transpose;
     Register a[lanes], b[lanes], d[lanes], row[lanes];
     for (std::size_t i = 0; i < lanes; ++i) {
-        a[i] = Register::load(x_[a_[s + i]].data());
-        b[i] = Register::load(x_[b_[s + i]].data());
+        a[i] = Register::load(x[springs.a[s + i]].data());
+        b[i] = Register::load(x[springs.b[s + i]].data());
         row[i] = d[i] = b[i] - a[i];
     }
     transpose(row[0].packet, row[1].packet, row[2].packet, row[3].packet);
     const Register squares = row[0] * row[0] + row[1] * row[1] + row[2] * row[2] + Register(tiny);
     const Register change =
-        Register(1) - Register::load(&rest_length_[s]) * reciprocal_sqrt(squares);
+        Register(1) - Register::load(springs.rest_length + s) * reciprocal_sqrt(squares);
     alignas(32) double by_a[lanes], by_b[lanes];
-    (change * Register::load(&share_a_[s])).store(by_a);
-    (change * Register::load(&share_b_[s])).store(by_b);
+    (change * Register::load(springs.share_a + s)).store(by_a);
+    (change * Register::load(springs.share_b + s)).store(by_b);
     for (std::size_t i = 0; i < lanes; ++i) {
-        (a[i] + Register(by_a[i]) * d[i]).store(x_[a_[s + i]].data());
-        (b[i] - Register(by_b[i]) * d[i]).store(x_[b_[s + i]].data());
+        (a[i] + Register(by_a[i]) * d[i]).store(x[springs.a[s + i]].data());
+        (b[i] - Register(by_b[i]) * d[i]).store(x[springs.b[s + i]].data());
     }
 }
 
