@@ -46,7 +46,7 @@ public:
     void explode() { lost_ = true; }
     bool lost() const { return lost_; }
 
-    /// |mean energy of the last 0.1 s seen − E₀| over the largest kinetic energy.
+    /// (mean energy of the last 0.1 s seen − E₀) over the largest kinetic energy.
     double drift() const {
         double sum = 0;
         int late = 0;
@@ -55,13 +55,13 @@ public:
             sum += energy;
             ++late;
         }
-        return std::abs(sum / late - start_) / kinetic_;
+        return (sum / late - start_) / kinetic_;
     }
     /// The cells below `columns`.
     std::string cells() const {
         if (lost_ || energies_.empty()) return lost_ ? "– | – | yes" : "– | – | –";
         char text[80];
-        std::snprintf(text, sizeof text, "%.3g %% | %.4g | %s", 100 * drift(), stretch_,
+        std::snprintf(text, sizeof text, "%+.3g %% | %.4g | %s", 100 * drift(), stretch_,
                       stretch_ > explosion ? "yes" : "no");
         return text;
     }

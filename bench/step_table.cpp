@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT
 
 // What a symplectic step costs beside the plain loop over springs and Boost.odeint, and what
-// becomes of the scene. Prints Markdown; a mesh in OBJ form may be named on the command line. Times
-// are of one thread's processor, ratios of runs side by side: the minimum and the median.
+// becomes of the scene, beside XPBD. Prints Markdown; a mesh in OBJ form may be named on the
+// command line. Times are of one thread's processor, ratios of runs side by side: the minimum and
+// the median.
 
 #include <algorithm>
 #include <cmath>
@@ -15,11 +16,12 @@
 #include <utility>
 #include <vector>
 
-#include "../examples/common/mesh_file.hpp"
 #include "measure.hpp"
+#include "mesh_in.hpp"
 #include "odeint.hpp"
 #include "outcome.hpp"
 #include "plain_loop.hpp"
+#include "xpbd.hpp"
 
 namespace {
 
@@ -166,38 +168,73 @@ Net<double> lattice(Index n) {
     return net;
 }
 
-template <class Scalar>
-Net<Scalar> mesh_in(const example::MeshFile& file) {
-    const taut::Points<Scalar, 3> vertices = file.vertices.cast<Scalar>();
-    auto net = taut::springs_from_mesh<Scalar>(vertices, file.faces).system;
-    net.set_gravity({0, 0, Scalar(-9.81)});
-    net.pin(0);
-    return net;
-}
+constexpr double frame = 1.0 / 60;  // s
+
+struct Second {
+    Index substeps;  // a frame
+    bench::Times times;
+    std::string cells;
+
+    void print(const std::string& label) const {
+        std::printf("| %s | %lld | %.2f (%.2f) | %s |\n", label.c_str(),
+                    static_cast<long long>(substeps), times.least, times.median, cells.c_str());
+        std::fflush(stdout);
+    }
+};
 
 /// One second in frames of 1/60 s: the time of a frame, and what became of the scene.
-void outcome(const char* label, const Net<double>& net) {
-    const double limit = taut::any_pose_limit(net).certified;
-    const double frame = 1.0 / 60;
-    const auto substeps = static_cast<Index>(std::ceil(frame / limit));
-    const double h = frame / static_cast<double>(substeps);
-    taut::SymplecticEuler stepper(net);
-    auto state = net.initial_state();
+/// @param advance  by a frame; false when the scene is lost
+/// @param state  as it is then
+template <class Advance, class State>
+Second second(const Net<double>& net, Index substeps, Advance&& advance, State&& state) {
     bench::Outcome seen(net);
     bench::Stopwatch watch(bench::thread_time);
     for (int i = 1; i <= 60 && !seen.lost(); ++i) {
         bool moved = false;
-        watch.run([&] { moved = bool(stepper.step(state, h, substeps)); });
+        watch.run([&] { moved = advance(); });
         if (moved) {
-            seen.see(i * frame, state);
+            seen.see(i * frame, state());
         } else {
             seen.explode();
         }
     }
-    const auto times = watch.times();
-    std::printf("| %s | %lld | %.2f (%.2f) | %s |\n", label, static_cast<long long>(substeps),
-                times.least, times.median, seen.cells().c_str());
-    std::fflush(stdout);
+    return {substeps, watch.times(), seen.cells()};
+}
+
+Second second_of_xpbd(const Net<double>& net, Index substeps) {
+    bench::Xpbd xpbd(net, frame / static_cast<double>(substeps));
+    const auto advance = [&] {
+        xpbd.step(substeps);
+        return true;
+    };
+    return second(
+        net, substeps, advance, [&]() -> const auto& { return xpbd.state(); });
+}
+
+/// The most substeps of XPBD that take no longer a frame.
+/// @param other  any second of XPBD, for its time
+Second second_in_time(const Net<double>& net, const Second& other, double time) {
+    const double substep = other.times.least / static_cast<double>(other.substeps);
+    auto substeps = std::max(Index(1), static_cast<Index>(time / substep));
+    auto result = second_of_xpbd(net, substeps);
+    while (result.times.least > time && substeps > 1) result = second_of_xpbd(net, --substeps);
+    return result;
+}
+
+void outcome(const std::string& label, const Net<double>& net) {
+    const double limit = taut::any_pose_limit(net).certified;
+    const auto substeps = static_cast<Index>(std::ceil(frame / limit));
+    taut::SymplecticEuler stepper(net);
+    auto state = net.initial_state();
+    const auto advance = [&] {
+        return bool(stepper.step(state, frame / static_cast<double>(substeps), substeps));
+    };
+    const auto ours = second(
+        net, substeps, advance, [&]() -> const auto& { return state; });
+    ours.print(label);
+    const auto as_many = second_of_xpbd(net, substeps);
+    second_in_time(net, as_many, ours.times.least).print(label + ", XPBD in this time");
+    as_many.print(label + ", XPBD, as many");
 }
 
 void memory() {
@@ -242,9 +279,9 @@ int main(int argc, char** argv) {
     taut::SpringSystem<double, 3> mesh;
     if (argc > 1) {
         const auto file = example::read_obj(argv[1]);
-        mesh = mesh_in<double>(file);
+        mesh = bench::mesh_in<double>(file);
         compare<double>("mesh", mesh, 21, 100);
-        compare<float>("mesh, float", mesh_in<float>(file), 21, 100);
+        compare<float>("mesh, float", bench::mesh_in<float>(file), 21, 100);
     }
     const auto cloth = taut::hanging_cloth<double>({100, 100});
     std::printf(
@@ -270,9 +307,7 @@ int main(int argc, char** argv) {
         "|---|---|---|---|---|---|\n",
         bench::Outcome::columns);
     for (const Index n : {32, 64, 100}) {
-        char label[64];
-        std::snprintf(label, sizeof label, "hanging_cloth %d", static_cast<int>(n));
-        outcome(label, taut::hanging_cloth<double>({n, n}));
+        outcome("hanging_cloth " + std::to_string(n), taut::hanging_cloth<double>({n, n}));
     }
     outcome("free lattice 30³", free_lattice);
     if (mesh.size() > 0) outcome("mesh", mesh);
