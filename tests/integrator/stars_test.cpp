@@ -68,22 +68,23 @@ TEST_CASE("stars: a tile is moved when its forces are whole, and each block has 
         const int places = 7000;
         const auto by_hub =
             sweep::choose_hubs(random_springs(random, places, 20000, reach), places);
-        const auto stars = sweep::plan_stars(by_hub);
+        const sweep::Blocks blocks(places);
+        const auto stars = sweep::plan_stars(by_hub, blocks);
         std::set<std::pair<int, int>> seen;  // place, index of a spring that pulled it
         int last_tile = 0;
         for (const auto& star : stars) {
             CHECK(star.tile >= last_tile);
             last_tile = star.tile;
-            const int block = star.tile / sweep::tiles_per_block;
+            const int block = blocks.block_of_tile(star.tile);
             for (int s = star.first; s < star.first + star.count; ++s) {
                 const auto& spring = by_hub[static_cast<std::size_t>(s)];
                 CHECK(spring.hub == by_hub[static_cast<std::size_t>(star.first)].hub);
                 for (const int place : {spring.hub, spring.tip}) {
-                    if (place / sweep::block_size != block) continue;
+                    if (blocks.of(place) != block) continue;
                     CHECK(place / sweep::tile_size >= star.tile);
                     CHECK(seen.insert({place, spring.index}).second);
                 }
-                if (!star.outer) CHECK(spring.tip / sweep::block_size == block);
+                if (!star.outer) CHECK(blocks.of(spring.tip) == block);
             }
         }
         CHECK(seen.size() == 2 * by_hub.size());

@@ -40,9 +40,9 @@ class BatchPlan {
 
 public:
     BatchPlan() = default;
-    /// @param tiles  of all blocks
     /// @param table  takes the springs' values
-    BatchPlan(const Set& set, const std::vector<PlacedSpring>& scattered, int tiles, Table& table);
+    BatchPlan(const Set& set, const std::vector<PlacedSpring>& scattered, const Blocks& blocks,
+              Table& table);
 
     /// Adds the forces of the tile's batches.
     template <bool Dampers, Proportional Kind>
@@ -83,13 +83,13 @@ private:
 
 template <class Scalar, int Dim, class Law>
 BatchPlan<Scalar, Dim, Law>::BatchPlan(const Set& set, const std::vector<PlacedSpring>& scattered,
-                                       int tiles, Table& table) {
-    std::vector<std::vector<PlacedSpring>> springs(tiles);
+                                       const Blocks& blocks, Table& table) {
+    std::vector<std::vector<PlacedSpring>> springs(static_cast<std::size_t>(blocks.tiles()));
     for (const auto& spring : scattered) {
-        const int block_of_b = spring.b / block_size;
+        const int block_of_b = blocks.of(spring.b);
         springs[spring.a / tile_size].push_back(spring);
-        if (block_of_b != spring.a / block_size) {
-            springs[block_of_b * tiles_per_block].push_back(spring);
+        if (block_of_b != blocks.of(spring.a)) {
+            springs[blocks.first_tile(block_of_b)].push_back(spring);
         }
     }
     for (auto& of_tile : springs) {
@@ -176,10 +176,9 @@ void BatchPlan<Scalar, Dim, Law>::add_batch(const Table& table, const TileView<S
             f[ends[s].b] -= force;
         }
     }
-    const int block_begin = view.block * block_size;
     for (int g = 0; g < batch.gathered; ++g) {
-        const int i = places[g] - block_begin;
-        if (i < 0 || i >= block_size) continue;  // another block sees to it
+        const int i = places[g] - view.begin;
+        if (i < 0 || i >= view.size) continue;  // another block sees to it
         for (int d = 0; d < Dim; ++d) view.force_a[d][i] += f[g][d];
     }
 }

@@ -29,7 +29,7 @@ public:
 
     /// n, the number of particles and of places.
     Index size() const { return size_; }
-    int blocks() const { return blocks_of(size_); }
+    const Blocks& blocks() const { return blocks_; }
     /// The most blocks between the ends of a spring.
     int reach() const { return reach_; }
     /// Whether springs are in stars: then one plane holds points, x y z 0.
@@ -136,6 +136,7 @@ private:
     typename PlansOf<typename System::SpringSets>::type plans_;
     std::vector<int> order_;  // the particle at each place; empty: particle i at place i
     Index size_ = 0;
+    Blocks blocks_;
     Index stride_ = 0;
     int reach_ = 0;
     std::uint64_t springs_ = 0;  // the system's spring_revision()
@@ -181,17 +182,17 @@ void ForcePlan<System>::plan_triangles(const std::vector<Triangle>& triangles) {
     for (const auto& [a, b, c] : triangles) {
         placed.push_back({place_of[a], place_of[b], place_of[c]});
     }
-    const int tiles = blocks() * tiles_per_block;
     if (stars_) {
-        fours_ = {pair_triangles(placed), tiles};
+        fours_ = {pair_triangles(placed), blocks_};
     } else {
-        rows_ = {pair_triangles(placed), tiles};
+        rows_ = {pair_triangles(placed), blocks_};
     }
 }
 
 template <class System>
 void ForcePlan<System>::plan_springs(const System& system) {
     size_ = system.size();
+    blocks_ = Blocks(size_);
     auto springs = sort(system, [](int i) { return i; });
     const auto mostly_scattered = [&] {
         std::size_t scattered = 0;
@@ -214,7 +215,7 @@ void ForcePlan<System>::plan_springs(const System& system) {
     reach_ = 0;
     for (const auto& of_law : springs) {
         for (const auto& spring : of_law.all()) {
-            reach_ = std::max(reach_, std::abs(spring.b / block_size - spring.a / block_size));
+            reach_ = std::max(reach_, blocks_.of(spring.b) - blocks_.of(spring.a));
         }
     }
     // No two planes of one vector begin at the same byte of a page: a store to one would hold up
@@ -224,7 +225,7 @@ void ForcePlan<System>::plan_springs(const System& system) {
 
     system.for_each_set([&, next = springs.cbegin()](const auto& set) mutable {
         using Plan = typename PlanOf<std::decay_t<decltype(set)>>::type;
-        std::get<Plan>(plans_) = Plan(set, *next++, static_cast<int>(size_), stars_);
+        std::get<Plan>(plans_) = Plan(set, *next++, blocks_, stars_);
     });
 }
 

@@ -13,15 +13,14 @@ template <class Scalar, int Dim, class Law>
 class LawPlan {
 public:
     LawPlan() = default;
-    /// @param places  of all blocks
-    LawPlan(const SpringSet<Scalar, Law>& set, const SortedSprings& springs, int places, bool stars)
+    LawPlan(const SpringSet<Scalar, Law>& set, const SortedSprings& springs, const Blocks& blocks,
+            bool stars)
         : damped_(!set.damping.empty()) {
         if (stars) {
-            stars_ = {set, springs.all(), places};
+            stars_ = {set, springs.all(), blocks};
         } else {
-            const int tiles = blocks_of(places) * tiles_per_block;
-            runs_ = {set, springs.runs(), tiles, table_};
-            batches_ = {set, springs.scattered(), tiles, table_};
+            runs_ = {set, springs.runs(), blocks, table_};
+            batches_ = {set, springs.scattered(), blocks, table_};
             table_.finish();
         }
     }

@@ -22,9 +22,9 @@ class RunPlan {
 
 public:
     RunPlan() = default;
-    /// @param tiles  of all blocks
     /// @param table  takes the springs' values
-    RunPlan(const Set& set, const std::vector<SortedSprings::Run>& runs, int tiles, Table& table);
+    RunPlan(const Set& set, const std::vector<SortedSprings::Run>& runs, const Blocks& blocks,
+            Table& table);
 
     /// Adds the forces of the tile's segments.
     template <bool Dampers, Proportional Kind>
@@ -58,7 +58,7 @@ private:
         if constexpr (Dim > 2) sum += a[2] * b[2];
         return sum;
     }
-    void add_run(const Set& set, const SortedSprings::Run& run, Table& table,
+    void add_run(const Set& set, const SortedSprings::Run& run, const Blocks& blocks, Table& table,
                  std::vector<std::vector<Segment>>& segments);
     template <bool Dampers, Proportional Kind>
     void add_segment(const Table& table, const TileView<Scalar>& view,
@@ -71,9 +71,9 @@ private:
 
 template <class Scalar, int Dim, class Law>
 RunPlan<Scalar, Dim, Law>::RunPlan(const Set& set, const std::vector<SortedSprings::Run>& runs,
-                                   int tiles, Table& table) {
-    std::vector<std::vector<Segment>> segments(tiles);
-    for (const auto& run : runs) add_run(set, run, table, segments);
+                                   const Blocks& blocks, Table& table) {
+    std::vector<std::vector<Segment>> segments(static_cast<std::size_t>(blocks.tiles()));
+    for (const auto& run : runs) add_run(set, run, blocks, table, segments);
     for (const auto& of_tile : segments) {
         segments_.insert(segments_.end(), of_tile.begin(), of_tile.end());
         segment_end_.push_back(segments_.size());
@@ -81,7 +81,8 @@ RunPlan<Scalar, Dim, Law>::RunPlan(const Set& set, const std::vector<SortedSprin
 }
 
 template <class Scalar, int Dim, class Law>
-void RunPlan<Scalar, Dim, Law>::add_run(const Set& set, const SortedSprings::Run& run, Table& table,
+void RunPlan<Scalar, Dim, Law>::add_run(const Set& set, const SortedSprings::Run& run,
+                                        const Blocks& blocks, Table& table,
                                         std::vector<std::vector<Segment>>& segments) {
     const int begin = run.front().a / width * width;
     const int end = (run.back().a / width + 1) * width;
@@ -109,16 +110,16 @@ void RunPlan<Scalar, Dim, Law>::add_run(const Set& set, const SortedSprings::Run
         }
     };
     for (int a = begin; a < end; a += width) {
-        const int block = a / block_size;
-        const int first_block_of_b = (a + offset) / block_size;
-        const int last_block_of_b = (a + offset + width - 1) / block_size;
+        const int block = blocks.of(a);
+        const int first_block_of_b = blocks.of(a + offset);
+        const int last_block_of_b = blocks.of(a + offset + width - 1);
         append(a / tile_size, {number, a, width, true, block == first_block_of_b});
         // Springs that come from an earlier block go with the first tile of this one.
         if (first_block_of_b != block) {
-            append(first_block_of_b * tiles_per_block, {number, a, width, false, true});
+            append(blocks.first_tile(first_block_of_b), {number, a, width, false, true});
         }
         if (last_block_of_b != first_block_of_b) {
-            append(last_block_of_b * tiles_per_block, {number, a, width, false, true});
+            append(blocks.first_tile(last_block_of_b), {number, a, width, false, true});
         }
     }
 }
@@ -128,7 +129,6 @@ template <bool Dampers, Proportional Kind>
 void RunPlan<Scalar, Dim, Law>::add_segment(const Table& table, const TileView<Scalar>& view,
                                             const Segment& segment) const {
     const Run& run = runs_[segment.run];
-    const int block_begin = view.block * block_size;
     const int first_a = segment.first_a;
     const int first_b = first_a + run.offset;
     const Planes<const Scalar> x_a = view.x.at(first_a);
@@ -136,9 +136,9 @@ void RunPlan<Scalar, Dim, Law>::add_segment(const Table& table, const TileView<S
     const Planes<const Scalar> v_a = view.v.at(first_a);
     const Planes<const Scalar> v_b = view.v.at(first_b);
     const Planes<Scalar> force_a =
-        segment.writes_a ? view.force_a.at(first_a - block_begin) : view.discard;
+        segment.writes_a ? view.force_a.at(first_a - view.begin) : view.discard;
     const Planes<Scalar> force_b =
-        segment.writes_b ? view.force_b.at(first_b - block_begin) : view.discard;
+        segment.writes_b ? view.force_b.at(first_b - view.begin) : view.discard;
     typename Table::Reader springs(table, run.columns,
                                    static_cast<std::size_t>(first_a - run.first_a));
     for (int i = 0; i < segment.count; i += width, springs.next()) {

@@ -33,21 +33,20 @@ class StarPlan {
 
 public:
     StarPlan() = default;
-    /// @param places  of all blocks
-    StarPlan(const Set& set, const std::vector<PlacedSpring>& springs, int places);
+    StarPlan(const Set& set, const std::vector<PlacedSpring>& springs, const Blocks& blocks);
 
     /// Adds the forces of the tile's stars; then those on its places are complete.
     template <bool Dampers, Proportional Kind>
     void add_forces(const TileView<Scalar>& view) const {
         const auto tile = static_cast<std::size_t>(view.tile);
-        const Index first = static_cast<Index>(view.block) * block_size * 4;
+        const Index first = static_cast<Index>(view.begin) * 4;
         Group of{view.x.first + first, view.v.first + first, nullptr, nullptr, view.force_a.first};
         constexpr std::make_integer_sequence<int, group> all;
         std::size_t g = tile == 0 ? 0 : ends_[tile - 1].all;
         typename Table::Reader springs(table_, columns_, g * group * star_size);
         for (const std::size_t end = ends_[tile].outer; g < end; ++g) {
             of.stars = &stars_[g * group];
-            const auto targets = within_block(of.stars);
+            const auto targets = within_block(of.stars, 4 * view.size);
             of.targets = targets.data();
             add_group<Dampers, Kind>(view.damping, springs, of, all);
         }
@@ -74,15 +73,12 @@ private:
     static constexpr std::make_integer_sequence<int, star_size> all_tips{};
 
     /// What lies in other blocks goes behind the last place of this one.
-    static int inside(int place) {
-        constexpr int end = 4 * block_size;
-        return place < 0 || place >= end ? end : place;
-    }
-    static std::array<Star, group> within_block(const Star* stars) {
+    static int inside(int place, int end) { return place < 0 || place >= end ? end : place; }
+    static std::array<Star, group> within_block(const Star* stars, int end) {
         std::array<Star, group> result;
         for (int s = 0; s < group; ++s) {
-            result[s].hub = inside(stars[s].hub);
-            for (int k = 0; k < star_size; ++k) result[s].tips[k] = inside(stars[s].tips[k]);
+            result[s].hub = inside(stars[s].hub, end);
+            for (int k = 0; k < star_size; ++k) result[s].tips[k] = inside(stars[s].tips[k], end);
         }
         return result;
     }
@@ -167,13 +163,13 @@ private:
 
 template <class Scalar, class Law>
 StarPlan<Scalar, Law>::StarPlan(const Set& set, const std::vector<PlacedSpring>& springs,
-                                int places) {
-    const auto by_hub = choose_hubs(springs, places);
-    const auto stars = plan_stars(by_hub);
+                                const Blocks& blocks) {
+    const auto by_hub = choose_hubs(springs, blocks.places());
+    const auto stars = plan_stars(by_hub, blocks);
     std::vector<int> index;
     const auto append = [&](const PlannedStar& star) {
         const auto* spring = &by_hub[static_cast<std::size_t>(star.first)];
-        const int block_begin = star.tile / tiles_per_block * block_size;
+        const int block_begin = blocks.begin(blocks.block_of_tile(star.tile));
         Star result;
         result.hub = 4 * (spring->hub - block_begin);
         for (int k = 0; k < star_size; ++k) {
@@ -194,7 +190,7 @@ StarPlan<Scalar, Law>::StarPlan(const Set& set, const std::vector<PlacedSpring>&
         }
         return stars_.size() / group;
     };
-    for (int tile = 0; tile < blocks_of(places) * tiles_per_block; ++tile) {
+    for (int tile = 0; tile < blocks.tiles(); ++tile) {
         const std::size_t outer = append_all(tile, true);
         ends_.push_back({outer, append_all(tile, false)});
     }

@@ -23,7 +23,8 @@ struct PlannedStar {
 
 /// The stars of springs by hubs, tile by tile and the outer ones of each tile first. A star is
 /// computed in each block that has one of its places, before any tile with one of them is moved.
-inline std::vector<PlannedStar> plan_stars(const std::vector<HubSpring>& by_hub) {
+inline std::vector<PlannedStar> plan_stars(const std::vector<HubSpring>& by_hub,
+                                           const Blocks& blocks) {
     std::vector<PlannedStar> stars;
     const int springs = static_cast<int>(by_hub.size());
     const auto spring = [&](int s) { return by_hub[static_cast<std::size_t>(s)]; };
@@ -35,17 +36,17 @@ inline std::vector<PlannedStar> plan_stars(const std::vector<HubSpring>& by_hub)
             ++count;
         }
         std::sort(places.begin(), places.begin() + count + 1);
-        const bool outer = places[0] / block_size != places[count] / block_size;
+        const bool outer = blocks.of(places[0]) != blocks.of(places[count]);
         for (int i = 0; i <= count; ++i) {
-            const int block = places[i] / block_size;
-            if (i > 0 && block == places[i - 1] / block_size) continue;
-            const int tile = outer ? block * tiles_per_block : places[i] / tile_size;
+            const int block = blocks.of(places[i]);
+            if (i > 0 && block == blocks.of(places[i - 1])) continue;
+            const int tile = outer ? blocks.first_tile(block) : places[i] / tile_size;
             stars.push_back({tile, outer, s, count});
         }
         s += count;
     }
     // A star goes no later than those after it, so that springs are read in order.
-    int tile = blocks_of(springs == 0 ? 0 : spring(springs - 1).hub + 1) * tiles_per_block;
+    int tile = blocks.tiles();
     for (auto star = stars.rbegin(); star != stars.rend(); ++star) {
         if (!star->outer) tile = star->tile = std::min(tile, star->tile);
     }

@@ -18,9 +18,9 @@
 //
 // 2. Places, tiles, blocks
 //
-//   place  0        256      512           2048                          4096
+//   place  0        256      512           1792                          3584
 //          +--------+--------+---     -----+--------+---        ---------+---
-//   x  x0  | tile 0 | tile 1 |     ...     | tile 8 |        ...         |  ...
+//   x  x0  | tile 0 | tile 1 |     ...     | tile 7 |        ...         |  ...
 //      x1  |        |        |             |        |                    |
 //      x2  |        |        |             |        |                    |
 //          +--------+--------+---     -----+--------+---        ---------+---
@@ -28,10 +28,12 @@
 //            one thread goes through it,     maybe another thread
 //            tile by tile
 //
-// A tile is what the first cache holds: the tile's springs put their forces there, and the update
-// takes them out again at once. A spring is computed with the tile of a, its lower end. So once a
-// tile is done, every spring that touches it has been computed: its own and those of tiles before.
-// One that comes from an earlier block goes with the first tile of the block.
+// A block has at most 2048 places. All have the same size but for the last; their number is even
+// where whole tiles allow it, so that two threads have the same to do. A tile is what the first
+// cache holds: the tile's springs put their forces there, and the update takes them out again at
+// once. A spring is computed with the tile of a, its lower end. So once a tile is done, every
+// spring that touches it has been computed: its own and those of tiles before. One that comes from
+// an earlier block goes with the first tile of the block.
 //
 //
 // 3. Runs, gaps, segments
@@ -116,7 +118,7 @@
 //   place         a particle's index in the planes; its index in the system, if there is no order
 //   order         the particle at each place
 //   plane         one coordinate of one vector, of all places                        planes.hpp
-//   block         2048 consecutive places: what a thread does at a time                tile.hpp
+//   block         consecutive places: what a thread does at a time                     tile.hpp
 //   reach         the most blocks between the ends of a spring
 //   wave          steps that one thread takes block by block, not one by one           tile.hpp
 //   tile          256 of them: what the first cache holds                              tile.hpp
@@ -187,7 +189,7 @@ private:
     /// Not finite is noticed after so many steps; until then they cost as much as others.
     static constexpr Index steps_between_checks = 64;
     /// A register may begin before its block or end behind it.
-    static constexpr Index scratch_stride = block_size + block_size / 16;
+    static constexpr Index scratch_stride = most_of_block + most_of_block / 16;
 
     /// Brings all members up to date.
     template <class AnyState>
@@ -319,8 +321,8 @@ void Sweep<System>::some_steps(Scalar h, Index count, int threads, const Update&
 template <class System>
 template <bool Pins, bool Drag, class Update>
 void Sweep<System>::some_steps(Scalar h, Index count, int threads, const Update& update) {
-    const int blocks = plan_.blocks();
-    threads = std::max(1, std::min(threads, blocks));
+    const int blocks = plan_.blocks().count();
+    threads = plan_.blocks().workers(threads);
     const Index scratch_size = 3 * Dim * scratch_stride;
     if (scratch_.size() < threads * scratch_size) scratch_.setZero(threads * scratch_size);
     in_step_ = true;
@@ -362,14 +364,15 @@ void Sweep<System>::step_block(const StatePlanes<Scalar>& planes, int block, Sca
                           {planes.v.first, planes.v.stride},
                           damping_,
                           air_,
-                          block,
+                          plan_.blocks().begin(block),
+                          plan_.blocks().size(),
                           0,
                           vector(0),
                           vector(1),
                           vector(2)};
     view.air.x = {planes.x.first, planes.x.stride};
-    const Index begin = static_cast<Index>(block) * block_size;
-    const Index count = std::min<Index>(block_size, plan_.size() - begin);
+    const Index begin = view.begin;
+    const Index count = std::min<Index>(view.size, plan_.size() - begin);
     constexpr Index grain = Stars ? 4 : 1;
     for (Index i = 0; i < count; i += tile_size) {
         view.tile = static_cast<int>((begin + i) / tile_size);

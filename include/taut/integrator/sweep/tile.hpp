@@ -10,16 +10,48 @@
 
 namespace taut::integrator_detail::sweep {
 
-/// Places of a block. A constant, so that the order of all sums is the same for any number of
-/// threads.
-inline constexpr int block_size = 2048;
 /// Places of a tile: its planes of positions, velocities and forces stay in the first cache.
 inline constexpr int tile_size = 256;
-inline constexpr int tiles_per_block = block_size / tile_size;
+/// Most places of a block.
+inline constexpr int most_of_block = 2048;
 
-inline constexpr int blocks_of(Index places) {
-    return static_cast<int>((places + block_size - 1) / block_size);
-}
+/// How places are divided: into blocks of one size, and these into tiles. By the number of places
+/// alone, so that the order of all sums is the same for any number of threads.
+class Blocks {
+public:
+    Blocks() = default;
+    explicit Blocks(Index places) : places_(static_cast<int>(places)) {
+        int count = divided(places_, most_of_block);
+        // Two threads have the same to do.
+        if (count > 1) count += count % 2;
+        if (count > 0) size_ = divided(divided(places_, count), tile_size) * tile_size;
+    }
+    int places() const { return places_; }
+    /// Places of a block; the last one may have fewer.
+    int size() const { return size_; }
+    int count() const { return divided(places_, size_); }
+    int tiles() const { return divided(places_, tile_size); }
+
+    /// The block of a place.
+    int of(int place) const { return place / size_; }
+    /// The first place of a block.
+    int begin(int block) const { return block * size_; }
+    int first_tile(int block) const { return begin(block) / tile_size; }
+    int block_of_tile(int tile) const { return tile * tile_size / size_; }
+
+    /// How many of so many threads shorten a step: fewer would have more blocks each.
+    int workers(int threads) const {
+        const int most = std::max(1, std::min(threads, count()));
+        return divided(count(), std::max(1, divided(count(), most)));
+    }
+
+private:
+    /// Rounded up.
+    static int divided(int number, int by) { return (number + by - 1) / by; }
+
+    int places_ = 0;
+    int size_ = most_of_block;
+};
 
 /// Most steps in a wave.
 inline constexpr int steps_of_wave = 8;
@@ -55,8 +87,9 @@ struct TileView {
     Planes<const Scalar> v;  // m/s, of all places
     StiffnessDamping<Scalar> damping;
     Air<Scalar> air;
-    int block;
-    int tile;  // among those of all blocks
+    int begin;  // the block's first place
+    int size;   // places of a block
+    int tile;   // among those of all blocks
     /// Forces on the places of the block, N: those on ends a and those on ends b. Apart, because a
     /// register stored to one address and loaded from the next would wait for the store. Stars' are
     /// all in the first.

@@ -24,8 +24,7 @@ class TriangleFours {
 
 public:
     TriangleFours() = default;
-    /// @param tiles  of all blocks
-    TriangleFours(const std::vector<TrianglePair>& pairs, int tiles);
+    TriangleFours(const std::vector<TrianglePair>& pairs, const Blocks& blocks);
 
     /// Adds the forces of the wind on the tile's triangles.
     void add_forces(const TileView<Scalar>& view) const {
@@ -50,7 +49,7 @@ private:
         /// one.
         std::array<std::uint16_t, 4> in_block;
     };
-    static_assert(4 * block_size <= std::numeric_limits<std::uint16_t>::max());
+    static_assert(4 * most_of_block <= std::numeric_limits<std::uint16_t>::max());
     using Four = std::array<Corners, 4>;  // a, b, c, d
     using FlowOfFour = std::array<PairFlow<Part>, Point::parts>;
     using Vectors = std::array<Point, 4>;
@@ -58,7 +57,7 @@ private:
     using Numbers = std::integer_sequence<int, i...>;
     static constexpr std::make_integer_sequence<int, 4> all{};
 
-    static Four places(const std::array<TrianglePair, 4>& pairs, int block);
+    static Four places(const std::array<TrianglePair, 4>& pairs, const Blocks& blocks, int block);
 
     template <int... k>
     static EIGEN_ALWAYS_INLINE Vectors load(const Scalar* points, const Corners& at,
@@ -106,29 +105,31 @@ private:
 };
 
 template <class Scalar>
-auto TriangleFours<Scalar>::places(const std::array<TrianglePair, 4>& pairs, int block) -> Four {
+auto TriangleFours<Scalar>::places(const std::array<TrianglePair, 4>& pairs, const Blocks& blocks,
+                                   int block) -> Four {
     Four result;
     for (int k = 0; k < 4; ++k) {
         for (int i = 0; i < 4; ++i) {
             const int place = pairs[k].corner[i];
-            const bool inside = place / block_size == block;
+            const bool inside = blocks.of(place) == block;
             result[i].in_planes[k] = 4 * static_cast<std::uint32_t>(place);
-            result[i].in_block[k] =
-                static_cast<std::uint16_t>(4 * (inside ? place % block_size : block_size));
+            result[i].in_block[k] = static_cast<std::uint16_t>(
+                4 * (inside ? place - blocks.begin(block) : blocks.size()));
         }
     }
     return result;
 }
 
 template <class Scalar>
-TriangleFours<Scalar>::TriangleFours(const std::vector<TrianglePair>& pairs, int tiles) {
-    std::vector<std::vector<TrianglePair>> of_tile(static_cast<std::size_t>(tiles));
+TriangleFours<Scalar>::TriangleFours(const std::vector<TrianglePair>& pairs, const Blocks& blocks) {
+    std::vector<std::vector<TrianglePair>> of_tile(static_cast<std::size_t>(blocks.tiles()));
     for (const auto& pair : pairs) {
         std::vector<int> in_tiles;
-        pair.add_tiles(in_tiles);
-        for (const int tile : first_of_blocks(std::move(in_tiles))) of_tile[tile].push_back(pair);
+        pair.add_tiles(blocks, in_tiles);
+        for (const int tile : first_of_blocks(std::move(in_tiles), blocks))
+            of_tile[tile].push_back(pair);
     }
-    for (int tile = 0; tile < tiles; ++tile) {
+    for (int tile = 0; tile < blocks.tiles(); ++tile) {
         auto& here = of_tile[tile];
         std::sort(here.begin(), here.end(),
                   [](const auto& s, const auto& t) { return s.corner < t.corner; });
@@ -137,7 +138,7 @@ TriangleFours<Scalar>::TriangleFours(const std::vector<TrianglePair>& pairs, int
             std::array<TrianglePair, 4> four;
             four.fill({{a, a, a, a}});
             std::copy_n(&here[first], std::min<std::size_t>(4, here.size() - first), four.begin());
-            fours_.push_back(places(four, tile / tiles_per_block));
+            fours_.push_back(places(four, blocks, blocks.block_of_tile(tile)));
         }
         end_.push_back(fours_.size());
     }

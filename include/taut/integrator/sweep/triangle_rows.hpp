@@ -22,8 +22,7 @@ class TriangleRows {
 
 public:
     TriangleRows() = default;
-    /// @param tiles  of all blocks
-    TriangleRows(std::vector<TrianglePair> pairs, int tiles);
+    TriangleRows(std::vector<TrianglePair> pairs, const Blocks& blocks);
 
     /// Adds the forces of the wind on the tile's rows.
     void add_forces(const TileView<Scalar>& view) const {
@@ -57,8 +56,8 @@ private:
     }
     static EIGEN_ALWAYS_INLINE void add(const TileView<Scalar>& view, const Planes<Scalar>& forces,
                                         int first, const Vector& force) {
-        const int place = first - view.block * block_size;
-        const bool inside = place > -width && place < block_size;
+        const int place = first - view.begin;
+        const bool inside = place > -width && place < view.size;
         const auto to = inside ? forces.at(place) : view.discard;
         for_each_axis<3>([&](int d) { (Register::load(to[d]) + force[d]).store(to[d]); });
     }
@@ -73,7 +72,7 @@ private:
 };
 
 template <class Scalar>
-TriangleRows<Scalar>::TriangleRows(std::vector<TrianglePair> pairs, int tiles) {
+TriangleRows<Scalar>::TriangleRows(std::vector<TrianglePair> pairs, const Blocks& blocks) {
     const auto key = [](const TrianglePair& pair) {
         const auto& [a, b, c, d] = pair.corner;
         return std::tuple(b - a, c - a, d - a, pair.lowest() / width * width);
@@ -82,7 +81,7 @@ TriangleRows<Scalar>::TriangleRows(std::vector<TrianglePair> pairs, int tiles) {
     std::sort(pairs.begin(), pairs.end(), [&](const auto& s, const auto& t) {
         return std::tuple(key(s), lane(s)) < std::tuple(key(t), lane(t));
     });
-    std::vector<std::vector<Row>> rows(static_cast<std::size_t>(tiles));
+    std::vector<std::vector<Row>> rows(static_cast<std::size_t>(blocks.tiles()));
     std::map<unsigned, int> known{{(1u << width) - 1, -1}};
     for (auto next = pairs.cbegin(); next != pairs.cend();) {
         const auto first = next;
@@ -92,7 +91,7 @@ TriangleRows<Scalar>::TriangleRows(std::vector<TrianglePair> pairs, int tiles) {
             const unsigned bit = 1u << lane(*next);
             if (bits & bit) break;  // the same pair once more
             bits |= bit;
-            next->add_tiles(in_tiles);
+            next->add_tiles(blocks, in_tiles);
         }
         const auto [kind, is_new] = known.try_emplace(bits, static_cast<int>(lanes_.size()));
         for (int i = 0; is_new && i < width; ++i) {
@@ -100,7 +99,8 @@ TriangleRows<Scalar>::TriangleRows(std::vector<TrianglePair> pairs, int tiles) {
         }
         Row row{first->corner, kind->second};
         for (int& corner : row.first) corner -= lane(*first);
-        for (const int tile : first_of_blocks(std::move(in_tiles))) rows[tile].push_back(row);
+        for (const int tile : first_of_blocks(std::move(in_tiles), blocks))
+            rows[tile].push_back(row);
     }
     for (const auto& of_tile : rows) {
         rows_.insert(rows_.end(), of_tile.begin(), of_tile.end());

@@ -26,12 +26,14 @@ struct TrianglePair {
     int lowest() const { return *std::min_element(corner.begin(), corner.end()); }
     int highest() const { return *std::max_element(corner.begin(), corner.end()); }
     /// Whether the corners lie in different blocks.
-    bool is_outer() const { return lowest() / block_size != highest() / block_size; }
+    bool is_outer(const Blocks& blocks) const {
+        return blocks.of(lowest()) != blocks.of(highest());
+    }
     /// Appends the tiles that the pair is computed with: in each block that has one of its corners,
     /// before any tile with one of them is moved.
-    void add_tiles(std::vector<int>& tiles) const {
-        if (!is_outer()) return tiles.push_back(lowest() / tile_size);
-        for (const int place : corner) tiles.push_back(place / block_size * tiles_per_block);
+    void add_tiles(const Blocks& blocks, std::vector<int>& tiles) const {
+        if (!is_outer(blocks)) return tiles.push_back(lowest() / tile_size);
+        for (const int place : corner) tiles.push_back(blocks.first_tile(blocks.of(place)));
     }
 };
 
@@ -96,9 +98,11 @@ inline std::vector<TrianglePair> pair_triangles(const std::vector<PlacedTriangle
 }
 
 /// Of the tiles of each block the first, which is where all of them may be computed.
-inline std::vector<int> first_of_blocks(std::vector<int> tiles) {
+inline std::vector<int> first_of_blocks(std::vector<int> tiles, const Blocks& blocks) {
     std::sort(tiles.begin(), tiles.end());
-    const auto same_block = [](int s, int t) { return s / tiles_per_block == t / tiles_per_block; };
+    const auto same_block = [&](int s, int t) {
+        return blocks.block_of_tile(s) == blocks.block_of_tile(t);
+    };
     tiles.erase(std::unique(tiles.begin(), tiles.end(), same_block), tiles.end());
     return tiles;
 }
