@@ -105,13 +105,27 @@ void compare_damping(const std::string& label, const Net<Scalar>& net, int runs,
 }
 
 /// What else is asked of a step, beside the step without.
-void compare_kinds(const std::string& label, const Net<double>& net, int runs, int count) {
+void compare_kinds(const std::string& label, const Net<double>& net,
+                   std::vector<taut::Triangle> triangles, int runs, int count) {
     const double h = 0.5 * taut::any_pose_limit(net).certified;
     compare_steppers(label + ", velocity Verlet", net, h, taut::VelocityVerlet(net), runs, count);
-    auto dragged = net;
-    dragged.set_external_force([](const auto& state, auto& f) { f -= 1e-6 * state.v; });
-    compare_steppers(label + ", a drag from outside", net, h, taut::SymplecticEuler(dragged), runs,
-                     count);
+    const auto with = [&](const char* force, const auto& set) {
+        auto copy = net;
+        set(copy);
+        compare_steppers(label + ", " + force, net, h, taut::SymplecticEuler(copy), runs, count);
+    };
+    taut::Wind<double> wind;
+    wind.velocity = {1, 2, 3};
+    wind.triangles = std::move(triangles);
+    with("wind on every triangle", [&](auto& copy) { copy.set_wind(wind); });
+    with("a force on each particle", [](auto& copy) {
+        copy.set_constant_force(0, {0, 0, 1e-3});
+        copy.set_particle_force(
+            [](const auto&, const auto& v, Index) { return (-1e-6 * v).eval(); });
+    });
+    with("a force of the whole state", [](auto& copy) {
+        copy.set_external_force([](const auto& state, auto& f) { f -= 1e-6 * state.v; });
+    });
 }
 
 /// Two threads beside one.
@@ -277,9 +291,11 @@ int main(int argc, char** argv) {
     const auto free_lattice = lattice(30);
     compare<double>("free lattice 30³", free_lattice, 7, 100);
     taut::SpringSystem<double, 3> mesh;
+    std::vector<taut::Triangle> triangles;
     if (argc > 1) {
         const auto file = example::read_obj(argv[1]);
         mesh = bench::mesh_in<double>(file);
+        triangles = taut::springs_from_mesh<double>(file.vertices, file.faces).triangles;
         compare<double>("mesh", mesh, 21, 100);
         compare<float>("mesh, float", bench::mesh_in<float>(file), 21, 100);
     }
@@ -291,8 +307,8 @@ int main(int argc, char** argv) {
                            100);
     if (mesh.size() > 0) compare_damping<double>("mesh", mesh, 21, 100);
     std::printf("\n| scene, step | symplectic | this: min (median) | ratio |\n|---|---|---|---|\n");
-    compare_kinds("hanging_cloth 100", cloth, 21, 100);
-    if (mesh.size() > 0) compare_kinds("mesh", mesh, 21, 100);
+    compare_kinds("hanging_cloth 100", cloth, taut::cloth_triangles({100, 100}), 21, 100);
+    if (mesh.size() > 0) compare_kinds("mesh", mesh, triangles, 21, 100);
     std::printf("\n| scene | Boost.odeint | Taut: min (median) | ratio |\n|---|---|---|---|\n");
     compare_odeint("hanging_cloth 100", cloth, 7, 100);
 #ifdef _OPENMP

@@ -33,15 +33,15 @@ int main() {
     taut::StateView<float, 3> view(vertices[0].position, vertices[0].velocity, rows * columns,
                                    sizeof(Vertex) / sizeof(float));
     const taut::MeshOptions options{500, 5, 0.15};  // N/m along edges, N/m across them, kg
-    Cloth flag = taut::springs_from_mesh<float>(view.x, triangles, options).system;
+    const auto mesh = taut::springs_from_mesh<float>(view.x, triangles, options);
+    Cloth flag = mesh.system;
     for (int r = 0; r < rows; ++r) flag.pin(r * columns);  // the mast
     flag.set_gravity({0, 0, -9.81f});
     flag.set_rayleigh({0.1, 2e-4});
 
-    flag.set_external_force([](const auto& state, auto& force) {
-        const float gust = 8 + 4 * std::sin(3 * float(state.time));  // m/s
-        force += 8e-4f * (Eigen::Vector3f(gust, 2, 0).replicate(1, state.v.cols()) - state.v);
-    });
+    taut::Wind<float> wind;
+    wind.triangles = mesh.triangles;
+    flag.set_wind(wind);
 
     taut::Guarded<taut::SymplecticEuler<Cloth>> guard(flag);
     const auto too_long = [&](Index s) {
@@ -52,6 +52,8 @@ int main() {
 
     constexpr Index corner = columns - 1;
     for (int frame = 0; frame < 120; ++frame) {
+        const float gust = 8 + 4 * std::sin(0.05f * float(frame));  // m/s
+        flag.set_wind_velocity({gust, 2, 0});
         if (frame == 30) flag.pin(corner);  // somebody takes hold of it
         if (frame >= 30) view.v.col(corner) = Eigen::Vector3f(0.5f, 0, 0);  // and pulls, m/s
 

@@ -33,8 +33,9 @@ StepLimit<Scalar> any_pose_bracket(const SpringSystem<Scalar, Dim, Laws...>& sys
 /// It bounds the growth of small vibrations about each pose that a scene moves through, not the
 /// energy of the motion. energy_limit bounds that; `recipe` is what to step a moving scene by.
 /// `certified` is proved; `refuted` is where the condition itself fails: no larger step can be
-/// certified for every pose in this way, though a given pose may allow one. Void when stiffness or
-/// damping is added, mass removed or a particle unpinned (see StepLimit::step_for).
+/// certified for every pose in this way, though a given pose may allow one. Wind and other external
+/// forces are not counted: they need not be conservative, nor a drag bounded. Void when stiffness
+/// or damping is added, mass removed or a particle unpinned (see StepLimit::step_for).
 template <class Scalar, int Dim, class... Laws>
 StepLimit<Scalar> any_pose_limit(const SpringSystem<Scalar, Dim, Laws...>& system) {
     return stability_detail::any_pose_bracket(system, stability_detail::Bounds{});
