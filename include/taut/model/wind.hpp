@@ -75,6 +75,7 @@ struct Flow {
     Axes<Real> c, u;  // twice the area times the normal, m²; relative velocity of the air, m/s
     Real cu, u2, c2;  // their products
 
+    Flow() = default;
     /// @param p, q      two sides, m
     /// @param relative  u
     EIGEN_ALWAYS_INLINE Flow(const Axes<Real>& p, const Axes<Real>& q, const Axes<Real>& relative)

@@ -11,6 +11,7 @@
 #include "cache_order.hpp"
 #include "law_plan.hpp"
 #include "triangle_fours.hpp"
+#include "triangle_pairing.hpp"
 #include "triangle_rows.hpp"
 
 namespace taut::integrator_detail::sweep {

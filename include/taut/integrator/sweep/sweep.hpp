@@ -132,6 +132,9 @@
 //   hub, tip      that end, and another end of a star                                  hubs.hpp
 //   outer         of a star: in more than one block
 //   point         one vector of one place, x y z 0; with stars a plane has points
+//   pair          two triangles of a wind with an edge in common                   triangles.hpp
+//   row           pairs side by side in planes: a register of them             triangle_rows.hpp
+//   four          four pairs on planes of points                              triangle_fours.hpp
 //   grain         scalars of a place in a plane: 1, or 4 with stars
 //   scattered     of a spring: in no run
 //   batch         scattered springs of one tile that touch few places            batch_plan.hpp

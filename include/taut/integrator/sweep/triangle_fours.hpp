@@ -32,11 +32,13 @@ public:
         const auto tile = static_cast<std::size_t>(view.tile);
         const std::size_t first = tile == 0 ? 0 : end_[tile - 1];
         if (first == end_[tile]) return;
-        auto flow = flow_past(view, fours_[first], parts);
-        for (std::size_t f = first; f < end_[tile]; ++f) {
-            const auto next = flow_past(view, fours_[std::min(f + 1, end_[tile] - 1)], parts);
-            add_four(view, fours_[f], flow, parts);
-            flow = next;
+        constexpr std::size_t chunk = 8;
+        std::array<FlowOfFour, chunk> flows;
+        for (std::size_t f = first; f < end_[tile]; f += chunk) {
+            const std::size_t count = std::min(chunk, end_[tile] - f);
+            for (std::size_t k = 0; k < count; ++k)
+                flows[k] = flow_past(view, fours_[f + k], parts);
+            for (std::size_t k = 0; k < count; ++k) add_four(view, fours_[f + k], flows[k], parts);
         }
     }
 

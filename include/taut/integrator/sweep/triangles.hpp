@@ -4,9 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
-#include <cstdint>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -53,48 +50,12 @@ inline bool join(const PlacedTriangle& s, const PlacedTriangle& t, TrianglePair&
         for (int other = 0; other < 3; ++other) {
             if (edge_opposite(t, other) != edge) continue;
             const auto [a, d] = std::minmax(s[k], t[other]);
+            if (a == d) return false;
             pair = {{a, edge.first, edge.second, d}};
-            return a != d;
+            return true;
         }
     }
     return false;
-}
-
-/// Pairs triangles: neighbours in the list, as those of a square often are, then any others.
-inline std::vector<TrianglePair> pair_triangles(const std::vector<PlacedTriangle>& triangles) {
-    std::vector<TrianglePair> pairs;
-    std::unordered_map<std::uint64_t, std::size_t> open;  // by edge, one that waits for another
-    std::vector<bool> paired(triangles.size(), false);
-    const auto edge = [](const PlacedTriangle& t, int k) {
-        const auto [low, high] = edge_opposite(t, k);
-        return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint64_t>(high);
-    };
-    TrianglePair pair;
-    std::vector<std::size_t> rest;
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-        if (t + 1 < triangles.size() && join(triangles[t], triangles[t + 1], pair)) {
-            pairs.push_back(pair);
-            ++t;
-        } else {
-            rest.push_back(t);
-        }
-    }
-    for (const std::size_t t : rest) {
-        for (int k = 0; k < 3 && !paired[t]; ++k) {
-            const auto other = open.find(edge(triangles[t], k));
-            if (other == open.end() || paired[other->second] ||
-                !join(triangles[t], triangles[other->second], pair)) {
-                continue;
-            }
-            pairs.push_back(pair);
-            paired[t] = paired[other->second] = true;
-        }
-        for (int k = 0; k < 3 && !paired[t]; ++k) open[edge(triangles[t], k)] = t;
-    }
-    for (const std::size_t t : rest) {
-        if (!paired[t]) pairs.push_back(pair_of(triangles[t]));
-    }
-    return pairs;
 }
 
 /// Of the tiles of each block the first, which is where all of them may be computed.
