@@ -1,10 +1,13 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include <taut/integrator/explicit_euler.hpp>
+#include <taut/integrator/guarded.hpp>
+#include <taut/integrator/implicit_euler.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/integrator/velocity_verlet.hpp>
 #include <taut/scene/cloth.hpp>
 
+#include <cmath>
 #include <stdexcept>
 #include <vector>
 
@@ -80,6 +83,110 @@ TEMPLATE_TEST_CASE("sweep: wind on a cloth's own triangles acts as on the plain 
         start.x = cloth.initial_state().x;
         check_all_steppers(cloth, start);
     }
+}
+
+/// A chain over many blocks, and triangles that reach further than its springs.
+template <class Scalar>
+taut::SpringSystem<Scalar, 3> chain_in_wind(Random& random, int particles) {
+    taut::SpringSystem<Scalar, 3> chain;
+    for (int i = 0; i < particles; ++i) {
+        chain.add_particle(random.vector<Scalar, 3>(-1, 1), static_cast<Scalar>(0.02));
+        if (i % 5 > 0) {
+            chain.add_spring(taut::Spring<Scalar, taut::Hookean>{i - 1, i, {Scalar(2)}, Scalar(1)});
+        }
+    }
+    taut::Wind<Scalar> wind;
+    wind.velocity = {3, 2, -4};
+    for (int k = 0; k < 40; ++k) {
+        const Index a = random.below(particles / 3);
+        wind.triangles.push_back({a, a + particles / 3, a + 2 * (particles / 3)});
+    }
+    wind.triangles.push_back({2046, 2047, 2048});
+    chain.set_wind(wind);
+    return chain;
+}
+
+TEMPLATE_TEST_CASE("sweep: triangles may reach further than springs, over several blocks",
+                   "[integrator]", float, double) {
+    Random random(96);
+    for (const int particles : {2100, 5000, 6300}) {
+        auto chain = chain_in_wind<TestType>(random, particles);
+        check_all_steppers(chain, random_state(random, chain));
+    }
+}
+
+TEMPLATE_TEST_CASE("sweep: how steps are divided into calls changes no bit", "[integrator]", float,
+                   double) {
+    Random random(97);
+    auto chain = chain_in_wind<TestType>(random, 6300);
+    auto grid = net<TestType, 3>(random, 70, 70);
+    grid.set_wind(draw_wind<TestType>(random, grid.size(), 3000));
+    auto mesh = irregular<TestType, 3>(random, 4500, false);
+    mesh.set_wind(draw_wind<TestType>(random, mesh.size(), 3000));
+    for (auto* system : {&chain, &grid, &mesh}) {
+        const auto start = random_state(random, *system);
+        auto at_once = start;
+        auto one_by_one = start;
+        taut::SymplecticEuler stepper(*system);
+        REQUIRE(stepper.step(at_once, TestType(1e-3), 21));
+        for (int i = 0; i < 21; ++i) REQUIRE(stepper.step(one_by_one, TestType(1e-3)));
+        CHECK(at_once.x == one_by_one.x);
+        CHECK(at_once.v == one_by_one.v);
+    }
+}
+
+TEMPLATE_TEST_CASE("sweep: what is finite never falls back on the plain path", "[integrator]",
+                   float, double) {
+    Random random(98);
+    for (const int triangles : {1, 2, 3, 700}) {
+        auto chain = chain_in_wind<TestType>(random, 2100);
+        auto grid = net<TestType, 3>(random, 20, 20);
+        auto mesh = irregular<TestType, 3>(random, 600, false);
+        for (auto* system : {&chain, &grid, &mesh}) {
+            system->set_wind(draw_wind<TestType>(random, system->size(), triangles));
+            Index calls = 0;
+            system->set_particle_force([&calls](const auto& x, const auto&, Index) {
+                ++calls;
+                return (0 * x).eval();
+            });
+            auto state = random_state(random, *system);
+            REQUIRE(taut::SymplecticEuler(*system).step(state, TestType(1e-3), 9));
+            CHECK(calls == 9 * system->size());
+        }
+    }
+}
+
+TEST_CASE("wind: guarded and implicit steps take it as a force of the whole state",
+          "[integrator]") {
+    auto blown = taut::hanging_cloth<double>({12, 12});
+    auto pushed = blown;
+    taut::Wind<double> wind;
+    wind.velocity = {4, 3, 2};
+    wind.triangles = taut::cloth_triangles({12, 12});
+    blown.set_wind(wind);
+    pushed.set_external_force([wind](const auto& state, auto& f) {
+        taut::model_detail::add_wind(wind, state.x, state.v, f);
+    });
+    const auto check = [](const auto& a, const auto& b) {
+        CHECK(distance(a.v, b.v) <= 1e-9 * largest(b.v));
+    };
+    auto a = blown.initial_state();
+    auto b = a;
+    taut::Guarded<taut::SymplecticEuler<taut::SpringSystem<double, 3>>> first(blown);
+    taut::Guarded<taut::SymplecticEuler<taut::SpringSystem<double, 3>>> second(pushed);
+    for (int frame = 0; frame < 5; ++frame) {
+        const auto ours = first.advance(a, 1.0 / 60);
+        const auto theirs = second.advance(b, 1.0 / 60);
+        REQUIRE(ours);
+        CHECK(ours.substeps == theirs.substeps);
+        CHECK(std::abs(ours.work - theirs.work) <= 1e-9 * std::abs(theirs.work));
+        check(a, b);
+    }
+    taut::ImplicitEuler implicit(blown);
+    taut::ImplicitEuler other(pushed);
+    REQUIRE(implicit.step(a, 1.0 / 60, 3));
+    REQUIRE(other.step(b, 1.0 / 60, 3));
+    check(a, b);
 }
 
 TEST_CASE("sweep: a wind that comes, turns, moves to other triangles and ends is followed",

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -132,11 +133,38 @@ TEST_CASE("wind: bad values are refused by name", "[model]") {
     refused("lift", [&](auto& w) { w.lift = std::numeric_limits<double>::infinity(); });
     refused("corner", [&](auto& w) { w.triangles.push_back({0, 1, 3}); });
     refused("corner", [&](auto& w) { w.triangles.push_back({-1, 1, 2}); });
+    refused("density * drag", [&](auto& w) { w.density = w.drag = 1e200; });
     CHECK_THROWS_WITH(plate.system.set_wind_velocity({nan, 0, 0}), Contains("set_wind_velocity"));
     CHECK_THROWS_WITH(plate.system.set_constant_force(3, {0, 0, 0}),
                       Contains("set_constant_force"));
     CHECK_THROWS_WITH(plate.system.set_constant_force(1, {0, nan, 0}),
                       Contains("set_constant_force"));
+}
+
+TEST_CASE("external forces end where there is nothing left of them", "[model]") {
+    Random random(67);
+    Plate plate(random, 1, 1);
+    auto& system = plate.system;
+    system.set_constant_force(0, {1, 0, 0});
+    system.set_constant_force(2, {0, 1, 0});
+    system.set_constant_force(2, {0, 2, 0});
+    system.set_constant_force(0, Vector::Zero());
+    CHECK(system.has_external_force());
+    system.set_constant_force(2, Vector::Zero());
+    CHECK_FALSE(system.has_external_force());
+    using Function = std::function<Vector(const Vector&, const Vector&, Index)>;
+    system.set_particle_force(Function([](const Vector& x, const Vector&, Index) { return x; }));
+    CHECK(system.has_external_force());
+    system.set_particle_force(Function());
+    CHECK_FALSE(system.has_external_force());
+    system.set_particle_force([](const Vector& x, const Vector&, Index) { return x; });
+    CHECK(system.has_external_force());
+    system.set_particle_force(nullptr);
+    CHECK_FALSE(system.has_external_force());
+    system.set_wind(plate.wind);
+    CHECK(system.has_external_force());
+    system.set_wind(taut::Wind<double>());
+    CHECK_FALSE(system.has_external_force());
 }
 
 TEST_CASE("external forces add up, and each change is one of the force alone", "[model]") {

@@ -19,6 +19,7 @@ struct ExternalForces {
     std::function<void(const State<Scalar, Dim>&, Points<Scalar, Dim>&)> whole;
     model_detail::ParticleForce<Scalar, Dim> by_particle;
     Points<Scalar, Dim> constant;  ///< N, Dim × n, or 0 columns for none
+    Index constants = 0;           ///< those that are not 0
     Wind<Scalar> wind;
     Revision triangles;  ///< of the wind
 

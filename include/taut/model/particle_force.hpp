@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <type_traits>
 #include <utility>
 
 #include "../core/types.hpp"
@@ -31,22 +32,32 @@ struct ParticleSpan {
 template <class Scalar, int Dim>
 using ParticleForce = std::function<void(const ParticleSpan<Scalar>&)>;
 
+/// Empty where the function is, or nullptr.
 template <class Scalar, int Dim, class Function>
 ParticleForce<Scalar, Dim> make_particle_force(Function function) {
-    return [function = std::move(function)](const ParticleSpan<Scalar>& span) {
-        using Vector = Eigen::Matrix<Scalar, Dim, 1>;
-        for (Index i = 0; i < span.count; ++i) {
-            Vector x, v;
-            for (int d = 0; d < Dim; ++d) {
-                x[d] = span.x[d * span.axis_of_state + i * span.grain];
-                v[d] = span.v[d * span.axis_of_state + i * span.grain];
+    // Like std::function; a lambda, which converts by itself, is never empty.
+    if constexpr (std::is_constructible_v<bool, Function> &&
+                  !std::is_convertible_v<Function, bool>) {
+        if (!static_cast<bool>(function)) return {};
+    }
+    if constexpr (std::is_null_pointer_v<Function>) {
+        return {};
+    } else {
+        return [function = std::move(function)](const ParticleSpan<Scalar>& span) {
+            using Vector = Eigen::Matrix<Scalar, Dim, 1>;
+            for (Index i = 0; i < span.count; ++i) {
+                Vector x, v;
+                for (int d = 0; d < Dim; ++d) {
+                    x[d] = span.x[d * span.axis_of_state + i * span.grain];
+                    v[d] = span.v[d * span.axis_of_state + i * span.grain];
+                }
+                const Vector force = function(std::as_const(x), std::as_const(v), span.particle(i));
+                for (int d = 0; d < Dim; ++d) {
+                    span.f[d * span.axis_of_force + i * span.grain] += force[d];
+                }
             }
-            const Vector force = function(std::as_const(x), std::as_const(v), span.particle(i));
-            for (int d = 0; d < Dim; ++d) {
-                span.f[d * span.axis_of_force + i * span.grain] += force[d];
-            }
-        }
-    };
+        };
+    }
 }
 
 }  // namespace taut::model_detail

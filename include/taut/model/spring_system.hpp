@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <tuple>
@@ -111,34 +110,33 @@ public:
     /// It slows rotation, too. @param alpha  s, ≥ 0 and finite in Scalar
     void set_graph_damping(double alpha);
 
-    // External forces add up. No step limit and no certificate sees any of them: they are proved
-    // for the scene without. A strong drag on light particles can make an explicit step unstable.
+    // External forces add up. Step limits and certificates hold for the scene without them. A
+    // strong drag on light particles can make an explicit step unstable.
 
-    /// An empty function ends it.
+    /// A force of the whole state. An empty function ends it.
     void set_external_force(ExternalForce force) {
         external_.whole = std::move(force);
         ++force_revision_;
     }
-    /// A force on each particle alone: what an explicit step asks at least cost. @param force
-    /// Vector force(x, v, i), N, of position, m, velocity, m/s, and index; it must not throw, and
-    /// threads of a step call it at the same time. In a call that diverges it may see numbers that
-    /// are not finite.
+    /// A force on each particle alone, which costs explicit steps less. An empty function, or
+    /// nullptr, ends it.
+    ///
+    /// Threads of a step call it at the same time, and not in the order of steps: it must depend on
+    /// its arguments alone, and must not throw there. Set it again when what it captures changes.
+    /// In a call that diverges it may see numbers that are not finite.
+    /// @param force  Vector force(x, v, i), N, of position, m, velocity, m/s, and index
     template <class Function>
     void set_particle_force(Function force) {
         external_.by_particle = model_detail::make_particle_force<Scalar, Dim>(std::move(force));
         ++force_revision_;
     }
-    /// Ends it.
-    void set_particle_force(std::nullptr_t) {
-        external_.by_particle = nullptr;
-        ++force_revision_;
-    }
-    /// A force that stays, on particle i. @param force  N, finite
+    /// A constant force on particle i in place of the last one. @param force  N, finite; 0 ends it
     void set_constant_force(Index i, const Vector& force);
-    /// In three dimensions. Wind without triangles ends it. @param wind  taken over
-    template <class Air>
+    /// Wind in place of the last one, in three dimensions. One that has no triangles, density or
+    /// coefficient ends it.
+    template <class Air = Wind<Scalar>>
     void set_wind(Air wind);
-    /// Of the wind that there is, as in a gust: at no cost. @param velocity  m/s, finite
+    /// Of the wind that there is, as in a gust; no plan is made anew. @param velocity  m/s, finite
     void set_wind_velocity(const Eigen::Matrix<Scalar, 3, 1>& velocity);
 
     // ---- queries ----
@@ -175,7 +173,7 @@ public:
     }
     /// Changes whenever springs, masses, pins or damping do: whatever a step limit depends on.
     std::uint64_t revision() const { return revision_; }
-    /// Changes whenever the force may have: with revision(), gravity and the external force.
+    /// Changes whenever the force may have: with revision(), gravity and external forces.
     std::uint64_t force_revision() const { return revision_ + force_revision_; }
     /// Changes whenever particles, springs or pins are added or removed, and so with the sparsity
     /// pattern of the free matrices.
@@ -188,7 +186,7 @@ public:
     /// f ← total force on every particle, N, Dim × n; on a pinned one, what its pin has to bear.
     /// @param added  a stepper's own damping beside the system's, StepDamping::times(h)
     void force(const State& state, Force& f, const StepDamping& added = {}) const;
-    /// Whether there is one of whatever kind.
+    /// Whether any external force is set.
     bool has_external_force() const { return external_.any(); }
     /// All of them.
     const ExternalForces<Scalar, Dim>& external_forces() const { return external_; }
@@ -259,7 +257,7 @@ private:
     Revision revision_;
     Revision topology_revision_;
     Revision parameter_revision_;  // of springs that stayed
-    Revision force_revision_;      // of gravity and the external force
+    Revision force_revision_;      // of gravity and external forces
 };
 
 namespace model_detail {

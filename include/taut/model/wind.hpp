@@ -15,14 +15,15 @@ namespace taut {
 /// Corners of a triangle, particle indices.
 using Triangle = std::array<Index, 3>;
 
-/// Air that flows past triangles. With the area A and the unit normal n of a triangle, n on the
-/// side to which the air goes, u the air's velocity less the mean of its corners', û = u/|u| and c
-/// = n·û, the force of the air on it is
+/// Air that flows past triangles. A triangle has the area A and the unit normal n; u is the air's
+/// velocity less the mean of the corners', û = u/|u|, and n is turned so that c = n·û ≥ 0. The
+/// force of the air on it is
 ///
 ///     ½ ρ |u|² A c (drag û + lift (n − c û)),
 ///
-/// a third on each corner: along the flow, and across it. A triangle along the flow has none.
-/// Only the velocity relative to the air brings or takes energy, and lift takes none.
+/// a third on each corner: drag along the flow, lift across it. Edge-on a triangle feels nothing.
+/// Seen from the air, drag takes energy and lift does no work. In float, lift is lost where 4A²|u|²
+/// is below 1e-38 or above 1e38.
 template <class Scalar>
 struct Wind {
     Eigen::Matrix<Scalar, 3, 1> velocity = Eigen::Matrix<Scalar, 3, 1>::Zero();  ///< m/s
@@ -43,8 +44,8 @@ Real reciprocal_sqrt(const Real& a) {
     return 1 / std::sqrt(a);
 }
 
-/// Of the wind's force on a corner, with c twice the area times the normal, either way round: drag
-/// and lift times ρ/12. A third of the force for each corner, a half of c for the area.
+/// ρ·drag/12 and ρ·lift/12: with c twice the area times the normal, ½ is of the formula, ½ of the
+/// area, and ⅓ of the force goes to a corner.
 template <class Real>
 struct WindFactors {
     Real drag;  // kg/m³

@@ -31,8 +31,8 @@ public:
     /// n, the number of particles and of places.
     Index size() const { return size_; }
     const Blocks& blocks() const { return blocks_; }
-    /// The most blocks between the ends of a spring.
-    int reach() const { return reach_; }
+    /// The most blocks between the ends of a spring or the corners of a triangle.
+    int reach() const { return wind_ ? std::max(reach_, triangle_reach_) : reach_; }
     /// Whether springs are in stars: then one plane holds points, x y z 0.
     bool has_stars() const { return stars_; }
     /// Of one vector.
@@ -139,7 +139,8 @@ private:
     Index size_ = 0;
     Blocks blocks_;
     Index stride_ = 0;
-    int reach_ = 0;
+    int reach_ = 0;              // of springs
+    int triangle_reach_ = 0;     // of the wind's triangles, if there is one
     std::uint64_t springs_ = 0;  // the system's spring_revision()
     TriangleRows<Scalar> rows_;
     TriangleFours<Scalar> fours_;
@@ -180,8 +181,11 @@ void ForcePlan<System>::plan_triangles(const std::vector<Triangle>& triangles) {
     std::vector<int> place_of(static_cast<std::size_t>(size_));
     for_each_place([&](Index i, Index place) { place_of[i] = static_cast<int>(place); });
     std::vector<PlacedTriangle> placed;
+    triangle_reach_ = 0;
     for (const auto& [a, b, c] : triangles) {
         placed.push_back({place_of[a], place_of[b], place_of[c]});
+        const auto [low, high] = std::minmax_element(placed.back().begin(), placed.back().end());
+        triangle_reach_ = std::max(triangle_reach_, blocks_.of(*high) - blocks_.of(*low));
     }
     if (stars_) {
         fours_ = {pair_triangles(placed), blocks_};

@@ -12,11 +12,11 @@ namespace taut::integrator_detail::sweep {
 /// step and one for the new; the rest is stepped where it is.
 template <class Scalar>
 struct StatePlanes {
-    Planes<Scalar> x, new_x;                // m; one and the same where only springs read any
-                                            // place's, and look ahead
+    Planes<Scalar> x, new_x;                // m; the same memory where springs look ahead and
+                                            // nothing else reads another place's x
     Planes<Scalar> spring_x, new_spring_x;  // m, where springs take the particles to be: x, or
                                             // x + ahead·v
-    Planes<Scalar> v, new_v;  // m/s; one and the same where nothing asks for any place's
+    Planes<Scalar> v, new_v;  // m/s; the same memory where nothing reads another place's v
 
     void swap() {
         std::swap(x, new_x);

@@ -68,14 +68,16 @@
 //                                v
 //          x, v, spring_x of the new step, of the tile's places only
 //
-// What all threads read, none writes before the step ends: springs' positions, and velocities where
-// springs are damped, have planes for the old step and others for the new. What a thread writes is
-// its scratch (force_a, force_b, discard) and the places of its blocks. A spring between two blocks
-// is evaluated in both, and each keeps its own end. Blocks have the same size and each sum the same
-// order for any number of threads, and so results have the same bits.
+// What all threads read, none writes before the step ends: springs' positions, velocities where
+// springs are damped or a wind blows, and positions where it does, have planes for the old step and
+// others for the new. What a thread writes is its scratch (force_a, force_b, discard) and the
+// places of its blocks. A spring between two blocks is evaluated in both, and each keeps its own
+// end. Blocks have the same size and each sum the same order for any number of threads, and so
+// results have the same bits.
 //
-// One thread goes in waves: a block takes its next step as soon as the blocks that its springs
-// reach have taken the last one. So a large scene comes from memory once in several steps.
+// One thread goes in waves: a block takes its next step as soon as the blocks that its springs and
+// triangles reach have taken the last one. So a large scene comes from memory once in several
+// steps.
 //
 //
 // 5. What a register holds
@@ -119,10 +121,10 @@
 //   order         the particle at each place
 //   plane         one coordinate of one vector, of all places                        planes.hpp
 //   block         consecutive places: what a thread does at a time                     tile.hpp
-//   reach         the most blocks between the ends of a spring
+//   reach         the most blocks between the ends of a spring or the corners of a triangle
 //   wave          steps that one thread takes block by block, not one by one           tile.hpp
 //   tile          256 of them: what the first cache holds                              tile.hpp
-//   view          what the springs of a tile read and write                            tile.hpp
+//   view          what springs and triangles of a tile read and write                      tile.hpp
 //   ends a, b     of a spring, places, a < b
 //   offset        b - a
 //   run           springs of one offset and ascending a                      sorted_springs.hpp

@@ -80,7 +80,7 @@ struct Air {
     Planes<const Scalar> x;                // m, of all places, as they are
 };
 
-/// What the springs of one tile read and write.
+/// What the springs and triangles of one tile read and write.
 template <class Scalar>
 struct TileView {
     Planes<const Scalar> x;  // m, of all places, as springs see them

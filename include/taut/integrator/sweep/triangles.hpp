@@ -15,7 +15,7 @@ namespace taut::integrator_detail::sweep {
 /// A triangle by the places of its corners.
 using PlacedTriangle = std::array<int, 3>;
 
-/// The triangles a b c and d c b by the places of their corners, which meet in the edge b c; b < c.
+/// The triangles a b c and d c b by the places of their corners, which meet in the edge b c; b ≤ c.
 /// Alone, a triangle has d = b: the second one has no area.
 struct TrianglePair {
     std::array<int, 4> corner;

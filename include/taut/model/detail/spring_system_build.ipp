@@ -150,7 +150,9 @@ void SpringSystem<Scalar, Dim, Laws...>::set_constant_force(Index i, const Vecto
         constant.conservativeResize(Dim, size());
         constant.rightCols(size() - before).setZero();
     }
+    external_.constants += (force.isZero(0) ? 0 : 1) - (constant.col(i).isZero(0) ? 0 : 1);
     constant.col(i) = force;
+    if (external_.constants == 0) constant.resize(Dim, 0);
     ++force_revision_;
 }
 
@@ -164,6 +166,8 @@ void SpringSystem<Scalar, Dim, Laws...>::set_wind(Air wind) {
     require_held<Scalar>(where, "density", wind.density);
     require_held<Scalar>(where, "drag", wind.drag);
     require_held<Scalar>(where, "lift", wind.lift);
+    require_held<Scalar>(where, "density * drag", wind.density * wind.drag);
+    require_held<Scalar>(where, "density * lift", wind.density * wind.lift);
     for (const auto& triangle : wind.triangles) {
         for (const Index corner : triangle) require_particle("set_wind", "a corner", corner);
     }
@@ -175,6 +179,7 @@ void SpringSystem<Scalar, Dim, Laws...>::set_wind(Air wind) {
 template <class Scalar, int Dim, class... Laws>
 void SpringSystem<Scalar, Dim, Laws...>::set_wind_velocity(
     const Eigen::Matrix<Scalar, 3, 1>& velocity) {
+    static_assert(Dim == 3, "taut::SpringSystem::set_wind_velocity: wind is in three dimensions");
     if (!velocity.allFinite()) fail("SpringSystem::set_wind_velocity: velocity is not finite");
     external_.wind.velocity = velocity;
     ++force_revision_;
