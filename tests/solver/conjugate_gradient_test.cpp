@@ -18,6 +18,7 @@ using taut::ConjugateGradient;
 using taut::ImplicitEuler;
 using taut::IncompleteCholesky;
 using taut::Status;
+using taut::TwoLevel;
 
 namespace {
 
@@ -51,6 +52,8 @@ void check_solves(Random& random, Scalar h) {
         CHECK(solver.iterations() > 0);
         const double residual = static_cast<double>((b - A * x).norm() / b.norm());
         CHECK(residual <= 1.01 * tolerance + Tolerance<Scalar>::rounding);
+        CHECK(std::abs(static_cast<double>(solver.error()) - residual) <=
+              Tolerance<Scalar>::rounding);
     }
     // From the solution there is nothing left to do, and a guess of no use does no harm.
     const taut::VectorX<Scalar> x = solver.solve(b);
@@ -77,6 +80,11 @@ TEST_CASE("conjugate_gradient: the residual it promises is the true one", "[solv
         check_solves<IncompleteCholesky<double, 1>, 1>(random, h);
         check_solves<BlockJacobi<double, 2>, 2>(random, h);
         check_solves<IncompleteCholesky<float, 3>, 3>(random, static_cast<float>(h));
+        check_solves<TwoLevel<double, 1>, 1>(random, h);
+        check_solves<TwoLevel<double, 2>, 2>(random, h);
+        check_solves<TwoLevel<double, 3>, 3>(random, h);
+        check_solves<TwoLevel<float, 3>, 3>(random, static_cast<float>(h));
+        check_solves<TwoLevel<long double, 2>, 2>(random, static_cast<long double>(h));
     }
 }
 
@@ -92,7 +100,7 @@ TEST_CASE("conjugate_gradient: incomplete Cholesky is exact where factors have n
     tangent.assemble(chain, chain.initial_state().x, taut::matrices::M + taut::matrices::K_plus, A);
     Random random(2);
     const Eigen::VectorXd b = random.points<double, 1>(A.rows(), -1, 1).transpose();
-    ConjugateGradient<double, 3> solver;
+    ConjugateGradient<double, 3, IncompleteCholesky<double, 3>> solver;
     solver.setTolerance(1e-9);
     solver.analyzePattern(A);
     solver.factorize(A);

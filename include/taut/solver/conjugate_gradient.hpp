@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "preconditioner.hpp"
+#include "two_level.hpp"
 
 namespace taut {
 
@@ -10,11 +10,12 @@ namespace taut {
 /// (M. R. Hestenes, E. Stiefel, 1952): no factorisation, memory linear in springs, and a start from
 /// the last solution where the caller has one.
 ///
-/// Stops when ‖b − A x‖ ≤ tolerance·‖b‖. A direction p with pᵀAp ≤ 0 shows an indefinite matrix and
-/// is reported as Eigen::NumericalIssue; the cap of iterations as Eigen::NoConvergence.
+/// Stops when ‖b − A x‖ ≤ tolerance·‖b‖, or where rounding leaves it above: error() is the true
+/// one. A direction p with pᵀAp ≤ 0 shows an indefinite matrix and is reported as
+/// Eigen::NumericalIssue; the cap of iterations as Eigen::NoConvergence.
 /// @tparam Dim             the matrix consists of full Dim × Dim blocks; 1 fits every matrix
-/// @tparam Preconditioner  BlockJacobi or IncompleteCholesky
-template <class Scalar_, int Dim, class Preconditioner = IncompleteCholesky<Scalar_, Dim>>
+/// @tparam Preconditioner  TwoLevel, BlockJacobi or IncompleteCholesky
+template <class Scalar_, int Dim, class Preconditioner = TwoLevel<Scalar_, Dim>>
 class ConjugateGradient {
 public:
     using Scalar = Scalar_;
@@ -41,7 +42,7 @@ public:
     }
     /// Of the last solve.
     Index iterations() const { return iterations_; }
-    /// ‖b − A x‖/‖b‖ after the last solve, as its recurrence has it.
+    /// ‖b − A x‖/‖b‖ after the last solve, of the x that it returned.
     Scalar error() const { return error_; }
     /// Of the last factorize() or solve().
     Eigen::ComputationInfo info() const { return info_; }
@@ -61,16 +62,23 @@ public:
     /// The solution of A x = b, started from 0; kept until the next solve.
     const Vector& solve(const Vector& b) const {
         x_.setZero();
-        return iterate(b);
+        return solve_from_x(b);
     }
     /// Starts from `guess`, unless its residual is not finite or above 10‖b‖.
     const Vector& solveWithGuess(const Vector& b, const Vector& guess) const {
         if (&guess != &x_) x_ = guess;
-        return iterate(b);
+        return solve_from_x(b);
     }
 
 private:
-    const Vector& iterate(const Vector& b) const;
+    const Vector& solve_from_x(const Vector& b) const;
+    void iterate(Scalar norm) const;
+    /// r_ ← b − A x_
+    void set_residual(const Vector& b, Scalar norm) const {
+        A_.multiply(x_, q_);
+        r_ = b - q_;
+        error_ = r_.norm() / norm;
+    }
 
     solver_detail::BlockMatrix<Scalar, Dim> A_;
     bool factorized_ = false;
@@ -85,7 +93,7 @@ private:
 };
 
 template <class Scalar_, int Dim, class Preconditioner>
-auto ConjugateGradient<Scalar_, Dim, Preconditioner>::iterate(const Vector& b) const
+auto ConjugateGradient<Scalar_, Dim, Preconditioner>::solve_from_x(const Vector& b) const
     -> const Vector& {
     iterations_ = 0;
     error_ = 0;
@@ -96,36 +104,45 @@ auto ConjugateGradient<Scalar_, Dim, Preconditioner>::iterate(const Vector& b) c
         x_.setZero();
         return x_;
     }
-    A_.multiply(x_, q_);
-    r_ = b - q_;
-    error_ = r_.norm() / norm;
-    // A last Δv of a cloth that turns leaves a residual above ‖b‖, and yet saves a third of the
-    // iterations: what it leaves is stiff, and the first ones remove it.
+    set_residual(b, norm);
+    // A last Δv of a cloth that turns leaves a residual above ‖b‖, and yet saves iterations: what
+    // it leaves is stiff, and the first ones remove it.
     if (!(error_ <= 10)) {
         x_.setZero();
         r_ = b;
-        error_ = 1;
+        error_ = r_.norm() / norm;
     }
-    const Index cap = max_iterations_ > 0 ? max_iterations_ : 2 * b.size();
-    Scalar rz = 0;
+    // The residual of the recurrence drifts from the true one by rounding.
+    for (Scalar before = 2 * error_; !(error_ <= tolerance_) && !(2 * error_ > before);) {
+        before = error_;
+        iterate(norm);
+        if (info_ != Eigen::Success) break;
+        set_residual(b, norm);
+        if (!std::isfinite(error_)) info_ = Eigen::NumericalIssue;
+    }
+    return x_;
+}
+
+/// Conjugate gradients from x_ and its residual r_ until the recurrence has r_ below the tolerance.
+template <class Scalar_, int Dim, class Preconditioner>
+void ConjugateGradient<Scalar_, Dim, Preconditioner>::iterate(Scalar norm) const {
+    const Index cap = max_iterations_ > 0 ? max_iterations_ : 2 * r_.size();
+    p_.setZero();
+    Scalar rz = 1;
     while (!(error_ <= tolerance_)) {  // a NaN goes on to the checks below
         preconditioner_.apply(A_, r_, z_);
         const Scalar next = r_.dot(z_);
-        if (iterations_ == 0) {
-            p_ = z_;
-        } else {
-            p_ = z_ + (next / rz) * p_;
-        }
+        p_ = z_ + (next / rz) * p_;
         rz = next;
         A_.multiply(p_, q_);
         const Scalar curvature = p_.dot(q_);
         if (!(curvature > 0) || !std::isfinite(curvature)) {
             info_ = Eigen::NumericalIssue;
-            break;
+            return;
         }
         if (iterations_ == cap) {
             info_ = Eigen::NoConvergence;
-            break;
+            return;
         }
         const Scalar step = rz / curvature;
         x_ += step * p_;
@@ -133,7 +150,6 @@ auto ConjugateGradient<Scalar_, Dim, Preconditioner>::iterate(const Vector& b) c
         error_ = r_.norm() / norm;
         ++iterations_;
     }
-    return x_;
 }
 
 }  // namespace taut

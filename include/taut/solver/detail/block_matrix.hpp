@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "../../core/error.hpp"
@@ -37,13 +38,15 @@ public:
     /// it.
     /// @param x  Dim · rows() scalars
     Segment product(int begin, int end, const Scalar* x) const {
-        Lane sum = Lane::Zero();
+        std::array<Lane, Dim> sum;  // several, since each addition to a sum waits for the last
+        sum.fill(Lane::Zero());
         for (int k = begin; k < end; ++k) {
             const Scalar* a = values_.data() + Dim * Dim * k;
             const Scalar* xk = x + Dim * columns_[k];
-            for (int c = 0; c < Dim; ++c) sum += Eigen::Map<const Lane>(a + Dim * c) * xk[c];
+            for (int c = 0; c < Dim; ++c) sum[c] += Eigen::Map<const Lane>(a + Dim * c) * xk[c];
         }
-        return sum.template head<Dim>().matrix();
+        for (int c = 1; c < Dim; ++c) sum[0] += sum[c];
+        return sum[0].template head<Dim>().matrix();
     }
     /// y ← A x.
     void multiply(const VectorX<Scalar>& x, VectorX<Scalar>& y) const {
