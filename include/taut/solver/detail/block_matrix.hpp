@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -22,6 +23,30 @@ public:
     void set_pattern(const SparseMatrix<Scalar>& A);
     /// Reads the values of A, whose pattern is known.
     void set_values(const SparseMatrix<Scalar>& A);
+
+    /// Takes the pattern of `other`.
+    template <class Other>
+    void copy_pattern(const BlockMatrix<Other, Dim>& other) {
+        first_ = other.first_;
+        columns_ = other.columns_;
+        diagonal_ = other.diagonal_;
+        values_.assign(other.values_.size(), Scalar(0));
+    }
+    /// Takes factor · the values of `other`, which has the same pattern, rounded.
+    template <class Other>
+    void copy_values(const BlockMatrix<Other, Dim>& other, Other factor) {
+        for (std::size_t i = 0; i < values_.size(); ++i) {
+            values_[i] = static_cast<Scalar>(factor * other.values_[i]);
+        }
+    }
+    /// The largest entry on the diagonal, in a positive definite matrix the largest of all.
+    Scalar largest_diagonal() const {
+        Scalar largest = 0;
+        for (Index i = 0; i < rows(); ++i) {
+            largest = std::max(largest, block(diagonal(i)).diagonal().maxCoeff());
+        }
+        return largest;
+    }
 
     /// The number of block rows.
     Index rows() const { return static_cast<Index>(diagonal_.size()); }
@@ -56,6 +81,8 @@ public:
     }
 
 private:
+    template <class, int>
+    friend class BlockMatrix;
     // Three numbers travel in a register of four; what the fourth reads is never used.
     using Lane = Eigen::Array<Scalar, Dim == 3 ? 4 : Dim, 1>;
 
