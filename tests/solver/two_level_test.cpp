@@ -238,6 +238,11 @@ TEST_CASE("two_level: stiffness far beyond masses does not pass for an indefinit
         const VectorX<double> x = solver.solve(b);
         CHECK(solver.info() == Eigen::Success);
         CHECK(x.allFinite());
+        TwoLevel<float, 1> rounded;
+        const SparseMatrix<float> near = A.cast<float>();
+        const auto blocks = blocks_of<float, 1>(near);
+        rounded.analyze(blocks);
+        CHECK(rounded.factorize(blocks));
     }
 }
 
