@@ -175,13 +175,13 @@ TEST_CASE("two_level: z is the sum of both corrections", "[solver]") {
 TEST_CASE("two_level: iterations hardly grow with a stiff cloth, and block Jacobi's do",
           "[solver]") {
     Index last = 0;
-    for (const Index n : {20, 30, 40}) {
+    for (const Index n : {18, 28}) {
         const auto cloth = taut::hanging_cloth<double>({n, n});
         const auto A = step_matrix(cloth, cloth.initial_state(), 0.1);
         Random random(1);
         const VectorX<double> b = random.points<double, 1>(A.rows(), -1, 1).transpose();
         const auto iterations = [&](auto&& solver) {
-            solver.setTolerance(1e-6);
+            solver.setTolerance(1e-4);
             solver.analyzePattern(A);
             solver.factorize(A);
             solver.solve(b);
