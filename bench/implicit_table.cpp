@@ -2,19 +2,21 @@
 // SPDX-License-Identifier: MIT
 
 // Implicit steps of h = 1/60 s on the hanging cloth, beside what one would write with Eigen and
-// CHOLMOD alone: time and outcome. Prints Markdown; times are CPU ms of this process, so run it
-// with OPENBLAS_NUM_THREADS=1.
+// CHOLMOD alone, and what conjugate gradients cost: time and outcome. Prints Markdown; times are
+// CPU ms of this process, so run it with OPENBLAS_NUM_THREADS=1.
 
 #include <Eigen/CholmodSupport>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
+#include <string>
 #include <taut/integrator/projective_dynamics.hpp>
 #include <taut/solver/cholmod.hpp>
 #include <taut/solver/conjugate_gradient.hpp>
 #include <taut/taut.hpp>
 #include <vector>
 
+#include "../examples/common/mesh_file.hpp"
 #include "measure.hpp"
 #include "outcome.hpp"
 #include "triplet_step.hpp"
@@ -29,6 +31,7 @@ using State = Cloth::State;
 using Sparse = taut::SparseMatrix<double>;
 using Gradients = taut::ConjugateGradient<double, 3>;
 using JacobiGradients = taut::ConjugateGradient<double, 3, taut::BlockJacobi<double, 3>>;
+using CholeskyGradients = taut::ConjugateGradient<double, 3, taut::IncompleteCholesky<double, 3>>;
 using Projective = taut::ProjectiveDynamics<Cloth>;
 
 constexpr double h = 1.0 / 60;
@@ -63,13 +66,17 @@ auto by(Stepper& stepper) {
     return [&stepper](State& state) { return static_cast<bool>(stepper.step(state, h)); };
 }
 
-void steps(const std::vector<Index>& sizes) {
-    for (const Index n : sizes) {
-        const Cloth cloth = taut::hanging_cloth<double>({n, n});
+struct Scene {
+    std::string name;
+    Cloth cloth;
+};
+
+void steps(const std::vector<Scene>& scenes) {
+    for (const auto& [name, cloth] : scenes) {
         std::printf(
-            "## hanging_cloth %lld, a second of free swing in steps of 1/60 s\n\n"
+            "## %s, a second of free swing in steps of 1/60 s\n\n"
             "| step | ms: min | median | steps | %s |\n|---|---|---|---|---|---|---|\n",
-            static_cast<long long>(n), bench::Outcome::columns);
+            name.c_str(), bench::Outcome::columns);
         row("Eigen: triplets, LDLT.compute, plain K", cloth, bench::TripletStep(cloth, h, false));
         row("Eigen: triplets, LDLT.compute, K⁺", cloth, bench::TripletStep(cloth, h, true));
         taut::ImplicitEuler<Cloth, Eigen::SimplicialLDLT<Sparse>> ldlt(cloth);
@@ -92,6 +99,58 @@ void steps(const std::vector<Index>& sizes) {
         row("ProjectiveDynamics, 10 iterations", cloth, by(fast));
         std::printf("\n");
     }
+}
+
+/// A second of free swing: what a step costs, by each preconditioner.
+void gradients_table(const std::vector<Scene>& scenes) {
+    std::printf(
+        "## Conjugate gradients to 1e-3, a second of free swing in steps of 1/60 s\n\n"
+        "| scene | preconditioner | iterations a step | step, ms: min (median) | assembly "
+        "| SimplicialLDLT factorise + solve | ratio |\n|---|---|---|---|---|---|---|\n");
+    for (const auto& [name, cloth] : scenes) {
+        const taut::TangentMatrix<double, 3> tangent(cloth);
+        Sparse A = tangent.zero();
+        Stopwatch assembly(clock_used), by_ldlt(clock_used);
+        State state = cloth.initial_state();
+        Eigen::SimplicialLDLT<Sparse> ldlt;
+        ldlt.analyzePattern(A);
+        const Eigen::VectorXd b = Eigen::VectorXd::Ones(A.rows());
+        Eigen::VectorXd x;
+        const double start = bench::now(clock_used);
+        for (int k = 0; k < 5 && bench::now(clock_used) - start < 1e3 * budget; ++k) {
+            assembly.run([&] {
+                tangent.assemble(
+                    cloth, state.x,
+                    taut::matrices::M + h * taut::matrices::D + h * h * taut::matrices::K_plus, A);
+            });
+            by_ldlt.run([&] {
+                ldlt.factorize(A);
+                x = ldlt.solve(b);
+            });
+        }
+        const Times direct = by_ldlt.times();
+        const auto by_gradients = [&](const char* preconditioner, auto&& stepper) {
+            state = cloth.initial_state();
+            Stopwatch watch(clock_used);
+            Index iterations = 0;
+            for (int k = 0; k < 60; ++k) {
+                bool good = true;
+                watch.run([&] { good = bool(stepper.step(state, h)); });
+                if (!good) return;
+                iterations += stepper.solver().iterations();
+            }
+            const Times times = watch.times();
+            std::printf("| %s | %s | %.1f | %.2f (%.2f) | %.2f | %.1f (%.1f) | %.3f (%.3f) |\n",
+                        name.c_str(), preconditioner, static_cast<double>(iterations) / 60,
+                        times.least, times.median, assembly.times().median, direct.least,
+                        direct.median, times.least / direct.least, times.median / direct.median);
+            std::fflush(stdout);
+        };
+        by_gradients("TwoLevel", taut::ImplicitEuler<Cloth, Gradients>(cloth));
+        by_gradients("IncompleteCholesky", taut::ImplicitEuler<Cloth, CholeskyGradients>(cloth));
+        by_gradients("BlockJacobi", taut::ImplicitEuler<Cloth, JacobiGradients>(cloth));
+    }
+    std::printf("\n");
 }
 
 /// The same poses for all: each way solves the step from every pose of one trajectory.
@@ -147,6 +206,7 @@ void ratios() {
         std::printf("| %s | %.2f (%.2f) | %.2f (%.2f) | %.3f (%.3f) |\n", what, ours.least,
                     ours.median, theirs.least, theirs.median, ours.least / theirs.least,
                     ours.median / theirs.median);
+        std::fflush(stdout);
     };
     std::printf(
         "## Ratios in one run, hanging_cloth 100, poses of one trajectory\n\n"
@@ -222,17 +282,38 @@ void projective() {
         std::printf("| window %d | %.2f (%.2f) | %.2f (%.2f) | %.3f (%.3f) |\n", window, least,
                     median, theirs.least, theirs.median, least / theirs.least,
                     median / theirs.median);
+        std::fflush(stdout);
     }
     std::printf("\n");
 }
 
 }  // namespace
 
-/// Arguments: sizes of the cloth; 32 64 100 200 if there are none.
+/// Arguments: sizes of the cloth, 32 64 100 200 if there are none, and an OBJ file.
 int main(int argc, char** argv) {
+    std::vector<Scene> scenes;
+    const char* mesh = nullptr;
     std::vector<Index> sizes;
-    for (int i = 1; i < argc; ++i) sizes.push_back(std::atoi(argv[i]));
+    for (int i = 1; i < argc; ++i) {
+        if (const int size = std::atoi(argv[i]); size > 0) {
+            sizes.push_back(size);
+        } else {
+            mesh = argv[i];
+        }
+    }
+    for (const Index n : sizes.empty() ? std::vector<Index>{32, 64, 100, 200} : sizes) {
+        scenes.push_back(
+            {"hanging_cloth " + std::to_string(n), taut::hanging_cloth<double>({n, n})});
+    }
+    if (mesh != nullptr) {
+        const auto file = example::read_obj(mesh);
+        scenes.push_back(
+            {"mesh", taut::springs_from_mesh<double>(file.vertices, file.faces).system});
+        scenes.back().cloth.set_gravity({0, 0, -9.81});
+        scenes.back().cloth.pin(0);
+    }
     ratios();
+    gradients_table(scenes);
     projective();
-    steps(sizes.empty() ? std::vector<Index>{32, 64, 100, 200} : sizes);
+    steps(scenes);
 }

@@ -45,9 +45,9 @@
 
 #define TAUT_COMPILED_SOLVERS(KIND, SCALAR)                        \
     KIND class InterleavedLLT<SCALAR>;                             \
-    KIND class IncompleteCholesky<SCALAR, 1>;                      \
-    KIND class IncompleteCholesky<SCALAR, 2>;                      \
-    KIND class IncompleteCholesky<SCALAR, 3>;                      \
+    KIND class TwoLevel<SCALAR, 1>;                                \
+    KIND class TwoLevel<SCALAR, 2>;                                \
+    KIND class TwoLevel<SCALAR, 3>;                                \
     KIND class ConjugateGradient<SCALAR, 1>;                       \
     KIND class ConjugateGradient<SCALAR, 2>;                       \
     KIND class ConjugateGradient<SCALAR, 3>;                       \

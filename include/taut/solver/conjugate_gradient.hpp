@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "preconditioner.hpp"
+#include <algorithm>
+#include <type_traits>
+
+#include "detail/gradient_cycle.hpp"
+#include "two_level.hpp"
 
 namespace taut {
 
@@ -10,11 +14,16 @@ namespace taut {
 /// (M. R. Hestenes, E. Stiefel, 1952): no factorisation, memory linear in springs, and a start from
 /// the last solution where the caller has one.
 ///
-/// Stops when ‖b − A x‖ ≤ tolerance·‖b‖. A direction p with pᵀAp ≤ 0 shows an indefinite matrix and
-/// is reported as Eigen::NumericalIssue; the cap of iterations as Eigen::NoConvergence.
+/// In double the iterations run in float, on the residual in double of what they have reached
+/// (iterative refinement: J. H. Wilkinson, "Rounding errors in algebraic processes", 1963), as long
+/// as that helps.
+///
+/// Stops when ‖b − A x‖ ≤ tolerance·‖b‖, or where rounding leaves it above: error() is the true
+/// one. A direction p with pᵀAp ≤ 0 shows an indefinite matrix and is reported as
+/// Eigen::NumericalIssue; the cap of iterations as Eigen::NoConvergence.
 /// @tparam Dim             the matrix consists of full Dim × Dim blocks; 1 fits every matrix
-/// @tparam Preconditioner  BlockJacobi or IncompleteCholesky
-template <class Scalar_, int Dim, class Preconditioner = IncompleteCholesky<Scalar_, Dim>>
+/// @tparam Preconditioner  TwoLevel, BlockJacobi or IncompleteCholesky
+template <class Scalar_, int Dim, class Preconditioner = TwoLevel<Scalar_, Dim>>
 class ConjugateGradient {
 public:
     using Scalar = Scalar_;
@@ -31,7 +40,7 @@ public:
     }
     /// 1e-3 unless set.
     Scalar tolerance() const { return tolerance_; }
-    /// @param iterations  cap of one solve, ≥ 1; by default twice the number of unknowns
+    /// @param iterations  cap of one solve, ≥ 1; by default four times the number of unknowns
     void setMaxIterations(Index iterations) {
         if (iterations < 1) {
             fail("ConjugateGradient::setMaxIterations: iterations is ", iterations,
@@ -41,7 +50,7 @@ public:
     }
     /// Of the last solve.
     Index iterations() const { return iterations_; }
-    /// ‖b − A x‖/‖b‖ after the last solve, as its recurrence has it.
+    /// ‖b − A x‖/‖b‖ after the last solve, of the x that it returned.
     Scalar error() const { return error_; }
     /// Of the last factorize() or solve().
     Eigen::ComputationInfo info() const { return info_; }
@@ -49,91 +58,146 @@ public:
     /// Fails unless the pattern has full Dim × Dim blocks, diagonal ones included.
     void analyzePattern(const SparseMatrix<Scalar>& A) {
         A_.set_pattern(A);
-        preconditioner_.analyze(A_);
-        for (Vector* v : {&x_, &r_, &z_, &p_, &q_}) v->setZero(A.rows());
+        x_.setZero(A.rows());
+        r_.setZero(A.rows());
+        analyzed_ = false;
+        if constexpr (mixed) {
+            rounded_.copy_pattern(A_);
+            fast_.analyze(rounded_);
+        }
     }
-    /// Copies the values of A and makes the preconditioner; cost: one pass over A or two.
+    /// Copies the values of A and makes the preconditioner; cost: a few passes over A.
     void factorize(const SparseMatrix<Scalar>& A) {
         A_.set_values(A);
-        factorized_ = preconditioner_.factorize(A_);
-        info_ = factorized_ ? Eigen::Success : Eigen::NumericalIssue;
+        fast_usable_ = factorized_ = false;
+        if constexpr (mixed) {
+            // With no entry above 1 only what is far below all others leaves the range of Fast.
+            scale_ = 1 / A_.largest_diagonal();
+            rounded_.copy_values(A_, scale_);
+            fast_usable_ = fast_.preconditioner.factorize(rounded_);
+        }
+        info_ = fast_usable_ || factorize_exactly() ? Eigen::Success : Eigen::NumericalIssue;
     }
     /// The solution of A x = b, started from 0; kept until the next solve.
     const Vector& solve(const Vector& b) const {
         x_.setZero();
-        return iterate(b);
+        return solve_from_x(b);
     }
     /// Starts from `guess`, unless its residual is not finite or above 10‖b‖.
     const Vector& solveWithGuess(const Vector& b, const Vector& guess) const {
         if (&guess != &x_) x_ = guess;
-        return iterate(b);
+        return solve_from_x(b);
     }
 
 private:
-    const Vector& iterate(const Vector& b) const;
+    // An iteration waits for memory, which this halves.
+    using Fast = std::conditional_t<std::is_same_v<Scalar, double>, float, Scalar>;
+    static constexpr bool mixed = !std::is_same_v<Fast, Scalar>;
+    using FastPreconditioner = typename solver_detail::Rebind<Preconditioner, Fast>::Type;
+
+    bool factorize_exactly() const;
+    const Vector& solve_from_x(const Vector& b) const;
+    void improve_fast(const Vector& b, Scalar norm, Index cap) const;
+    /// r_ ← b − A x_
+    void set_residual(const Vector& b, Scalar norm) const {
+        A_.multiply(x_, r_);
+        r_ = b - r_;
+        error_ = r_.norm() / norm;
+    }
 
     solver_detail::BlockMatrix<Scalar, Dim> A_;
-    bool factorized_ = false;
+    solver_detail::BlockMatrix<Fast, Dim> rounded_;  // scale_ · A where mixed
+    Scalar scale_ = 1;
     Scalar tolerance_ = Scalar(1e-3);
-    Index max_iterations_ = 0;  // 0: twice the number of unknowns
+    Index max_iterations_ = 0;  // 0: four times the number of unknowns
     // solve() is const, as in Eigen's solvers.
-    mutable Preconditioner preconditioner_;
-    mutable Vector x_, r_, z_, p_, q_;  // N: solution, residual, P⁻¹r, direction, A p
+    mutable solver_detail::GradientCycle<Fast, Dim, FastPreconditioner> fast_;
+    mutable solver_detail::GradientCycle<Scalar, Dim, Preconditioner> exact_;
+    mutable bool fast_usable_ = false;  // for these values
+    mutable bool analyzed_ = false;     // whether exact_ knows the pattern
+    mutable bool factorized_ = false;   // and the values
+    mutable Vector x_, r_;              // N: solution, residual
     mutable Index iterations_ = 0;
     mutable Scalar error_ = 0;
     mutable Eigen::ComputationInfo info_ = Eigen::InvalidInput;
 };
 
+/// Makes exact_ ready, unless it is. @returns whether that succeeds
 template <class Scalar_, int Dim, class Preconditioner>
-auto ConjugateGradient<Scalar_, Dim, Preconditioner>::iterate(const Vector& b) const
+bool ConjugateGradient<Scalar_, Dim, Preconditioner>::factorize_exactly() const {
+    if (!analyzed_) exact_.analyze(A_);
+    analyzed_ = true;
+    if (!factorized_) factorized_ = exact_.preconditioner.factorize(A_);
+    return factorized_;
+}
+
+template <class Scalar_, int Dim, class Preconditioner>
+auto ConjugateGradient<Scalar_, Dim, Preconditioner>::solve_from_x(const Vector& b) const
     -> const Vector& {
     iterations_ = 0;
     error_ = 0;
-    if (!factorized_) return x_;
+    if (!fast_usable_ && !factorized_) return x_;
     const Scalar norm = b.norm();
     info_ = Eigen::Success;
     if (norm == 0) {
         x_.setZero();
         return x_;
     }
-    A_.multiply(x_, q_);
-    r_ = b - q_;
-    error_ = r_.norm() / norm;
-    // A last Δv of a cloth that turns leaves a residual above ‖b‖, and yet saves a third of the
-    // iterations: what it leaves is stiff, and the first ones remove it.
+    set_residual(b, norm);
+    // A last Δv of a cloth that turns leaves a residual above ‖b‖, and yet saves iterations: what
+    // it leaves is stiff, and the first ones remove it.
     if (!(error_ <= 10)) {
         x_.setZero();
         r_ = b;
-        error_ = 1;
+        error_ = r_.norm() / norm;
     }
-    const Index cap = max_iterations_ > 0 ? max_iterations_ : 2 * b.size();
-    Scalar rz = 0;
-    while (!(error_ <= tolerance_)) {  // a NaN goes on to the checks below
-        preconditioner_.apply(A_, r_, z_);
-        const Scalar next = r_.dot(z_);
-        if (iterations_ == 0) {
-            p_ = z_;
-        } else {
-            p_ = z_ + (next / rz) * p_;
+    const Index cap = max_iterations_ > 0 ? max_iterations_ : 4 * b.size();
+    while (!(error_ <= tolerance_)) {
+        if (fast_usable_) {
+            improve_fast(b, norm, cap);
+            continue;
         }
-        rz = next;
-        A_.multiply(p_, q_);
-        const Scalar curvature = p_.dot(q_);
-        if (!(curvature > 0) || !std::isfinite(curvature)) {
+        if (!factorize_exactly()) {
             info_ = Eigen::NumericalIssue;
             break;
         }
-        if (iterations_ == cap) {
-            info_ = Eigen::NoConvergence;
-            break;
-        }
-        const Scalar step = rz / curvature;
-        x_ += step * p_;
-        r_ -= step * q_;
-        error_ = r_.norm() / norm;
-        ++iterations_;
+        const Scalar before = error_;
+        exact_.r = r_;
+        info_ = exact_.run(A_, tolerance_ * norm, cap, iterations_);
+        x_ += exact_.x;
+        set_residual(b, norm);
+        if (!std::isfinite(error_)) info_ = Eigen::NumericalIssue;
+        // The residual of the recurrence drifts from the true one by rounding. Once more helps,
+        // unless the true one is nothing but rounding.
+        if (info_ != Eigen::Success || !(2 * error_ <= before)) break;
     }
     return x_;
+}
+
+/// x_ ← x_ + A⁻¹ r_ as far as Fast has it, and whether Fast is of use any more.
+template <class Scalar_, int Dim, class Preconditioner>
+void ConjugateGradient<Scalar_, Dim, Preconditioner>::improve_fast(const Vector& b, Scalar norm,
+                                                                   Index cap) const {
+    if constexpr (mixed) {
+        const Scalar before = error_;
+        const Scalar size = r_.norm();
+        fast_.r = (r_ / size).template cast<Fast>();
+        // A little more than is asked for, in place of a second cycle; but not so much that the
+        // recurrence has drifted away. On some matrices it never comes down.
+        const Scalar goal = std::max(Scalar(0.9) * tolerance_ * norm / size, Scalar(1e-5));
+        const Index most = iterations_ + std::clamp(cap / 4, Index(1), Index(500));
+        fast_usable_ = fast_.run(rounded_, static_cast<Fast>(goal), std::min(cap, most),
+                                 iterations_) != Eigen::NumericalIssue;
+        if (!fast_usable_) return;
+        x_ += (size * scale_) * fast_.x.template cast<Scalar>();
+        set_residual(b, norm);
+        fast_usable_ = error_ <= tolerance_ || 10 * error_ <= before;
+        if (!(error_ <= before)) {
+            x_.setZero();
+            r_ = b;
+            error_ = r_.norm() / norm;
+        }
+    }
 }
 
 }  // namespace taut

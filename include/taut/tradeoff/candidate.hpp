@@ -18,7 +18,7 @@ namespace taut {
 /// How an implicit step solves its linear system.
 enum class LinearSolver {
     direct,             ///< sparse Cholesky (Eigen::SimplicialLLT, particles ordered)
-    conjugate_gradient  ///< ConjugateGradient with incomplete Cholesky
+    conjugate_gradient  ///< ConjugateGradient with its default, TwoLevel
 };
 
 /// One way to advance a scene.

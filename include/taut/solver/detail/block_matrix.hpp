@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <vector>
 
 #include "../../core/error.hpp"
@@ -22,6 +24,30 @@ public:
     /// Reads the values of A, whose pattern is known.
     void set_values(const SparseMatrix<Scalar>& A);
 
+    /// Takes the pattern of `other`.
+    template <class Other>
+    void copy_pattern(const BlockMatrix<Other, Dim>& other) {
+        first_ = other.first_;
+        columns_ = other.columns_;
+        diagonal_ = other.diagonal_;
+        values_.assign(other.values_.size(), Scalar(0));
+    }
+    /// Takes factor · the values of `other`, which has the same pattern, rounded.
+    template <class Other>
+    void copy_values(const BlockMatrix<Other, Dim>& other, Other factor) {
+        for (std::size_t i = 0; i < values_.size(); ++i) {
+            values_[i] = static_cast<Scalar>(factor * other.values_[i]);
+        }
+    }
+    /// The largest entry on the diagonal, in a positive definite matrix the largest of all.
+    Scalar largest_diagonal() const {
+        Scalar largest = 0;
+        for (Index i = 0; i < rows(); ++i) {
+            largest = std::max(largest, block(diagonal(i)).diagonal().maxCoeff());
+        }
+        return largest;
+    }
+
     /// The number of block rows.
     Index rows() const { return static_cast<Index>(diagonal_.size()); }
     int begin(Index row) const { return first_[row]; }
@@ -37,13 +63,15 @@ public:
     /// it.
     /// @param x  Dim · rows() scalars
     Segment product(int begin, int end, const Scalar* x) const {
-        Lane sum = Lane::Zero();
+        std::array<Lane, Dim> sum;  // several, since each addition to a sum waits for the last
+        sum.fill(Lane::Zero());
         for (int k = begin; k < end; ++k) {
             const Scalar* a = values_.data() + Dim * Dim * k;
             const Scalar* xk = x + Dim * columns_[k];
-            for (int c = 0; c < Dim; ++c) sum += Eigen::Map<const Lane>(a + Dim * c) * xk[c];
+            for (int c = 0; c < Dim; ++c) sum[c] += Eigen::Map<const Lane>(a + Dim * c) * xk[c];
         }
-        return sum.template head<Dim>().matrix();
+        for (int c = 1; c < Dim; ++c) sum[0] += sum[c];
+        return sum[0].template head<Dim>().matrix();
     }
     /// y ← A x.
     void multiply(const VectorX<Scalar>& x, VectorX<Scalar>& y) const {
@@ -53,6 +81,8 @@ public:
     }
 
 private:
+    template <class, int>
+    friend class BlockMatrix;
     // Three numbers travel in a register of four; what the fourth reads is never used.
     using Lane = Eigen::Array<Scalar, Dim == 3 ? 4 : Dim, 1>;
 
