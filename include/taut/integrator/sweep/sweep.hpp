@@ -122,7 +122,7 @@
 //   plane         one coordinate of one vector, of all places                        planes.hpp
 //   block         consecutive places: what a thread does at a time                     tile.hpp
 //   reach         the most blocks between the ends of a spring or the corners of a triangle
-//   wave          steps that one thread takes block by block, not one by one           tile.hpp
+//   wave          steps that are taken block by block, not one by one                 waves.hpp
 //   tile          256 of them: what the first cache holds                              tile.hpp
 //   view          what springs and triangles of a tile read and write                      tile.hpp
 //   ends a, b     of a spring, places, a < b
@@ -161,6 +161,7 @@
 #include "force_plan.hpp"
 #include "outside.hpp"
 #include "place_update.hpp"
+#include "waves.hpp"
 
 #ifdef _OPENMP
 #include <omp.h>
@@ -331,7 +332,7 @@ void Sweep<System>::some_steps(Scalar h, Index count, int threads, const Update&
     const Index scratch_size = 3 * Dim * scratch_stride;
     if (scratch_.size() < threads * scratch_size) scratch_.setZero(threads * scratch_size);
     in_step_ = true;
-    const auto visit = [&](int thread, Index step, int block) {
+    const auto step_of = [&](int thread, Index step, int block) {
         StatePlanes<Scalar> planes = state_.planes();
         if (step % 2 == 1) planes.swap();
         Scalar* scratch = scratch_.data() + thread * scratch_size;
@@ -341,18 +342,21 @@ void Sweep<System>::some_steps(Scalar h, Index count, int threads, const Update&
             step_block<Pins, Drag, false>(planes, block, h, scratch, update);
         }
     };
+    const auto work = [&](int thread, int workers, const auto& wait) {
+        const Waves waves(blocks, plan_.reach(), workers);
+        waves.run(
+            thread, count, [&](Index step, int block) { step_of(thread, step, block); }, wait);
+    };
 #ifdef _OPENMP
     if (threads > 1) {
 #pragma omp parallel num_threads(threads)
-        for (Index step = 0; step < count; ++step) {
-#pragma omp for schedule(static)
-            for (int block = 0; block < blocks; ++block) visit(omp_get_thread_num(), step, block);
-        }
+        work(omp_get_thread_num(), omp_get_num_threads(), [] {
+#pragma omp barrier
+        });
     } else
 #endif
     {
-        for_each_in_waves(blocks, plan_.reach(), count,
-                          [&](Index step, int block) { visit(0, step, block); });
+        work(0, 1, [] {});
     }
     in_step_ = false;
     if (count % 2 == 1) state_.swap();

@@ -53,25 +53,6 @@ private:
     int size_ = most_of_block;
 };
 
-/// Most steps in a wave.
-inline constexpr int steps_of_wave = 8;
-
-/// visit(step, block) for all steps of all blocks on one thread, in waves: a block takes a step as
-/// soon as all blocks within `reach` have taken the one before. So a few blocks stay in the cache
-/// for several steps. Neither order nor values of a block's sums change.
-template <class Visitor>
-void for_each_in_waves(int blocks, int reach, Index steps, Visitor&& visit) {
-    for (Index first = 0; first < steps; first += steps_of_wave) {
-        const int here = static_cast<int>(std::min<Index>(steps_of_wave, steps - first));
-        for (int front = 0; front < blocks + (here - 1) * reach; ++front) {
-            for (int step = 0; step < here; ++step) {
-                const int block = front - step * reach;
-                if (block >= 0 && block < blocks) visit(first + step, block);
-            }
-        }
-    }
-}
-
 /// The air of a Wind, as a step needs it.
 template <class Scalar>
 struct Air {
