@@ -137,7 +137,8 @@ public:
     template <class Air = Wind<Scalar>>
     void set_wind(Air wind);
     /// Of the wind that there is, as in a gust; no plan is made anew. @param velocity  m/s, finite
-    void set_wind_velocity(const Eigen::Matrix<Scalar, 3, 1>& velocity);
+    template <class Velocity = Eigen::Matrix<Scalar, 3, 1>>
+    void set_wind_velocity(const Velocity& velocity);
 
     // ---- queries ----
 

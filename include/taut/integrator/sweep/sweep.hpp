@@ -92,7 +92,7 @@
 //
 // Scattered springs come in batches, each of which touches few places. Those are gathered, copied
 // to where one load finds all coordinates; coefficients are computed by whole registers, and forces
-// are summed for each copy and added to the block at the end. Where most springs are scattered,
+// are summed for each copy and added to the block at the end. Where too many are scattered,
 // particles get an order that brings ends together before runs are sought again.
 //
 //
@@ -105,14 +105,14 @@
 //           tip                            .  .  .  .     a lane each; four forces
 //                                          .  .  .  .
 //
-// Where most springs are scattered even in that order, as in a garment, all of them are in stars
-// and none in runs or batches; in one dimension there are none. A star is four springs with one end
-// in common. There is one plane, of points, in which a place's vector lies in one piece. Either end
-// of a spring may be its hub, so places hand springs to later ones until nearly all are the hub of
-// a multiple of four; what is missing is filled with gaps, from the hub to itself. A star that
-// reaches into another block is outer: it goes with the first tile of each of its blocks, and
-// forces on other blocks go behind the block's last place. The others go with a tile that none of
-// their places comes before, in the order of hubs. Registers are no wider than 32 bytes here.
+// Where too many springs are scattered even in that order, as in a garment, all of them are in
+// stars and none in runs or batches; in one dimension there are none. A star is four springs with
+// one end in common. There is one plane, of points, in which a place's vector lies in one piece.
+// Either end of a spring may be its hub, so places hand springs to later ones until nearly all are
+// the hub of a multiple of four; what is missing is filled with gaps, from the hub to itself. A
+// star that reaches into another block is outer: it goes with the first tile of each of its blocks,
+// and forces on other blocks go behind the block's last place. The others go with a tile that none
+// of their places comes before, in the order of hubs. Registers are no wider than 32 bytes here.
 //
 //
 // Words, each for one thing

@@ -177,8 +177,8 @@ void SpringSystem<Scalar, Dim, Laws...>::set_wind(Air wind) {
 }
 
 template <class Scalar, int Dim, class... Laws>
-void SpringSystem<Scalar, Dim, Laws...>::set_wind_velocity(
-    const Eigen::Matrix<Scalar, 3, 1>& velocity) {
+template <class Velocity>
+void SpringSystem<Scalar, Dim, Laws...>::set_wind_velocity(const Velocity& velocity) {
     static_assert(Dim == 3, "taut::SpringSystem::set_wind_velocity: wind is in three dimensions");
     if (!velocity.allFinite()) fail("SpringSystem::set_wind_velocity: velocity is not finite");
     external_.wind.velocity = velocity;
