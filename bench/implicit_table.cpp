@@ -16,8 +16,8 @@
 #include <taut/taut.hpp>
 #include <vector>
 
-#include "../examples/common/mesh_file.hpp"
 #include "measure.hpp"
+#include "mesh_in.hpp"
 #include "outcome.hpp"
 #include "triplet_step.hpp"
 
@@ -101,6 +101,32 @@ void steps(const std::vector<Scene>& scenes) {
     }
 }
 
+/// The matrix of a step, assembled in place and solved by Eigen's SimplicialLDLT.
+struct DirectSolve {
+    const Cloth& cloth;
+    taut::TangentMatrix<double, 3> tangent;
+    Sparse A;
+    Eigen::SimplicialLDLT<Sparse> ldlt;
+    Eigen::VectorXd b, x;
+    Stopwatch assembly{clock_used}, by_ldlt{clock_used};
+
+    explicit DirectSolve(const Cloth& system)
+        : cloth(system), tangent(system), A(tangent.zero()), b(Eigen::VectorXd::Ones(A.rows())) {
+        ldlt.analyzePattern(A);
+    }
+    void run(const State& state) {
+        assembly.run([&] {
+            tangent.assemble(
+                cloth, state.x,
+                taut::matrices::M + h * taut::matrices::D + h * h * taut::matrices::K_plus, A);
+        });
+        by_ldlt.run([&] {
+            ldlt.factorize(A);
+            x = ldlt.solve(b);
+        });
+    }
+};
+
 /// A second of free swing: what a step costs, by each preconditioner.
 void gradients_table(const std::vector<Scene>& scenes) {
     std::printf(
@@ -108,27 +134,13 @@ void gradients_table(const std::vector<Scene>& scenes) {
         "| scene | preconditioner | iterations a step | step, ms: min (median) | assembly "
         "| SimplicialLDLT factorise + solve | ratio |\n|---|---|---|---|---|---|---|\n");
     for (const auto& [name, cloth] : scenes) {
-        const taut::TangentMatrix<double, 3> tangent(cloth);
-        Sparse A = tangent.zero();
-        Stopwatch assembly(clock_used), by_ldlt(clock_used);
         State state = cloth.initial_state();
-        Eigen::SimplicialLDLT<Sparse> ldlt;
-        ldlt.analyzePattern(A);
-        const Eigen::VectorXd b = Eigen::VectorXd::Ones(A.rows());
-        Eigen::VectorXd x;
+        DirectSolve baseline(cloth);
         const double start = bench::now(clock_used);
         for (int k = 0; k < 5 && bench::now(clock_used) - start < 1e3 * budget; ++k) {
-            assembly.run([&] {
-                tangent.assemble(
-                    cloth, state.x,
-                    taut::matrices::M + h * taut::matrices::D + h * h * taut::matrices::K_plus, A);
-            });
-            by_ldlt.run([&] {
-                ldlt.factorize(A);
-                x = ldlt.solve(b);
-            });
+            baseline.run(state);
         }
-        const Times direct = by_ldlt.times();
+        const Times direct = baseline.by_ldlt.times();
         const auto by_gradients = [&](const char* preconditioner, auto&& stepper) {
             state = cloth.initial_state();
             Stopwatch watch(clock_used);
@@ -142,7 +154,7 @@ void gradients_table(const std::vector<Scene>& scenes) {
             const Times times = watch.times();
             std::printf("| %s | %s | %.1f | %.2f (%.2f) | %.2f | %.1f (%.1f) | %.3f (%.3f) |\n",
                         name.c_str(), preconditioner, static_cast<double>(iterations) / 60,
-                        times.least, times.median, assembly.times().median, direct.least,
+                        times.least, times.median, baseline.assembly.times().median, direct.least,
                         direct.median, times.least / direct.least, times.median / direct.median);
             std::fflush(stdout);
         };
@@ -160,16 +172,10 @@ void ratios() {
     taut::ImplicitEuler<Cloth, taut::Cholmod<>> leader(cloth);
     taut::ImplicitEuler<Cloth, taut::Cholmod<>> cholmod(cloth);
     taut::ImplicitEuler<Cloth, Gradients> gradients(cloth);
-    const taut::TangentMatrix<double, 3> tangent(cloth);
-    Sparse A = tangent.zero();
-    Eigen::SimplicialLDLT<Sparse> ldlt;
+    DirectSolve direct(cloth);
     Eigen::CholmodSupernodalLLT<Sparse> bare;
-    ldlt.analyzePattern(A);
-    bare.analyzePattern(A);
-    Eigen::VectorXd x;
-    Eigen::VectorXd b = Eigen::VectorXd::Ones(A.rows());
-    Stopwatch assembly(clock_used), by_ldlt(clock_used), by_bare(clock_used);
-    Stopwatch by_cholmod(clock_used), by_gradients(clock_used);
+    bare.analyzePattern(direct.A);
+    Stopwatch by_bare(clock_used), by_cholmod(clock_used), by_gradients(clock_used);
     double residual = 0;
     Index iterations = 0;
     for (int k = 0; k < 60; ++k) {
@@ -180,19 +186,11 @@ void ratios() {
         });
         iterations = std::max(iterations, gradients.solver().iterations());
         if (k % 6 == 3) {
-            assembly.run([&] {
-                tangent.assemble(
-                    cloth, state.x,
-                    taut::matrices::M + h * taut::matrices::D + h * h * taut::matrices::K_plus, A);
-            });
-            by_ldlt.run([&] {
-                ldlt.factorize(A);
-                x = ldlt.solve(b);
-            });
+            direct.run(state);
             for (int repeat = 0; repeat < 2; ++repeat) {
                 by_bare.run([&] {
-                    bare.factorize(A);
-                    x = bare.solve(b);
+                    bare.factorize(direct.A);
+                    direct.x = bare.solve(direct.b);
                 });
                 copy = state;
                 by_cholmod.run([&] { residual += cholmod.step(copy, h) ? 0 : 1; });
@@ -213,9 +211,9 @@ void ratios() {
         "| | ms: min (median) | baseline | ratio |\n|---|---|---|---|\n");
     print("whole step with Cholmod / bare CHOLMOD factorise + solve", by_cholmod, by_bare);
     print("whole step with ConjugateGradient / SimplicialLDLT factorise + solve", by_gradients,
-          by_ldlt);
-    print("assembly / whole step with Cholmod", assembly, by_cholmod);
-    print("assembly / whole step with ConjugateGradient", assembly, by_gradients);
+          direct.by_ldlt);
+    print("assembly / whole step with Cholmod", direct.assembly, by_cholmod);
+    print("assembly / whole step with ConjugateGradient", direct.assembly, by_gradients);
     std::printf("\nConjugateGradient: true relative residual ≤ %.1e, at most %lld iterations.\n\n",
                 residual, static_cast<long long>(iterations));
 }
@@ -306,11 +304,7 @@ int main(int argc, char** argv) {
             {"hanging_cloth " + std::to_string(n), taut::hanging_cloth<double>({n, n})});
     }
     if (mesh != nullptr) {
-        const auto file = example::read_obj(mesh);
-        scenes.push_back(
-            {"mesh", taut::springs_from_mesh<double>(file.vertices, file.faces).system});
-        scenes.back().cloth.set_gravity({0, 0, -9.81});
-        scenes.back().cloth.pin(0);
+        scenes.push_back({"mesh", bench::mesh_in<double>(example::read_obj(mesh)).system});
     }
     ratios();
     gradients_table(scenes);

@@ -8,14 +8,14 @@
 
 namespace bench {
 
-/// The springs of a mesh that hangs by its first vertex.
+/// The springs and triangles of a mesh that hangs by its first vertex.
 template <class Scalar>
-taut::SpringSystem<Scalar, 3> mesh_in(const example::MeshFile& file) {
+taut::MeshSprings<Scalar> mesh_in(const example::MeshFile& file) {
     const taut::Points<Scalar, 3> vertices = file.vertices.cast<Scalar>();
-    auto net = taut::springs_from_mesh<Scalar>(vertices, file.faces).system;
-    net.set_gravity({0, 0, Scalar(-9.81)});
-    net.pin(0);
-    return net;
+    auto mesh = taut::springs_from_mesh<Scalar>(vertices, file.faces);
+    mesh.system.set_gravity({0, 0, Scalar(-9.81)});
+    mesh.system.pin(0);
+    return mesh;
 }
 
 }  // namespace bench

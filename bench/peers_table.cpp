@@ -180,7 +180,8 @@ int main(int argc, char** argv) try {
     for (const auto& path : meshes) {
         const taut::MeshOptions options;
         table(path.substr(path.find_last_of('/') + 1),
-              bench::mesh_in<double>(example::read_obj(path)), options.stretch, options.bend);
+              bench::mesh_in<double>(example::read_obj(path)).system, options.stretch,
+              options.bend);
     }
 } catch (const std::exception& error) {
     std::fprintf(stderr, "peers_table: %s\n", error.what());

@@ -294,10 +294,11 @@ int main(int argc, char** argv) {
     std::vector<taut::Triangle> triangles;
     if (argc > 1) {
         const auto file = example::read_obj(argv[1]);
-        mesh = bench::mesh_in<double>(file);
-        triangles = taut::springs_from_mesh<double>(file.vertices, file.faces).triangles;
+        auto springs = bench::mesh_in<double>(file);
+        mesh = std::move(springs.system);
+        triangles = std::move(springs.triangles);
         compare<double>("mesh", mesh, 21, 100);
-        compare<float>("mesh, float", bench::mesh_in<float>(file), 21, 100);
+        compare<float>("mesh, float", bench::mesh_in<float>(file).system, 21, 100);
     }
     const auto cloth = taut::hanging_cloth<double>({100, 100});
     std::printf(
