@@ -135,6 +135,12 @@ private:
             for (Index place = 0; place < size_; ++place) visit(order_[place], place);
         }
     }
+    /// Of each particle.
+    std::vector<int> places() const {
+        std::vector<int> result(static_cast<std::size_t>(size_));
+        for_each_place([&](Index i, Index place) { result[i] = static_cast<int>(place); });
+        return result;
+    }
     void plan_springs(const System& system);
     void plan_triangles(const std::vector<Triangle>& triangles);
     /// The springs of each law.
@@ -185,8 +191,7 @@ bool ForcePlan<System>::update(const System& system) {
 
 template <class System>
 void ForcePlan<System>::plan_triangles(const std::vector<Triangle>& triangles) {
-    std::vector<int> place_of(static_cast<std::size_t>(size_));
-    for_each_place([&](Index i, Index place) { place_of[i] = static_cast<int>(place); });
+    const std::vector<int> place_of = places();
     std::vector<PlacedTriangle> placed;
     triangle_reach_ = 0;
     for (const auto& [a, b, c] : triangles) {
@@ -220,9 +225,7 @@ void ForcePlan<System>::plan_springs(const System& system) {
             edges.emplace_back(static_cast<int>(a), static_cast<int>(b));
         });
         order_ = cache_order(static_cast<int>(size_), edges);
-        std::vector<int> place(order_.size());
-        for (std::size_t p = 0; p < order_.size(); ++p) place[order_[p]] = static_cast<int>(p);
-        springs = sort(system, [&](int i) { return place[i]; });
+        springs = sort(system, [place_of = places()](int i) { return place_of[i]; });
         stars_ = Dim > 1 && too_scattered();
     }
     reach_ = 0;
