@@ -44,8 +44,9 @@ Real reciprocal_sqrt(const Real& a) {
     return 1 / std::sqrt(a);
 }
 
-/// ρ·drag/12 and ρ·lift/12: with c twice the area times the normal, ½ is of the formula, ½ of the
-/// area, and ⅓ of the force goes to a corner.
+/// ρ·drag/108 and ρ·lift/108: with c twice the area times the normal and u three times the relative
+/// velocity, ½ is of the formula, ½ of the area, 1/9 of the velocity squared, and ⅓ of the force
+/// goes to a corner.
 template <class Real>
 struct WindFactors {
     Real drag;  // kg/m³
@@ -54,8 +55,8 @@ struct WindFactors {
     WindFactors() = default;
     template <class Scalar>
     explicit WindFactors(const Wind<Scalar>& wind)
-        : drag(static_cast<Real>(wind.density * wind.drag / 12)),
-          lift(static_cast<Real>(wind.density * wind.lift / 12)) {}
+        : drag(static_cast<Real>(wind.density * wind.drag / 108)),
+          lift(static_cast<Real>(wind.density * wind.lift / 108)) {}
 };
 
 template <class Real>
@@ -73,12 +74,12 @@ EIGEN_ALWAYS_INLINE Axes<Real> cross(const Axes<Real>& a, const Axes<Real>& b) {
 /// The flow past a triangle. @tparam Real  a number, or a register with a triangle in each lane
 template <class Real>
 struct Flow {
-    Axes<Real> c, u;  // twice the area times the normal, m²; relative velocity of the air, m/s
+    Axes<Real> c, u;  // see WindFactors, m² and m/s
     Real cu, u2, c2;  // their products
 
     Flow() = default;
     /// @param p, q      two sides, m
-    /// @param relative  u
+    /// @param relative  u: three times the air's velocity less the sum of the corners'
     EIGEN_ALWAYS_INLINE Flow(const Axes<Real>& p, const Axes<Real>& q, const Axes<Real>& relative)
         : c(cross(p, q)), u(relative), cu(dot(c, u)), u2(dot(u, u)), c2(dot(c, c)) {}
     /// The force on each corner, N.
@@ -105,7 +106,7 @@ void add_wind(const Wind<Scalar>& wind, const Points<Scalar, 3>& x, const Points
         const Eigen::Matrix<Scalar, 3, 1> p = x.col(b) - x.col(a);
         const Eigen::Matrix<Scalar, 3, 1> q = x.col(c) - x.col(a);
         const Eigen::Matrix<Scalar, 3, 1> u =
-            wind.velocity - (v.col(a) + v.col(b) + v.col(c)) / Scalar(3);
+            Scalar(3) * wind.velocity - (v.col(a) + v.col(b) + v.col(c));
         const Flow<Scalar> flow({p[0], p[1], p[2]}, {q[0], q[1], q[2]}, {u[0], u[1], u[2]});
         const Axes<Scalar> on_corner = flow.on_corner(factors);
         for (const Index corner : {a, b, c}) {

@@ -293,7 +293,7 @@ void Sweep<System>::load(const System& system, const AnyState& state, const Step
     if (ahead_ > 0) state_.look_ahead(ahead_);
     update_.load(system, plan_, ahead_);
     const auto& wind = system.external_forces().wind;
-    air_ = {model_detail::WindFactors<Scalar>(wind), wind.velocity, {}};
+    air_ = {model_detail::WindFactors<Scalar>(wind), Scalar(3) * wind.velocity, {}};
     outside_.begin(system, static_cast<Scalar>(state.time));
 }
 

@@ -57,8 +57,8 @@ private:
 template <class Scalar>
 struct Air {
     model_detail::WindFactors<Scalar> factors;
-    Eigen::Matrix<Scalar, 3, 1> velocity;  // m/s
-    Planes<const Scalar> x;                // m, of all places, as they are
+    Eigen::Matrix<Scalar, 3, 1> three_velocities;  // three times the wind's, m/s
+    Planes<const Scalar> x;                        // m, of all places, as they are
 };
 
 /// What the springs and triangles of one tile read and write.

@@ -74,16 +74,6 @@ template <class Real>
 struct PairFlow {
     model_detail::Flow<Real> at_a, at_d;
 };
-/// The velocity of the air relative to a triangle, m/s. @param v, w  sum to that of its corners
-template <class Real, class Scalar>
-EIGEN_ALWAYS_INLINE model_detail::Axes<Real> relative_to(const Air<Scalar>& air,
-                                                         const model_detail::Axes<Real>& v,
-                                                         const model_detail::Axes<Real>& w) {
-    const Real third(Scalar(1) / 3);
-    return {Real(air.velocity[0]) - third * (v[0] + w[0]),
-            Real(air.velocity[1]) - third * (v[1] + w[1]),
-            Real(air.velocity[2]) - third * (v[2] + w[2])};
-}
 /// @param x_ab  x_b − x_a, m, and so on   @param v_bc  v_b + v_c, m/s
 template <class Real, class Scalar>
 EIGEN_ALWAYS_INLINE PairFlow<Real> flow_past_pair(const Air<Scalar>& air,
@@ -93,8 +83,11 @@ EIGEN_ALWAYS_INLINE PairFlow<Real> flow_past_pair(const Air<Scalar>& air,
                                                   const model_detail::Axes<Real>& v_a,
                                                   const model_detail::Axes<Real>& v_bc,
                                                   const model_detail::Axes<Real>& v_d) {
-    return {{x_ab, x_bc, relative_to<Real>(air, v_a, v_bc)},
-            {x_bd, x_bc, relative_to<Real>(air, v_d, v_bc)}};
+    const model_detail::Axes<Real> past_bc{Real(air.three_velocities[0]) - v_bc[0],
+                                           Real(air.three_velocities[1]) - v_bc[1],
+                                           Real(air.three_velocities[2]) - v_bc[2]};
+    return {{x_ab, x_bc, {past_bc[0] - v_a[0], past_bc[1] - v_a[1], past_bc[2] - v_a[2]}},
+            {x_bd, x_bc, {past_bc[0] - v_d[0], past_bc[1] - v_d[1], past_bc[2] - v_d[2]}}};
 }
 
 }  // namespace taut::integrator_detail::sweep
