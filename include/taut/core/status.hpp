@@ -14,7 +14,9 @@ enum class Status {
     diverged,               ///< the new state would not be finite
     not_positive_definite,  ///< the factorisation of the step matrix failed
     solver_failed,          ///< the solver returned no finite solution
-    not_converged           ///< the iteration cap was reached
+    not_converged,          ///< the iteration cap was reached
+    masses_lost,            ///< a step so large that rounding loses masses beside stiffness
+    too_large               ///< a factor would not fit the memory allowed
 };
 
 /// One sentence for people.
@@ -28,6 +30,10 @@ constexpr const char* describe(Status status) {
         case Status::not_positive_definite: return "the step matrix is not positive definite";
         case Status::solver_failed: return "the linear solver returned no finite solution";
         case Status::not_converged: return "the iteration limit was reached";
+        case Status::masses_lost:
+            return "the step is so large that rounding loses the masses beside the stiffness";
+        case Status::too_large:
+            return "the factor of the step matrix would not fit the memory allowed";
     }
     return "unknown status";
 }

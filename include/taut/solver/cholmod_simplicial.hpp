@@ -27,7 +27,7 @@ public:
         const auto* row = static_cast<const int*>(this->m_cholmodFactor->Perm);
         Eigen::VectorXi place(A.rows());
         for (int k = 0; k < A.rows(); ++k) place[row[k]] = k;
-        return solver_detail::widest_factor_row(A, [&](Index i) { return Index(place[i]); });
+        return solver_detail::factor_size(A, [&](Index i) { return Index(place[i]); }).widest_row;
     }
     /// @returns whether the factorisation ran to completion
     bool factorize(const SparseMatrix<double>& A) {

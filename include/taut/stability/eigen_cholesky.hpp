@@ -24,8 +24,8 @@ public:
     Index analyze(const SparseMatrix<Real>& A) {
         Base::analyzePattern(A);
         const bool ordered = m_P.size() > 0;
-        return solver_detail::widest_factor_row(
-            A, [&](Index i) { return ordered ? Index(m_P.indices()[i]) : i; });
+        const auto place = [&](Index i) { return ordered ? Index(m_P.indices()[i]) : i; };
+        return solver_detail::factor_size(A, place).widest_row;
     }
     /// @returns whether the factorisation ran to completion
     bool factorize(const SparseMatrix<Real>& A) {

@@ -70,6 +70,16 @@ public:
             system.force(state, f_);
         }
     }
+    /// One step by accelerations that are corrected all together, by the plain path.
+    /// @param correct  as of Sweep::run_corrected
+    template <class Correct>
+    void corrected_step(const System& system, State& state, Scalar h, const Correct& correct) {
+        update_force(system, state, h);
+        f_ = acceleration(system).matrix().eval();
+        correct(ColumnVectors{f_}, ColumnVectors{state.v});
+        state.v += h * f_;
+        state.x += h * state.v;
+    }
     /// M⁻¹f of that force, Dim × n, m/s².
     auto acceleration(const System& system) const {
         return f_.array().rowwise() * system.inverse_mass().transpose().array();
@@ -77,6 +87,16 @@ public:
 
 private:
     struct None {};
+    /// As sweep::PlaceVectors.
+    struct ColumnVectors {
+        decltype(State::x)& columns;
+
+        auto operator()(Index i) const { return columns.col(i); }
+        template <class Vector>
+        void set(Index i, const Vector& vector) const {
+            columns.col(i) = vector;
+        }
+    };
 
     ExplicitOptions options_;
     std::conditional_t<model_detail::is_spring_system_v<System>, sweep::Sweep<System>, None> sweep_;

@@ -82,6 +82,17 @@ public:
         return order_.empty() ? nullptr : order_.data() + place;
     }
 
+    /// Of each particle.
+    std::vector<int> places() const {
+        std::vector<int> result(static_cast<std::size_t>(size_));
+        for_each_place([&](Index i, Index place) { result[i] = static_cast<int>(place); });
+        return result;
+    }
+    /// The scalar of one axis at a place of planes.
+    Scalar& at(const Planes<Scalar>& planes, int d, Index place) const {
+        return planes.first[d * (stars_ ? 1 : planes.stride) + place * grain()];
+    }
+
     /// Adds the forces of the tile's springs, of all their damping, and of the wind, on the places
     /// of its block.
     void add_forces(const TileView<Scalar>& view) const {
@@ -124,9 +135,6 @@ private:
         using type = std::tuple<typename PlanOf<Sets>::type...>;
     };
 
-    Scalar& at(const Planes<Scalar>& planes, int d, Index place) const {
-        return planes.first[d * (stars_ ? 1 : planes.stride) + place * grain()];
-    }
     template <class Visitor>
     void for_each_place(Visitor&& visit) const {
         if (order_.empty()) {
@@ -134,12 +142,6 @@ private:
         } else {
             for (Index place = 0; place < size_; ++place) visit(order_[place], place);
         }
-    }
-    /// Of each particle.
-    std::vector<int> places() const {
-        std::vector<int> result(static_cast<std::size_t>(size_));
-        for_each_place([&](Index i, Index place) { result[i] = static_cast<int>(place); });
-        return result;
     }
     void plan_springs(const System& system);
     void plan_triangles(const std::vector<Triangle>& triangles);
@@ -161,6 +163,31 @@ private:
     bool wind_ = false;
     bool stars_ = false;
     bool built_ = false;
+};
+
+/// The vectors of planes by particle.
+template <class System>
+class PlaceVectors {
+public:
+    using Vector = typename System::Vector;
+
+    PlaceVectors(const ForcePlan<System>& plan, const std::vector<int>& places,
+                 const Planes<typename System::Scalar>& planes)
+        : plan_(plan), places_(places), planes_(planes) {}
+
+    Vector operator()(Index i) const {
+        Vector vector;
+        for (int d = 0; d < System::Dim; ++d) vector[d] = plan_.at(planes_, d, places_[i]);
+        return vector;
+    }
+    void set(Index i, const Vector& vector) const {
+        for (int d = 0; d < System::Dim; ++d) plan_.at(planes_, d, places_[i]) = vector[d];
+    }
+
+private:
+    const ForcePlan<System>& plan_;
+    const std::vector<int>& places_;
+    Planes<typename System::Scalar> planes_;
 };
 
 template <class System>

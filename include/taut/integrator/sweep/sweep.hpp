@@ -189,6 +189,12 @@ public:
     template <class AnyState>
     bool run_verlet(const System& system, AnyState& state, Scalar h, Index count, int threads,
                     const StepDamping& added, bool go_on);
+    /// Takes `count` steps of h, s: v⁺ = v + h a, x⁺ = x + h v⁺, by accelerations that are corrected
+    /// all together.
+    /// @param correct  correct(a, v): of accelerations and velocities by particle, PlaceVectors
+    template <class AnyState, class Correct>
+    bool run_corrected(const System& system, AnyState& state, Scalar h, Index count, int threads,
+                       const Correct& correct);
 
 private:
     using Register = VectorRegister<Scalar>;
@@ -223,60 +229,6 @@ private:
     bool in_step_ = false;  // still, where a force has thrown
     Scalar ahead_ = 0;      // s, by which springs see x ahead
 };
-
-template <class System>
-template <class AnyState, class Update>
-bool Sweep<System>::run(const System& system, AnyState& state, Scalar h, Index count, int threads,
-                        const StepDamping& added, const Update& update) {
-    load(system, state, added);
-    if (!steps(h, count, threads, update)) return false;
-    plan_.from_planes(state_.planes().x, state.x);
-    plan_.from_planes(state_.planes().v, state.v);
-    for (Index i = 0; i < count; ++i) state.time += h;
-    return true;
-}
-
-template <class System>
-template <class AnyState>
-bool Sweep<System>::run_verlet(const System& system, AnyState& state, Scalar h, Index count,
-                               int threads, const StepDamping& added, bool go_on) {
-    load(system, state, added);
-    const Scalar half = h / 2;
-    const auto kick_and_drift = [half](auto& x, auto& v, const auto& a, const auto& step) {
-        v += Register(half) * a;
-        x += step * v;
-    };
-    // Two half kicks, as at the end of one call and the start of the next: to the same bits.
-    const auto kick_twice_and_drift = [half](auto& x, auto& v, const auto& a, const auto& step) {
-        v += Register(half) * a;
-        v += Register(half) * a;
-        x += step * v;
-    };
-    if (go_on) {
-        auto x = state_.whole(state_.planes().x);
-        auto v = state_.whole(state_.planes().v);
-        v += half * acceleration_;
-        x += h * v;
-        outside_.pass(h);
-        if (ahead_ > 0) state_.look_ahead(ahead_);
-        if (!state_.finite()) return false;
-    } else if (!steps(h, 1, threads, kick_and_drift)) {
-        return false;
-    }
-    if (!steps(h, count - 1, threads, kick_twice_and_drift)) return false;
-    end_x_ = state_.whole(state_.planes().x);
-    // The acceleration takes the place of x.
-    const auto kick = [half](auto& x, auto& v, const auto& a, const auto&) {
-        v += Register(half) * a;
-        x = a;
-    };
-    if (!steps(h, 1, threads, kick)) return false;
-    plan_.from_planes({end_x_.data(), plan_.stride()}, state.x);
-    plan_.from_planes(state_.planes().v, state.v);
-    acceleration_ = state_.whole(state_.planes().x);
-    for (Index i = 0; i < count; ++i) state.time += h;
-    return true;
-}
 
 template <class System>
 template <class AnyState>
@@ -395,3 +347,5 @@ void Sweep<System>::step_block(const StatePlanes<Scalar>& planes, int block, Sca
 }
 
 }  // namespace taut::integrator_detail::sweep
+
+#include "sweep_methods.ipp"

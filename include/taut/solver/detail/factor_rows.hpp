@@ -3,19 +3,28 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "../../core/types.hpp"
 
 namespace taut::solver_detail {
 
-/// The most nonzeros in a row of the Cholesky factor of PAPᵀ, the diagonal counted, before it is
-/// computed: row k is what the nonzeros of column k reach in the elimination tree (J. W. H. Liu,
-/// The role of elimination trees in sparse factorization, 1990).
+/// Nonzeros of a Cholesky factor, the diagonal counted.
+struct FactorSize {
+    Index widest_row = 1;
+    Index entries = 0;
+};
+
+/// That of the Cholesky factor of PAPᵀ, before it is computed: row k is what the nonzeros of column
+/// k reach in the elimination tree (J. W. H. Liu, The role of elimination trees in sparse
+/// factorization, 1990).
 /// @param A      symmetric, both triangles stored
 /// @param place  place(i): the row of PAPᵀ that row i of A becomes
+/// @param most   counts no further than so many entries
 template <class Place>
-Index widest_factor_row(const SparseMatrix<double>& A, Place&& place) {
+FactorSize factor_size(const SparseMatrix<double>& A, Place&& place,
+                       Index most = std::numeric_limits<Index>::max()) {
     using Entry = SparseMatrix<double>::InnerIterator;
     const auto n = static_cast<std::size_t>(A.rows());
     std::vector<Index> column(n);  // of A, for each row of PAPᵀ
@@ -23,8 +32,8 @@ Index widest_factor_row(const SparseMatrix<double>& A, Place&& place) {
     std::vector<Index> parent(n, -1);
     std::vector<Index> ancestor(n, -1);  // short cuts towards the root
     std::vector<Index> seen(n, -1);
-    Index widest = 1;
-    for (Index k = 0; k < A.rows(); ++k) {
+    FactorSize size;
+    for (Index k = 0; k < A.rows() && size.entries <= most; ++k) {
         for (Entry entry(A, column[k]); entry; ++entry) {
             for (Index i = place(entry.row()); i >= 0 && i < k;) {
                 const Index next = ancestor[i];
@@ -41,9 +50,10 @@ Index widest_factor_row(const SparseMatrix<double>& A, Place&& place) {
                 ++count;
             }
         }
-        widest = std::max(widest, count);
+        size.widest_row = std::max(size.widest_row, count);
+        size.entries += count;
     }
-    return widest;
+    return size;
 }
 
 }  // namespace taut::solver_detail

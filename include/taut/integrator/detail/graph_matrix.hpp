@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/OrderingMethods>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "../../model/spring_system.hpp"
+#include "../../solver/detail/factor_rows.hpp"
+#include "../../stability/graph_shares.hpp"
+
+namespace taut::integrator_detail {
+
+/// What implicit springs add to the masses [T33], [T35]: of the particles that such springs touch,
+/// in an order that keeps a factor sparse.
+///
+///     M̃ = M + Σ s(½hc + ¼h²k)/θ L_e,   D_i = Σ δs·½hk/θ L_e,   A = M̃ + ½h D_i .
+template <class System>
+class GraphMatrix {
+public:
+    using Scalar = typename System::Scalar;
+    using Vector = typename System::Vector;
+    static constexpr int Dim = System::Dim;
+    /// One row a touched particle.
+    using Rows =
+        Eigen::Matrix<Scalar, Eigen::Dynamic, Dim, Dim == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
+
+    /// @param dissipation  δ   @param most_entries  of a factor
+    Report build(const System& system, const GraphShares& shares, double dissipation,
+                 Index most_entries);
+
+    /// Particles in the matrix.
+    Index size() const { return static_cast<Index>(particles_.size()); }
+    /// That of row j.
+    Index particle(Index j) const { return particles_[j]; }
+    /// A: n × n, symmetric, both triangles, kg.
+    const SparseMatrix<Scalar>& matrix() const { return matrix_; }
+    /// rows ← rows − D_i v.  @param v  v(i): velocity of particle i
+    template <class Velocity>
+    void subtract_braking(const Velocity& v, Rows& rows) const {
+        if (!brakes_) return;
+        for (const Link& link : links_) {
+            const Vector pull = link.braking * (v(link.b) - v(link.a));
+            if (link.row_a >= 0) rows.row(link.row_a) += pull.transpose();
+            if (link.row_b >= 0) rows.row(link.row_b) -= pull.transpose();
+        }
+    }
+    /// rows ← rows − A_fp·dv.  @param dv  dv(i): by how much the velocity of pin i changed
+    template <class Change>
+    void subtract_pins(const Change& dv, Rows& rows) const {
+        for (const Link& link : links_) {
+            if (link.row_a >= 0 && link.row_b >= 0) continue;
+            const Index pin = link.row_a < 0 ? link.a : link.b;
+            const int row = link.row_a < 0 ? link.row_b : link.row_a;
+            rows.row(row) += link.coupling * dv(pin).transpose();
+        }
+    }
+    /// ½vᵀ(M̃ − M)v, J.
+    template <class Points>
+    double added_kinetic(const Points& v) const {
+        double sum = 0;
+        for (const Link& link : links_) {
+            sum += link.inertia / 2 *
+                   (v.col(link.b) - v.col(link.a)).template cast<double>().squaredNorm();
+        }
+        return sum;
+    }
+    /// visit(a, b, b̃) for each spring with a share: its ends, and what of L_e it adds to M, kg.
+    template <class Visitor>
+    void for_each_added(Visitor&& visit) const {
+        for (const Link& link : links_) visit(link.a, link.b, link.inertia);
+    }
+
+private:
+    struct Link {
+        Index a, b;        // particles
+        int row_a, row_b;  // or −1 when pinned
+        double inertia;    // of M̃ − M, kg
+        Scalar coupling;   // of A − M, kg
+        Scalar braking;    // of D_i, kg/s
+    };
+
+    void find_springs(const System& system, const GraphShares& shares, double dissipation);
+    SparseMatrix<double> assemble(const System& system) const;
+
+    std::vector<Index> particles_;
+    std::vector<Link> links_;
+    SparseMatrix<Scalar> matrix_;
+    bool brakes_ = false;
+};
+
+template <class System>
+void GraphMatrix<System>::find_springs(const System& system, const GraphShares& shares,
+                                       double dissipation) {
+    links_.clear();
+    particles_.clear();
+    brakes_ = dissipation > 0;
+    const double h = shares.step;
+    const double alpha = system.stiffness_damping().total();
+    std::vector<int> row(static_cast<std::size_t>(system.size()), -1);
+    const auto row_of = [&](Index i) {
+        if (system.is_pinned(i)) return -1;
+        if (row[i] < 0) {
+            row[i] = static_cast<int>(particles_.size());
+            particles_.push_back(i);
+        }
+        return row[i];
+    };
+    std::size_t index = 0;
+    system.visit_springs([&](const auto& its) {
+        const double share = shares.shares[index++] / shares.margin;
+        if (!(share > 0)) return;
+        const auto spring = its.template cast<double>();
+        const double k = spring.stiffness_bound();
+        const double c = spring.damping + alpha * k;
+        const double inertia = share * (h * c / 2 + h * h * k / 4);
+        const double braking = dissipation * share * h * k / 2;
+        links_.push_back({its.a, its.b, row_of(its.a), row_of(its.b), inertia,
+                          static_cast<Scalar>(inertia + h * braking / 2),
+                          static_cast<Scalar>(braking)});
+    });
+}
+
+template <class System>
+SparseMatrix<double> GraphMatrix<System>::assemble(const System& system) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int j = 0; j < size(); ++j) {
+        entries.emplace_back(j, j, static_cast<double>(system.mass(particles_[j])));
+    }
+    for (const Link& link : links_) {
+        const auto add = static_cast<double>(link.coupling);
+        for (const int row : {link.row_a, link.row_b}) {
+            if (row >= 0) entries.emplace_back(row, row, add);
+        }
+        if (link.row_a < 0 || link.row_b < 0) continue;
+        entries.emplace_back(link.row_a, link.row_b, -add);
+        entries.emplace_back(link.row_b, link.row_a, -add);
+    }
+    SparseMatrix<double> A(size(), size());
+    A.setFromTriplets(entries.begin(), entries.end());
+    return A;
+}
+
+template <class System>
+Report GraphMatrix<System>::build(const System& system, const GraphShares& shares,
+                                  double dissipation, Index most_entries) {
+    find_springs(system, shares, dissipation);
+    const SparseMatrix<double> A = assemble(system);
+    constexpr double lost = 64 * static_cast<double>(std::numeric_limits<Scalar>::epsilon());
+    for (Index j = 0; j < size(); ++j) {
+        const auto mass = static_cast<double>(system.mass(particles_[j]));
+        if (!(lost * A.coeff(j, j) < mass)) return {Status::masses_lost, 0, 0, particles_[j]};
+    }
+    Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order(size());
+    if (size() > 0) {
+        Eigen::AMDOrdering<int>()(A, order);
+        order = order.inverse().eval();  // Eigen's orderings give the inverse
+    }
+    const auto place = [&](Index j) { return Index(order.indices()[j]); };
+    if (solver_detail::factor_size(A, place, most_entries).entries > most_entries) {
+        return {Status::too_large};
+    }
+    SparseMatrix<double> ordered;
+    ordered = A.twistedBy(order);
+    matrix_ = ordered.template cast<Scalar>();
+    const std::vector<Index> before = particles_;
+    for (Index j = 0; j < size(); ++j) particles_[place(j)] = before[j];
+    for (Link& link : links_) {
+        for (int* row : {&link.row_a, &link.row_b}) {
+            if (*row >= 0) *row = static_cast<int>(place(*row));
+        }
+    }
+    return {};
+}
+
+}  // namespace taut::integrator_detail

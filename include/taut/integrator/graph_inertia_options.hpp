@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "../core/error.hpp"
+#include "../core/types.hpp"
+
+namespace taut {
+
+/// Of GraphInertia.
+struct GraphInertiaOptions {
+    /// For the springs, with OpenMP (-fopenmp) only. The same bits for any number.
+    int threads = 1;
+    /// θ, in (0, 1]: the share that is taken of the condition [T33]. At 1 cloths that move gain
+    /// energy within minutes; at the default none of those tried did.
+    double margin = 0.83;
+    /// δ, in [0, 1]: implicit damping of the springs that are implicit, which makes no step less
+    /// stable. 0: none. 1: every spring is implicit, and the energy of the scene itself cannot rise
+    /// at any step [T35]; it slows all relative motion.
+    double dissipation = 0;
+    /// The most nonzeros that the factor may have; else a step ends with Status::too_large.
+    Index most_factor_entries = 100'000'000;
+
+    /// Fails for what is out of range.
+    void require_valid() const {
+        if (threads < 1) fail("GraphInertiaOptions: threads is ", threads, "; it must be >= 1");
+        if (!(margin > 0 && margin <= 1))
+            fail("GraphInertiaOptions: margin is ", margin, "; it must be in (0, 1]");
+        if (!(dissipation >= 0 && dissipation <= 1))
+            fail("GraphInertiaOptions: dissipation is ", dissipation, "; it must be in [0, 1]");
+    }
+};
+
+}  // namespace taut

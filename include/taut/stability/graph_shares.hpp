@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "../core/status.hpp"
+#include "../model/spring_system.hpp"
+#include "detail/quick_mode.hpp"
+#include "detail/symplectic_limit.hpp"
+#include "spring_pencil.hpp"
+
+namespace taut {
+
+/// How far each spring of a scene is implicit, and the step that this was made for [T33].
+struct GraphShares {
+    Status status = Status::ok;  ///< not ok: no shares make that step safe
+    double step = 0;             ///< h₀, s
+    double margin = 1;           ///< θ
+    double drag = 0;             ///< d0, 1/s, of the scene
+    std::vector<double> shares;  ///< s of each spring, in index order, 0 … 1
+    std::uint64_t revision = 0;  ///< of the system
+
+    /// s = 1 for every spring: safe at every h with h·d0 < 2θ.
+    void make_all_implicit() { std::fill(shares.begin(), shares.end(), 1.0); }
+    /// Springs with a share.
+    Index implicit_springs() const {
+        return std::count_if(shares.begin(), shares.end(), [](double s) { return s > 0; });
+    }
+};
+
+namespace stability_detail {
+
+/// The springs of 2hD + h²L_k between free particles, and the shares that fit them to what the
+/// masses bear.
+class ShareSearch {
+public:
+    /// @param allowed  (4θ − 2h d0)m of each free particle, kg
+    ShareSearch(const SpringPencil<1>& pencil, double h, std::vector<double> allowed)
+        : allowed_(std::move(allowed)) {
+        pencil.for_each_link(2 * h * D + h * h * K_plus,
+                             [&](int a, int b, const auto&, double axial, double) {
+                                 springs_.push_back({a, b, axial, 1});
+                             });
+        weight_.reserve(allowed_.size());
+        for (Index i = 0; i < pencil.size(); ++i) weight_.push_back(1 / std::sqrt(pencil.mass()[i]));
+        load_.resize(allowed_.size());
+        heaviest_.resize(allowed_.size());
+    }
+
+    /// Lowers explicit parts until every particle bears its load [T33].
+    void run() {
+        if (measure() < 2) {
+            const std::vector<double> even = weight_;
+            for (int repeat = 0; repeat < 60 && measure() > bound; ++repeat) improve_weights();
+            if (measure() <= bound) return;
+            weight_ = even;  // the others lean on the stiffest
+        }
+        for (int repeat = 0; repeat < 300 && measure() > 1 + 1e-3; ++repeat) {
+            shrink();
+            lean();
+        }
+        if (measure() > bound) settle();
+    }
+    /// 1 − s of the springs, in the pencil's order.
+    double explicit_part(std::size_t s) const { return springs_[s].part; }
+    std::size_t size() const { return springs_.size(); }
+
+private:
+    struct Link {
+        int a, b;     // free particle, or −1 when pinned
+        double pull;  // 2hc + h²k, kg
+        double part;  // 1 − s
+    };
+    /// What rounding may add to a load.
+    static constexpr double bound = 1 - 1e-9;
+
+    double load_at(const Link& link, int i, int other) const {
+        return link.part * link.pull * (other < 0 ? 1 : 1 + weight_[other] / weight_[i]) /
+               allowed_[i];
+    }
+    template <class Visitor>
+    void for_each_end(Visitor&& visit) {
+        for (Link& link : springs_) {
+            if (link.a >= 0) visit(link, link.a, link.b);
+            if (link.b >= 0) visit(link, link.b, link.a);
+        }
+    }
+    /// The loads of [T26] as shares of what each particle bears. @returns the largest
+    double measure() {
+        std::fill(load_.begin(), load_.end(), 0);
+        std::fill(heaviest_.begin(), heaviest_.end(), 0);
+        for_each_end([&](const Link& link, int i, int other) {
+            const double load = load_at(link, i, other);
+            load_[i] += load;
+            heaviest_[i] = std::max(heaviest_[i], load);
+        });
+        return load_.empty() ? 0 : *std::max_element(load_.begin(), load_.end());
+    }
+    /// As upper bounds of the whole scene do [T26].
+    void improve_weights() {
+        const double largest = *std::max_element(load_.begin(), load_.end());
+        for (std::size_t i = 0; i < load_.size(); ++i) {
+            weight_[i] *= std::sqrt(std::max(load_[i] / largest, 1e-4));
+        }
+    }
+    /// Who bears too much leans on neighbours that bear less.
+    void lean() {
+        for (std::size_t i = 0; i < load_.size(); ++i) {
+            weight_[i] *= std::pow(std::clamp(load_[i], 1.0, 1.2), 0.1);
+        }
+    }
+    /// A spring gives way as it takes part in what is too much: soft neighbours of a stiff one stay
+    /// explicit.
+    void shrink() {
+        std::vector<double> less(springs_.size(), 0);
+        for (std::size_t s = 0; s < springs_.size(); ++s) {
+            const Link& link = springs_[s];
+            const auto at = [&](int i, int other) {
+                if (i < 0 || !(load_[i] > 1)) return;
+                less[s] = std::max(less[s], 0.3 * load_at(link, i, other) / heaviest_[i] *
+                                                std::log(load_[i]));
+            };
+            at(link.a, link.b);
+            at(link.b, link.a);
+        }
+        for (std::size_t s = 0; s < springs_.size(); ++s) springs_[s].part *= std::exp(-less[s]);
+    }
+    /// At fixed weights loads are linear in the parts.
+    void settle() {
+        const std::vector<double> load = load_;
+        const auto over = [&](int i) { return i < 0 ? 0 : load[i] / bound; };
+        for (Link& link : springs_) {
+            link.part /= std::max({1.0, over(link.a), over(link.b)});
+        }
+    }
+
+    std::vector<double> allowed_;   // kg
+    std::vector<Link> springs_;
+    std::vector<double> weight_;    // p of [T26]
+    std::vector<double> load_;      // of what is allowed
+    std::vector<double> heaviest_;  // spring's part of it
+};
+
+}  // namespace stability_detail
+
+/// Shares of implicitness that make step h certified at any pose [T33], and add little inertia: 0
+/// for every spring where the explicit step is safe as it is. O(springs) for each of up to 360
+/// passes.
+///
+/// not_positive_definite is the status where no shares will do: h·d0 ≥ 2θ, or numbers beyond the
+/// range of double.
+/// @param h  s, finite and > 0   @param margin  θ, in (0, 1]
+template <class Scalar, int Dim, class... Laws>
+GraphShares graph_shares(const SpringSystem<Scalar, Dim, Laws...>& system, double h,
+                         double margin) {
+    require_positive("graph_shares", "h", h);
+    require_positive("graph_shares", "margin", margin);
+    if (margin > 1) fail("graph_shares: margin is ", margin, "; it must be <= 1");
+    GraphShares answer;
+    answer.step = h;
+    answer.margin = margin;
+    answer.revision = system.revision();
+    answer.shares.assign(static_cast<std::size_t>(system.spring_count()), 0);
+    const auto pencil = SpringPencil<1>::any_pose(system);
+    answer.drag = pencil.rayleigh().mass_proportional;
+    const double wide = h * (1 + stability_detail::step_rounding<Scalar>);
+    const double left = 4 * margin - 2 * wide * answer.drag;
+    std::vector<double> allowed;
+    for (Index i = 0; i < pencil.size(); ++i) allowed.push_back(left * pencil.mass()[i]);
+    if (!pencil.lost().empty() || (pencil.size() > 0 && !(left > 0))) {
+        answer.status = Status::not_positive_definite;
+        return answer;
+    }
+    stability_detail::ShareSearch search(pencil, wide, std::move(allowed));
+    search.run();
+    std::size_t link = 0, spring = 0;
+    system.for_each_spring([&](Index a, Index b) {
+        if (!system.is_pinned(a) || !system.is_pinned(b)) {
+            answer.shares[spring] = 1 - search.explicit_part(link++);
+        }
+        ++spring;
+    });
+    return answer;
+}
+
+}  // namespace taut
