@@ -51,6 +51,10 @@ Step transition(Method method, double stiffness, double damping, double seconds)
             const Real a = 1 + h * d + h * h * k;  // determinant of I − hC
             return {(1 + h * d) / a, h / a, -h * k / a, 1 / a};
         }
+        case Method::graph_inertia: {
+            const Real m = 1 + (h * d / 2 + h * h * std::max(k, Real(0)) / 4) / Real(0.83);
+            return {1 - h * h * k / m, h * (1 - h * d / m), -h * k / m, 1 - h * d / m};
+        }
         case Method::bdf2: break;  // 4 × 4: descriptor_test.cpp
     }
     FAIL("no transition matrix of " << name(method));

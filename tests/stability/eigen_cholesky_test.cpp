@@ -57,7 +57,8 @@ TEST_CASE("factor_rows: the widest row of the factor, in any order of eliminatio
         const auto size =
             taut::solver_detail::factor_size(S, [&](Index i) { return Index(order.indices()[i]); });
         CHECK(size.widest_row == widest_row_by_elimination(ordered));
-        const Eigen::SimplicialLLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>> plain(ordered);
+        const Eigen::SimplicialLLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>> plain(
+            ordered);
         CHECK(size.entries == plain.matrixL().nestedExpression().nonZeros());
         // And the order that Eigen's factorisation chooses.
         const Eigen::SimplicialLLT<Sparse> llt(S);

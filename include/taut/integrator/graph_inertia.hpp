@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "../method/graph_inertia.hpp"
 #include "../solver/interleaved_llt.hpp"
 #include "../stability/graph_shares.hpp"
 #include "detail/explicit_steps.hpp"
@@ -40,7 +41,8 @@ public:
     using Scalar = typename System::Scalar;
     using State = typename System::State;
     using Options = GraphInertiaOptions;
-    static constexpr int order = 1;
+    static constexpr Method method = Method::graph_inertia;
+    static constexpr int order = method::GraphInertia::order;
 
     static_assert((require_solver<Solver, Scalar>(), true));
 
@@ -87,6 +89,12 @@ private:
             rows_.row(j) = (system_->mass(i) * a(i)).transpose();
         }
         matrix_.subtract_braking(v, rows_);
+        if (pins_jump_) {
+            matrix_.subtract_pins(
+                [&](Index i) { return typename System::Vector((v(i) - last_.v.col(i)) / step_); },
+                rows_);
+            pins_jump_ = false;
+        }
         rows_ = solver_.solve(rows_);
         for (Index j = 0; j < matrix_.size(); ++j) a.set(matrix_.particle(j), rows_.row(j));
     }
@@ -100,6 +108,10 @@ private:
     integrator_detail::ExplicitSteps<System> steps_;
     std::int64_t factorizations_ = 0;
     bool prepared_ = false;
+    // Of springs with a share that end at pins.
+    State last_;              // as the last step left it
+    Scalar step_ = 0;         // s
+    bool pins_jump_ = false;  // before the next step
 };
 
 template <class System, class Solver>
@@ -129,13 +141,31 @@ Report GraphInertia<System, Solver>::step(AnyState& state, Scalar h, Index count
     const Report checked = integrator_detail::StepLoop<State>::check(*system_, state, h);
     if (!checked || count <= 0) return checked;
     if (const Report renewed = renew(h); !renewed) return renewed;
+    const bool goes_on = matrix_.holds_pins() && static_cast<Scalar>(state.time) == last_.time &&
+                         last_.x.cols() == state.x.cols() &&
+                         last_.x == state.x.template cast<Scalar>();
+    step_ = h;
     const auto correction = [this](const auto& a, const auto& v) { correct(a, v); };
-    return steps_.run(
+    bool first = true;
+    const Report report = steps_.run(
         *system_, state, h, count,
         [&](auto& sweep, int threads, const StepDamping&) {
+            pins_jump_ = goes_on;
             return sweep.run_corrected(*system_, state, h, count, threads, correction);
         },
-        [&](State& own) { steps_.corrected_step(*system_, own, h, correction); });
+        [&](State& own) {
+            pins_jump_ = goes_on && first;
+            first = false;
+            steps_.corrected_step(*system_, own, h, correction);
+        });
+    if (!matrix_.holds_pins() || !report) {
+        last_ = {};
+    } else if constexpr (model_detail::is_state_view_v<AnyState>) {
+        state.copy_to(last_);
+    } else {
+        last_ = state;
+    }
+    return report;
 }
 
 }  // namespace taut

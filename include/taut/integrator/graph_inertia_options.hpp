@@ -4,6 +4,7 @@
 
 #include "../core/error.hpp"
 #include "../core/types.hpp"
+#include "../method/graph_inertia.hpp"
 
 namespace taut {
 
@@ -13,7 +14,7 @@ struct GraphInertiaOptions {
     int threads = 1;
     /// θ, in (0, 1]: the share that is taken of the condition [T33]. At 1 cloths that move gain
     /// energy within minutes; at the default none of those tried did.
-    double margin = 0.83;
+    double margin = method::GraphInertia::margin;
     /// δ, in [0, 1]: implicit damping of the springs that are implicit, which makes no step less
     /// stable. 0: none. 1: every spring is implicit, and the energy of the scene itself cannot rise
     /// at any step [T35]; it slows all relative motion.

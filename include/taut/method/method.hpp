@@ -13,7 +13,8 @@ enum class Method {
     velocity_verlet,
     implicit_euler,
     bdf2,
-    last = bdf2  ///< the last method above; move it when you add one, at the end
+    graph_inertia,
+    last = graph_inertia  ///< the last method above; move it when you add one, at the end
 };
 
 /// The older name of Method.
@@ -44,6 +45,9 @@ struct LimitedByStiffness {};
 /// Stable at every h where K is positive semi-definite [T20], [T21]. On springs K⁺ stands for K,
 /// and K⁺ always is [T27].
 struct LimitedByIndefiniteness {};
+
+/// Stable at every h with h·d0 < 2θ, where K is positive semi-definite or K⁺ stands for it [T33].
+struct LimitedByDrag {};
 
 /// Which steps a moving scene may be given, linearised at each of its poses.
 enum class AnyPose {

@@ -9,6 +9,7 @@
 #include "../core/error.hpp"
 #include "bdf2.hpp"
 #include "explicit_euler.hpp"
+#include "graph_inertia.hpp"
 #include "implicit_euler.hpp"
 #include "symplectic_euler.hpp"
 #include "velocity_verlet.hpp"
@@ -21,7 +22,7 @@ template <class... Descriptors>
 struct List {};
 
 /// Every method, in the order of the enum: the one list.
-using All = List<ExplicitEuler, SymplecticEuler, VelocityVerlet, ImplicitEuler, Bdf2>;
+using All = List<ExplicitEuler, SymplecticEuler, VelocityVerlet, ImplicitEuler, Bdf2, GraphInertia>;
 
 /// What a descriptor must have.
 template <class D>

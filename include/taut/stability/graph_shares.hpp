@@ -32,6 +32,22 @@ struct GraphShares {
     }
 };
 
+/// visit(a, b, damped, elastic) for each spring with a share: its ends, and the two parts of what
+/// it adds to M̃ = M + Σ (damped + elastic)L_e: s·½hc/θ and s·¼h²k/θ, kg [T33].
+template <class System, class Visitor>
+void for_each_inertia(const System& system, const GraphShares& shares, Visitor&& visit) {
+    const double h = shares.step;
+    const double alpha = system.stiffness_damping().total();
+    std::size_t index = 0;
+    system.visit_springs([&](const auto& its) {
+        const double share = shares.shares[index++] / shares.margin;
+        if (!(share > 0)) return;
+        const auto spring = its.template cast<double>();
+        const double k = spring.stiffness_bound();
+        visit(its.a, its.b, share * h * (spring.damping + alpha * k) / 2, share * h * h * k / 4);
+    });
+}
+
 namespace stability_detail {
 
 /// The springs of 2hD + h²L_k between free particles, and the shares that fit them to what the
@@ -46,7 +62,8 @@ public:
                                  springs_.push_back({a, b, axial, 1});
                              });
         weight_.reserve(allowed_.size());
-        for (Index i = 0; i < pencil.size(); ++i) weight_.push_back(1 / std::sqrt(pencil.mass()[i]));
+        for (Index i = 0; i < pencil.size(); ++i)
+            weight_.push_back(1 / std::sqrt(pencil.mass()[i]));
         load_.resize(allowed_.size());
         heaviest_.resize(allowed_.size());
     }
@@ -121,8 +138,8 @@ private:
             const Link& link = springs_[s];
             const auto at = [&](int i, int other) {
                 if (i < 0 || !(load_[i] > 1)) return;
-                less[s] = std::max(less[s], 0.3 * load_at(link, i, other) / heaviest_[i] *
-                                                std::log(load_[i]));
+                less[s] = std::max(
+                    less[s], 0.3 * load_at(link, i, other) / heaviest_[i] * std::log(load_[i]));
             };
             at(link.a, link.b);
             at(link.b, link.a);
@@ -138,7 +155,7 @@ private:
         }
     }
 
-    std::vector<double> allowed_;   // kg
+    std::vector<double> allowed_;  // kg
     std::vector<Link> springs_;
     std::vector<double> weight_;    // p of [T26]
     std::vector<double> load_;      // of what is allowed

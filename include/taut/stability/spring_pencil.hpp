@@ -35,6 +35,11 @@ public:
     template <class System>
     static SpringPencil any_pose(const System& system, Damping counted = Damping::all);
 
+    /// The pencil of what stays explicit beside implicit shares, all over the margin θ [T33]:
+    /// springs times (1 − s)/θ, d0/θ.
+    /// @param shares  s of each spring of the system, in index order, 0 … 1
+    SpringPencil explicit_part(const std::vector<double>& shares, double margin) const;
+
     void multiply(const Combination& c, const Eigen::VectorXd& u,
                   Eigen::VectorXd& y) const override;
     Enclosed quadratic(const Combination& c, const Eigen::VectorXd& u) const override;
@@ -333,6 +338,22 @@ std::vector<ParticleShare> SpringPencil<Dim>::particle_shares(const Eigen::Vecto
         shares.push_back({free_[j], total > 0 ? energy / total : 0});
     }
     return shares;
+}
+
+template <int Dim>
+SpringPencil<Dim> SpringPencil<Dim>::explicit_part(const std::vector<double>& shares,
+                                                   double margin) const {
+    SpringPencil pencil = *this;
+    pencil.rayleigh_.mass_proportional /= margin;
+    for (std::size_t s = 0; s < links_.size(); ++s) {
+        const double part = (1 - shares[static_cast<std::size_t>(names_[s][0])]) / margin;
+        Link& link = pencil.links_[s];
+        for (double* value : {&link.axial, &link.softer, &link.transverse, &link.damping,
+                              &link.graph, &link.bound}) {
+            *value *= part;
+        }
+    }
+    return pencil;
 }
 
 template <int Dim>

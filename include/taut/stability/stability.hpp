@@ -183,6 +183,10 @@ private:
     stability_detail::UnroundedLimit limit_by(method::LimitedByIndefiniteness, Effort&) const {
         return stability_detail::implicit_limit(*pencil_);
     }
+    template <class Effort>
+    stability_detail::UnroundedLimit limit_by(method::LimitedByDrag, Effort&) const {
+        return stability_detail::drag_limit(*pencil_, method::GraphInertia::margin);
+    }
 
     std::shared_ptr<const ScenePencil> pencil_;  // immutable, so copies may share it
     std::uint64_t revision_ = 0;

@@ -7,6 +7,7 @@
 
 #include "../integrator/bdf2.hpp"
 #include "../integrator/explicit_euler.hpp"
+#include "../integrator/graph_inertia.hpp"
 #include "../integrator/implicit_euler.hpp"
 #include "../integrator/symplectic_euler.hpp"
 #include "../integrator/velocity_verlet.hpp"
@@ -65,12 +66,18 @@ template <class System, class Solver>
 struct StepperOf<method::Bdf2, System, Solver> {
     using type = Bdf2<System, Solver>;
 };
+template <class System, class Solver>
+struct StepperOf<method::GraphInertia, System, Solver> {
+    using type = GraphInertia<System>;
+};
 
 /// The stepper of `candidate`, which has this descriptor and this solver.
 template <class Descriptor, class Solver, class System>
 auto make_stepper(const System& system, const Candidate& candidate) {
     using Stepper = typename StepperOf<Descriptor, System, Solver>::type;
-    if constexpr (!Descriptor::is_implicit) {
+    if constexpr (Descriptor::method == Method::graph_inertia) {
+        return Stepper(system);
+    } else if constexpr (!Descriptor::is_implicit) {
         return Stepper(system, ExplicitOptions{1, candidate.damping});
     } else if constexpr (Descriptor::method == Method::implicit_euler) {
         typename Stepper::Options options;
@@ -91,18 +98,23 @@ void with_stepper(const System& system, const Candidate& candidate, Action&& act
     using Gradients = ConjugateGradient<Scalar, System::Dim>;
     method::visit(candidate.scheme, [&](auto descriptor) {
         using Descriptor = decltype(descriptor);
-        if constexpr (Descriptor::is_implicit) {
-            if (candidate.solver == LinearSolver::conjugate_gradient) {
-                auto stepper =
-                    tradeoff_detail::make_stepper<Descriptor, Gradients>(system, candidate);
-                stepper.configure([&](Gradients& solver) {
-                    solver.setTolerance(static_cast<Scalar>(candidate.solver_tolerance));
-                });
-                return action(stepper);
+        if constexpr (Descriptor::method == Method::graph_inertia &&
+                      !model_detail::is_spring_system_v<System>) {
+            fail("with_stepper: ", Descriptor::name, " needs the springs of a SpringSystem");
+        } else {
+            if constexpr (Descriptor::is_implicit) {
+                if (candidate.solver == LinearSolver::conjugate_gradient) {
+                    auto stepper =
+                        tradeoff_detail::make_stepper<Descriptor, Gradients>(system, candidate);
+                    stepper.configure([&](Gradients& solver) {
+                        solver.setTolerance(static_cast<Scalar>(candidate.solver_tolerance));
+                    });
+                    return action(stepper);
+                }
             }
+            auto stepper = tradeoff_detail::make_stepper<Descriptor, Direct>(system, candidate);
+            return action(stepper);
         }
-        auto stepper = tradeoff_detail::make_stepper<Descriptor, Direct>(system, candidate);
-        return action(stepper);
     });
 }
 

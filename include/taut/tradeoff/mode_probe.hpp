@@ -78,12 +78,13 @@ std::vector<Mode> lowest_modes(const SpringSystem<Scalar, Dim, Laws...>& system,
 
 /// What the steps of `candidate` do to one mode of a linear system without load: started in the
 /// mode's shape, its swing is projected on the mode and fitted. Nothing where a step fails or the
-/// steps do not swing.
+/// steps do not swing, and for graph inertia, which needs springs.
 /// @param most_steps  the swing is followed for less than a period where that would take more
 template <class Scalar>
 std::optional<ModeError> measured_mode_error(const LinearSystem<Scalar>& system, const Mode& mode,
                                              const Candidate& candidate, Index most_steps = 4000) {
     constexpr Index samples = 26;
+    if (candidate.scheme == Method::graph_inertia) return std::nullopt;
     constexpr Index settling = 40;  // the second multiplier of BDF2 shrinks by 3 and more a step
     if (candidate.damping.look_ahead > 0) {  // a linear system's steps have none of their own
         Candidate damped = candidate;

@@ -47,6 +47,8 @@ public:
             if (link.row_b >= 0) rows.row(link.row_b) -= pull.transpose();
         }
     }
+    /// Whether a spring with a share ends at a pin.
+    bool holds_pins() const { return holds_pins_; }
     /// rows ← rows − A_fp·dv.  @param dv  dv(i): by how much the velocity of pin i changed
     template <class Change>
     void subtract_pins(const Change& dv, Rows& rows) const {
@@ -67,11 +69,6 @@ public:
         }
         return sum;
     }
-    /// visit(a, b, b̃) for each spring with a share: its ends, and what of L_e it adds to M, kg.
-    template <class Visitor>
-    void for_each_added(Visitor&& visit) const {
-        for (const Link& link : links_) visit(link.a, link.b, link.inertia);
-    }
 
 private:
     struct Link {
@@ -89,6 +86,7 @@ private:
     std::vector<Link> links_;
     SparseMatrix<Scalar> matrix_;
     bool brakes_ = false;
+    bool holds_pins_ = false;
 };
 
 template <class System>
@@ -97,8 +95,7 @@ void GraphMatrix<System>::find_springs(const System& system, const GraphShares& 
     links_.clear();
     particles_.clear();
     brakes_ = dissipation > 0;
-    const double h = shares.step;
-    const double alpha = system.stiffness_damping().total();
+    holds_pins_ = false;
     std::vector<int> row(static_cast<std::size_t>(system.size()), -1);
     const auto row_of = [&](Index i) {
         if (system.is_pinned(i)) return -1;
@@ -108,18 +105,11 @@ void GraphMatrix<System>::find_springs(const System& system, const GraphShares& 
         }
         return row[i];
     };
-    std::size_t index = 0;
-    system.visit_springs([&](const auto& its) {
-        const double share = shares.shares[index++] / shares.margin;
-        if (!(share > 0)) return;
-        const auto spring = its.template cast<double>();
-        const double k = spring.stiffness_bound();
-        const double c = spring.damping + alpha * k;
-        const double inertia = share * (h * c / 2 + h * h * k / 4);
-        const double braking = dissipation * share * h * k / 2;
-        links_.push_back({its.a, its.b, row_of(its.a), row_of(its.b), inertia,
-                          static_cast<Scalar>(inertia + h * braking / 2),
-                          static_cast<Scalar>(braking)});
+    for_each_inertia(system, shares, [&](Index a, Index b, double damped, double elastic) {
+        links_.push_back({a, b, row_of(a), row_of(b), damped + elastic,
+                          static_cast<Scalar>(damped + (1 + dissipation) * elastic),
+                          static_cast<Scalar>(2 * dissipation * elastic / shares.step)});
+        holds_pins_ = holds_pins_ || links_.back().row_a < 0 || links_.back().row_b < 0;
     });
 }
 

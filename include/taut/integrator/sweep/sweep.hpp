@@ -189,8 +189,8 @@ public:
     template <class AnyState>
     bool run_verlet(const System& system, AnyState& state, Scalar h, Index count, int threads,
                     const StepDamping& added, bool go_on);
-    /// Takes `count` steps of h, s: v⁺ = v + h a, x⁺ = x + h v⁺, by accelerations that are corrected
-    /// all together.
+    /// Takes `count` steps of h, s: v⁺ = v + h a, x⁺ = x + h v⁺, by accelerations that are
+    /// corrected all together.
     /// @param correct  correct(a, v): of accelerations and velocities by particle, PlaceVectors
     template <class AnyState, class Correct>
     bool run_corrected(const System& system, AnyState& state, Scalar h, Index count, int threads,

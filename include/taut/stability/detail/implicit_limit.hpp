@@ -33,4 +33,17 @@ UnroundedLimit implicit_limit(const Pencil& pencil) {
     return {definite_up_to(pencil.deficit(K_plus)), infinity};
 }
 
+/// The same of graph inertia, whose masses grow by D without d0·M and by K⁺: 4θM̃ − 2hD − h²K⁺ =
+/// (4θ − 2h d0)M [T33].
+/// @param margin  θ
+template <class Real = double>
+UnroundedLimit drag_limit(const Pencil& pencil, double margin) {
+    UnroundedLimit limit = implicit_limit<Real>(pencil);
+    const double drag = pencil.rayleigh().mass_proportional;
+    if (!(2 * margin / drag < limit.certified)) return limit;
+    limit.certified = 2 * margin / drag;
+    limit.cause = Cause::damping;
+    return limit;
+}
+
 }  // namespace taut::stability_detail
