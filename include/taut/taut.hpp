@@ -10,6 +10,7 @@
 #include "integrator/bdf2.hpp"
 #include "integrator/explicit_euler.hpp"
 #include "integrator/explicit_options.hpp"
+#include "integrator/graph_contacts.hpp"
 #include "integrator/graph_inertia.hpp"
 #include "integrator/guarded.hpp"
 #include "integrator/implicit_euler.hpp"

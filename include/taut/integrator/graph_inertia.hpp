@@ -2,14 +2,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
 
 #include "../method/graph_inertia.hpp"
 #include "../solver/interleaved_llt.hpp"
 #include "../stability/graph_shares.hpp"
 #include "detail/explicit_steps.hpp"
 #include "detail/graph_matrix.hpp"
-#include "detail/last_state.hpp"
 #include "graph_inertia_options.hpp"
 
 namespace taut {
@@ -59,60 +60,70 @@ public:
     template <class AnyState>
     Report step(AnyState& state, Scalar h, Index count = 1);
 
-    /// Chooses shares for steps of h, s, and factorises.
+    /// Makes the stepper ready for steps of h, s, as step() does by itself: with the factor that it
+    /// has if that serves.
+    Report renew(Scalar h);
+    /// The same with a factor of its own for h, even where that of a larger step would serve: less
+    /// inertia.
     Report prepare(Scalar h);
     /// The shares in force; of step 0 before the first step.
     const GraphShares& shares() const { return shares_; }
+    /// The system of the constructor.
+    const System& system() const { return *system_; }
     /// What the stepper was made with.
     const Options& options() const { return options_; }
     /// Particles in the factor.
     Index touched() const { return matrix_.size(); }
     /// Factorisations so far.
     std::int64_t factorizations() const { return factorizations_; }
-    /// ½vᵀ(M̃ − M)v, J: what the added inertia holds.
+    /// ½vᵀ(M̃ − M)v over the free particles, J: what the added inertia holds.
     double added_kinetic(const State& state) const { return matrix_.added_kinetic(state.v); }
+    /// A_ii of particle i, kg, which response_to() shares out among its neighbours.
+    Scalar inertia(Index i) const { return matrix_.diagonal(i, system_->mass(i)); }
+    /// √θ: within this share of ½vᵀM̃v + U the energy oscillates that the steps keep, as that of
+    /// symplectic Euler does at this share of its limit [T36].
+    double energy_share() const { return std::sqrt(options_.margin); }
+    /// The work done in the last call by pins that had changed their velocity before it, through
+    /// the added inertia, J.
+    double jump_work() const { return jump_work_; }
+    /// The change of velocity, m/s, that impulses make, N·s, Dim × n; none of pins. What changes
+    /// velocities from outside, such as contacts, must go through it: a particle that is changed
+    /// alone gains what its neighbours should have lost.
+    Points<Scalar, System::Dim> response_to(const Points<Scalar, System::Dim>& impulse);
 
 private:
     using Matrix = integrator_detail::GraphMatrix<System>;
+    using Vector = typename System::Vector;
 
-    Report renew(Scalar h) {
-        const bool serves = prepared_ && shares_.revision == system_->revision() &&
-                            static_cast<double>(h) <= shares_.step;
-        return serves ? Report{} : prepare(h);
-    }
     /// a ← M̃⁻¹M a and what pins and dissipation add, of the touched particles.
     template <class Accelerations, class Velocities>
-    void correct(const Accelerations& a, const Velocities& v) {
-        if (matrix_.size() == 0) return;
-        for (Index j = 0; j < matrix_.size(); ++j) {
-            const Index i = matrix_.particle(j);
-            rows_.row(j) = (system_->mass(i) * a(i)).transpose();
-        }
-        matrix_.subtract_braking(v, rows_);
-        if (pins_jump_) {
-            matrix_.subtract_pins(
-                [&](Index i) { return typename System::Vector((v(i) - last_.v.col(i)) / step_); },
-                rows_);
-            pins_jump_ = false;
-        }
-        rows_ = solver_.solve(rows_);
-        for (Index j = 0; j < matrix_.size(); ++j) a.set(matrix_.particle(j), rows_.row(j));
-    }
+    void correct(const Accelerations& a, const Velocities& v, Scalar h);
+    template <class AnyState>
+    bool goes_on(const AnyState& state) const;
+    template <class AnyState>
+    void remember_pins(const AnyState& state);
 
     const System* system_;
     Options options_;
     GraphShares shares_;
     Matrix matrix_;
     Solver solver_;
-    typename Matrix::Rows rows_;
+    typename Matrix::Rows rows_, jump_;
     integrator_detail::ExplicitSteps<System> steps_;
     std::int64_t factorizations_ = 0;
     bool prepared_ = false;
-    // Of springs with a share that end at pins.
-    State last_;              // as the last step left it
-    Scalar step_ = 0;         // s
+    // Where springs with a share end at pins: the last state, to see pins change their velocity.
+    State last_;
     bool pins_jump_ = false;  // before the next step
+    double jump_work_ = 0;
 };
+
+template <class System, class Solver>
+Report GraphInertia<System, Solver>::renew(Scalar h) {
+    const bool serves = prepared_ && shares_.revision == system_->revision() &&
+                        static_cast<double>(h) <= shares_.step;
+    return serves ? Report{} : prepare(h);
+}
 
 template <class System, class Solver>
 Report GraphInertia<System, Solver>::prepare(Scalar h) {
@@ -141,31 +152,91 @@ Report GraphInertia<System, Solver>::step(AnyState& state, Scalar h, Index count
     const Report checked = integrator_detail::StepLoop<State>::check(*system_, state, h);
     if (!checked || count <= 0) return checked;
     if (const Report renewed = renew(h); !renewed) return renewed;
-    const bool goes_on = matrix_.holds_pins() && static_cast<Scalar>(state.time) == last_.time &&
-                         last_.x.cols() == state.x.cols() &&
-                         last_.x == state.x.template cast<Scalar>();
-    step_ = h;
-    const auto correction = [this](const auto& a, const auto& v) { correct(a, v); };
+    const bool jumps = goes_on(state);
+    jump_work_ = 0;
+    const auto correction = [&](const auto& a, const auto& v) { correct(a, v, h); };
     bool first = true;
     const Report report = steps_.run(
         *system_, state, h, count,
         [&](auto& sweep, int threads, const StepDamping&) {
-            pins_jump_ = goes_on;
+            pins_jump_ = jumps;
             return sweep.run_corrected(*system_, state, h, count, threads, correction);
         },
         [&](State& own) {
-            pins_jump_ = goes_on && first;
-            first = false;
+            pins_jump_ = jumps && std::exchange(first, false);
             steps_.corrected_step(*system_, own, h, correction);
         });
-    if (!matrix_.holds_pins() || !report) {
+    if (matrix_.holds_pins() && report) {
+        remember_pins(state);
+    } else {
         last_ = {};
-    } else if constexpr (model_detail::is_state_view_v<AnyState>) {
+    }
+    return report;
+}
+
+template <class System, class Solver>
+template <class Accelerations, class Velocities>
+void GraphInertia<System, Solver>::correct(const Accelerations& a, const Velocities& v, Scalar h) {
+    if (matrix_.size() == 0) return;
+    const auto particle = [this](Index j) { return matrix_.particle(j); };
+    for (Index j = 0; j < matrix_.size(); ++j) {
+        rows_.row(j) = (system_->mass(particle(j)) * a(particle(j))).transpose();
+    }
+    matrix_.subtract_braking(v, rows_);
+    const bool jump = std::exchange(pins_jump_, false);
+    if (jump) {
+        jump_.setZero(matrix_.size(), System::Dim);
+        matrix_.subtract_pins([&](Index i) { return Vector((v(i) - last_.v.col(i)) / h); }, jump_);
+        rows_ += jump_;
+    }
+    rows_ = solver_.solve(rows_);
+    for (Index j = 0; j < matrix_.size(); ++j) {
+        a.set(particle(j), rows_.row(j));
+        if (!jump) continue;
+        const Vector way = h * (v(particle(j)) + h / 2 * rows_.row(j).transpose());
+        jump_work_ += static_cast<double>(jump_.row(j).dot(way));
+    }
+}
+
+/// Whether this is the last state, up to what pins and contacts did since.
+template <class System, class Solver>
+template <class AnyState>
+bool GraphInertia<System, Solver>::goes_on(const AnyState& state) const {
+    if (last_.x.cols() != state.x.cols() || static_cast<Scalar>(state.time) != last_.time) {
+        return false;
+    }
+    bool jumps = false;
+    for (Index i = 0; i < system_->size(); ++i) {
+        if (!system_->is_pinned(i)) continue;
+        if (last_.x.col(i) != state.x.col(i).template cast<Scalar>()) return false;
+        jumps = jumps || last_.v.col(i) != state.v.col(i).template cast<Scalar>();
+    }
+    return jumps;
+}
+
+template <class System, class Solver>
+template <class AnyState>
+void GraphInertia<System, Solver>::remember_pins(const AnyState& state) {
+    if constexpr (model_detail::is_state_view_v<AnyState>) {
         state.copy_to(last_);
     } else {
         last_ = state;
     }
-    return report;
+}
+
+template <class System, class Solver>
+auto GraphInertia<System, Solver>::response_to(const Points<Scalar, System::Dim>& impulse)
+    -> Points<Scalar, System::Dim> {
+    Points<Scalar, System::Dim> dv = impulse * system_->inverse_mass().asDiagonal();
+    if (matrix_.size() == 0) return dv;
+    for (Index j = 0; j < matrix_.size(); ++j) {
+        rows_.row(j) = impulse.col(matrix_.particle(j)).transpose();
+    }
+    rows_ = solver_.solve(rows_);
+    for (Index j = 0; j < matrix_.size(); ++j) {
+        dv.col(matrix_.particle(j)) = rows_.row(j).transpose();
+    }
+    return dv;
 }
 
 }  // namespace taut

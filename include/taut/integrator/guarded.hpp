@@ -97,6 +97,9 @@ public:
     const std::optional<StepLimit<Scalar>>& limit() const { return limit_; }
 
 private:
+    /// Whether the stepper's own inertia has a part in the energy: GraphInertia.
+    static constexpr bool has_inertia =
+        detail::is_detected_v<integrator_detail::added_kinetic_of, Stepper>;
     static constexpr bool limited = method::Of<method>::any_pose == method::AnyPose::limited;
 
     /// The stepper's own, as shares of its step.
@@ -108,7 +111,13 @@ private:
         }
     }
     /// Of the any-pose limit: what substeps are cut to.
-    double share() const { return share_of_limit(static_cast<double>(options_.safety), damping()); }
+    double share() const {
+        if constexpr (has_inertia) {
+            return stepper().energy_share();
+        } else {
+            return share_of_limit(static_cast<double>(options_.safety), damping());
+        }
+    }
     template <class... Arguments>
     static integrator_detail::HeldStepper<Stepper> made(const System& system,
                                                         const Options& options,
@@ -117,12 +126,22 @@ private:
     const Points<Scalar, System::Dim>* constraint_forces() const;
     integrator_detail::EnergyTerms terms() const;
     integrator_detail::EnergyBooks books(const State& state) {
-        return integrator_detail::energy_books(*system_, state, method, meter_.pins(), forces_,
-                                               damping().linearized());
+        auto books = integrator_detail::energy_books(*system_, state, method, meter_.pins(),
+                                                     forces_, damping().linearized());
+        if constexpr (has_inertia)
+            books.add_kinetic(stepper().added_kinetic(state),
+                              static_cast<double>(std::numeric_limits<Scalar>::epsilon()));
+        return books;
     }
-    Status prepare(const State& state, Scalar frame, Scalar largest, GuardedReport<Scalar>& report);
+    Status refuse(const State& state, Scalar frame, Scalar largest, GuardedReport<Scalar>& report);
+    Status open(const State& state, Scalar h);
     template <class Respond>
     Report attempt(State& state, GuardedReport<Scalar>& report, Respond& respond);
+    Report steps(State& state, Scalar h, Index count) {
+        const Report report = stepper().step(state, h, count);
+        if constexpr (has_inertia) meter_.add(stepper().jump_work());
+        return report;
+    }
     bool admits(const State& state, Scalar span, GuardedReport<Scalar>& report);
     void settle(const State& state, int retries);
     template <class Respond>
@@ -210,13 +229,13 @@ Report Guarded<Stepper, System>::attempt(State& state, GuardedReport<Scalar>& re
     const auto h = static_cast<double>(report.h);
     meter_.start(h, std::min(1.0, 2 * (1 - share() * share())), damping().times(h));
     report.response = 0;
-    if (limited && !responds && !meter_.needed(*system_, state)) {
-        return stepper().step(state, report.h, report.substeps);
+    if ((limited || has_inertia) && !responds && !meter_.needed(*system_, state)) {
+        return steps(state, report.h, report.substeps);
     }
     Report step;
     for (Index i = 0; i < report.substeps; ++i) {
         meter_.depart(*system_, state, responds, constraint_forces() != nullptr);
-        step = stepper().step(state, report.h);
+        step = steps(state, report.h, 1);
         if (!step) break;
         meter_.arrive(*system_, state, constraint_forces());
         if constexpr (responds) {
@@ -287,15 +306,26 @@ void Guarded<Stepper, System>::name_culprits(GuardedReport<Scalar>& report, cons
     report.spring = integrator_detail::most_loaded_spring(*system_, last);
 }
 
-/// Refuses what cannot be advanced; else opens the frame.
+/// What cannot be advanced.
 template <class Stepper, class System>
-Status Guarded<Stepper, System>::prepare(const State& state, Scalar frame, Scalar largest,
-                                         GuardedReport<Scalar>& report) {
+Status Guarded<Stepper, System>::refuse(const State& state, Scalar frame, Scalar largest,
+                                        GuardedReport<Scalar>& report) {
     if (!(largest > 0)) return Status::invalid_step;
     const Report refused = integrator_detail::StepLoop<State>::check(*system_, state, frame);
     report.where = refused.where;
-    if (!refused) return refused.status;
-    if (start_.is(*system_, state)) return Status::ok;
+    return refused.status;
+}
+
+/// Opens a frame of steps of h, or shorter ones.
+template <class Stepper, class System>
+Status Guarded<Stepper, System>::open(const State& state, [[maybe_unused]] Scalar h) {
+    bool same_books = true;
+    if constexpr (has_inertia) {
+        const auto factors = stepper().factorizations();
+        if (const Report made = stepper().renew(h); !made) return made.status;
+        same_books = factors == stepper().factorizations();
+    }
+    if (same_books && start_.is(*system_, state)) return Status::ok;
     const integrator_detail::EnergyBooks touched = books(state);
     if (account_.opened()) {
         account_.edit(start_books_, touched, terms());
@@ -313,7 +343,7 @@ auto Guarded<Stepper, System>::advance(State& state, Scalar frame, Respond&& res
     -> GuardedReport<Scalar> {
     GuardedReport<Scalar> report;
     const Scalar largest = largest_step();
-    report.status = prepare(state, frame, largest, report);
+    report.status = refuse(state, frame, largest, report);
     report.particle = report.where;
     if (!report) return report;
     const double needed = std::ceil(static_cast<double>(frame) / static_cast<double>(largest));
@@ -323,6 +353,8 @@ auto Guarded<Stepper, System>::advance(State& state, Scalar frame, Respond&& res
     refinement_.begin(system_->revision());
     report.substeps <<= refinement_.level();
     report.h = span / static_cast<Scalar>(report.substeps);
+    report.status = open(state, report.h);
+    if (!report) return report;
 
     for (;; ++report.retries, report.substeps *= 2, report.h /= 2) {
         const Report step = attempt(state, report, respond);

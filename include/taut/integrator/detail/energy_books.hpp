@@ -27,6 +27,11 @@ struct EnergyBooks {
     double pull_norm = 0;   ///< the same of springs alone, W/s; velocity Verlet only
     double rounding = 0;    ///< what rounding may make of all this, J
 
+    /// Counts further kinetic energy, J, of particles in Scalars with that epsilon.
+    void add_kinetic(double energy, double epsilon) {
+        kinetic += energy;
+        rounding += 8 * epsilon * energy;
+    }
     /// T + V: what moves or pulls, never negative.
     double owned() const { return kinetic + elastic; }
     /// H = T + V + G.

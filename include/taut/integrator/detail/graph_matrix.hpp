@@ -37,6 +37,11 @@ public:
     Index particle(Index j) const { return particles_[j]; }
     /// A: n × n, symmetric, both triangles, kg.
     const SparseMatrix<Scalar>& matrix() const { return matrix_; }
+    /// A_ii of particle i, kg; of an untouched one its mass.
+    Scalar diagonal(Index i, Scalar mass) const {
+        const int row = row_[static_cast<std::size_t>(i)];
+        return row < 0 ? mass : matrix_.coeff(row, row);
+    }
     /// rows ← rows − D_i v.  @param v  v(i): velocity of particle i
     template <class Velocity>
     void subtract_braking(const Velocity& v, Rows& rows) const {
@@ -49,7 +54,7 @@ public:
     }
     /// Whether a spring with a share ends at a pin.
     bool holds_pins() const { return holds_pins_; }
-    /// rows ← rows − A_fp·dv.  @param dv  dv(i): by how much the velocity of pin i changed
+    /// rows ← rows − A_fp·dv.  @param dv  dv(i): by how much the velocity of pin i changed, m/s
     template <class Change>
     void subtract_pins(const Change& dv, Rows& rows) const {
         for (const Link& link : links_) {
@@ -59,13 +64,15 @@ public:
             rows.row(row) += link.coupling * dv(pin).transpose();
         }
     }
-    /// ½vᵀ(M̃ − M)v, J.
+    /// ½vᵀ(M̃ − M)v over the free particles, J.
     template <class Points>
     double added_kinetic(const Points& v) const {
         double sum = 0;
         for (const Link& link : links_) {
-            sum += link.inertia / 2 *
-                   (v.col(link.b) - v.col(link.a)).template cast<double>().squaredNorm();
+            Vector between = Vector::Zero();
+            if (link.row_a >= 0) between -= v.col(link.a);
+            if (link.row_b >= 0) between += v.col(link.b);
+            sum += link.inertia / 2 * between.template cast<double>().squaredNorm();
         }
         return sum;
     }
@@ -82,7 +89,8 @@ private:
     void find_springs(const System& system, const GraphShares& shares, double dissipation);
     SparseMatrix<double> assemble(const System& system) const;
 
-    std::vector<Index> particles_;
+    std::vector<Index> particles_;  // of the rows
+    std::vector<int> row_;          // of each particle, or −1
     std::vector<Link> links_;
     SparseMatrix<Scalar> matrix_;
     bool brakes_ = false;
@@ -96,14 +104,14 @@ void GraphMatrix<System>::find_springs(const System& system, const GraphShares& 
     particles_.clear();
     brakes_ = dissipation > 0;
     holds_pins_ = false;
-    std::vector<int> row(static_cast<std::size_t>(system.size()), -1);
+    row_.assign(static_cast<std::size_t>(system.size()), -1);
     const auto row_of = [&](Index i) {
         if (system.is_pinned(i)) return -1;
-        if (row[i] < 0) {
-            row[i] = static_cast<int>(particles_.size());
+        if (row_[i] < 0) {
+            row_[i] = static_cast<int>(particles_.size());
             particles_.push_back(i);
         }
-        return row[i];
+        return row_[i];
     };
     for_each_inertia(system, shares, [&](Index a, Index b, double damped, double elastic) {
         links_.push_back({a, b, row_of(a), row_of(b), damped + elastic,
@@ -156,7 +164,10 @@ Report GraphMatrix<System>::build(const System& system, const GraphShares& share
     ordered = A.twistedBy(order);
     matrix_ = ordered.template cast<Scalar>();
     const std::vector<Index> before = particles_;
-    for (Index j = 0; j < size(); ++j) particles_[place(j)] = before[j];
+    for (Index j = 0; j < size(); ++j) {
+        particles_[place(j)] = before[j];
+        row_[before[j]] = static_cast<int>(place(j));
+    }
     for (Link& link : links_) {
         for (int* row : {&link.row_a, &link.row_b}) {
             if (*row >= 0) *row = static_cast<int>(place(*row));

@@ -15,6 +15,9 @@ using method_of = decltype(Stepper::method);
 template <class Stepper>
 using damping_of = decltype(std::declval<const Stepper&>().damping());
 template <class Stepper>
+using added_kinetic_of = decltype(std::declval<const Stepper&>().added_kinetic(
+    std::declval<const typename Stepper::State&>()));
+template <class Stepper>
 using constraint_forces_of = decltype(std::declval<const Stepper&>().constraint_forces());
 
 struct NoResponse {
