@@ -223,6 +223,7 @@ private:
     Outside<System> outside_;
     VectorX<Scalar> scratch_;       // forces on one block for each thread, N; 0 between blocks
     VectorX<Scalar> end_x_;         // of run_verlet, planes, m
+    std::vector<int> places_;       // of run_corrected: of each particle, if known
     VectorX<Scalar> acceleration_;  // at the end of the last run_verlet, planes, m/s²
     StiffnessDamping<Scalar> damping_;
     Air<Scalar> air_;
@@ -235,8 +236,10 @@ template <class AnyState>
 void Sweep<System>::load(const System& system, const AnyState& state, const StepDamping& added) {
     damping_ = system.stiffness_damping(added).template cast<Scalar>();
     ahead_ = static_cast<Scalar>(added.look_ahead);
+    const bool new_plan = plan_.update(system);
+    if (new_plan) places_.clear();
     // A new plan may have other places for what is discarded.
-    if (plan_.update(system) || in_step_) scratch_.setZero();
+    if (new_plan || in_step_) scratch_.setZero();
     const Index size = plan_.size() * plan_.grain();
     state_.resize(plan_.planes(), size, plan_.stride(), ahead_ > 0,
                   {plan_.damped() || bool(damping_) || plan_.has_wind(), plan_.has_wind()});

@@ -67,15 +67,15 @@ bool Sweep<System>::run_corrected(const System& system, AnyState& state, Scalar 
     load(system, state, {});
     const bool one_by_one = outside_.asks_for_state();
     if (one_by_one && !state_.finite()) return false;
-    const std::vector<int> places = plan_.places();
+    if (places_.empty()) places_ = plan_.places();
     // The acceleration takes the place of the new x.
     const auto take = [](auto& x, auto&, const auto& a, const auto&) { x = a; };
     for (Index i = 1; i <= count; ++i) {
         update_.set_external(outside_.at_state(plan_, state_.planes()));
         some_steps(h, 1, threads, take);
         const StatePlanes<Scalar> planes = state_.planes();
-        correct(PlaceVectors<System>(plan_, places, planes.x),
-                PlaceVectors<System>(plan_, places, planes.v));
+        correct(PlaceVectors<System>(plan_, places_, planes.x),
+                PlaceVectors<System>(plan_, places_, planes.v));
         auto x = state_.whole(planes.x);
         auto v = state_.whole(planes.v);
         v += h * x;
