@@ -33,15 +33,15 @@ EIGEN_DONT_INLINE void operator delete[](void* memory, std::size_t) noexcept { s
 namespace {
 
 template <class Stepper, class System>
-bool allocates(const char* name, const System& system) {
+bool allocates(const char* name, const System& system, double h = 1e-5) {
     auto state = system.initial_state();
     Stepper stepper(system);
-    const auto step = [&](taut::Index count) { return bool(stepper.step(state, 1e-5, count)); };
+    const auto step = [&](taut::Index count) { return bool(stepper.step(state, h, count)); };
     // An engine's array of float4, stepped in the precision of the system.
     std::vector<float> x(static_cast<std::size_t>(4 * system.size())), v = x;
     taut::StateView<float, System::Dim> view(x.data(), v.data(), system.size(), 4);
     view.copy_from(state);
-    const auto on_view = [&] { return bool(stepper.step(view, 1e-5, 3)); };
+    const auto on_view = [&] { return bool(stepper.step(view, h, 3)); };
     if (!step(2) || !on_view()) return true;
     const long before = allocations;
     eigen_allocated = false;
@@ -57,7 +57,8 @@ template <class System>
 bool any_allocates(const System& system) {
     return allocates<taut::SymplecticEuler<System>>("symplectic_euler", system) ||
            allocates<taut::ExplicitEuler<System>>("explicit_euler", system) ||
-           allocates<taut::VelocityVerlet<System>>("velocity_verlet", system);
+           allocates<taut::VelocityVerlet<System>>("velocity_verlet", system) ||
+           allocates<taut::GraphInertia<System>>("graph_inertia", system, 1e-3);
 }
 
 }  // namespace
