@@ -132,15 +132,23 @@ public:
     LimitingMode limiting_mode() const;
     /// The springs that hold most of the limiting mode's elastic energy, the first one most.
     std::vector<SpringShare> limiting_springs(Index count) const {
-        if (size() == 0) return {};
-        return stability_detail::largest_shares(pencil_->spring_shares(limiting_mode().shape),
-                                                count);
+        if (size() == 0 || count <= 0) return {};
+        return limiting_springs(count, limiting_mode());
+    }
+    /// The same of a mode that is known: finding it is most of the work.
+    std::vector<SpringShare> limiting_springs(Index count, const LimitingMode& mode) const {
+        if (size() == 0 || count <= 0) return {};
+        return stability_detail::largest_shares(pencil_->spring_shares(mode.shape), count);
     }
     /// The particles that hold most of its kinetic energy, the first one most.
     std::vector<ParticleShare> limiting_particles(Index count) const {
-        if (size() == 0) return {};
-        return stability_detail::largest_shares(pencil_->particle_shares(limiting_mode().shape),
-                                                count);
+        if (size() == 0 || count <= 0) return {};
+        return limiting_particles(count, limiting_mode());
+    }
+    /// The same of a mode that is known.
+    std::vector<ParticleShare> limiting_particles(Index count, const LimitingMode& mode) const {
+        if (size() == 0 || count <= 0) return {};
+        return stability_detail::largest_shares(pencil_->particle_shares(mode.shape), count);
     }
 
     /// The largest factor on all stiffness (αK⁺ included) for which step h, s, is still certified
