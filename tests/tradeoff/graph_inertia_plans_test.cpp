@@ -3,6 +3,7 @@
 #include <taut/model/tension_only.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/scene/with_law.hpp>
+#include <taut/tradeoff/mode_probe.hpp>
 #include <taut/tradeoff/recommend.hpp>
 
 #include "../support/catch.hpp"
@@ -82,6 +83,30 @@ TEST_CASE("slowed_mode_error: symplectic Euler of the heavier mode", "[tradeoff]
         CHECK_THAT(error.artificial_damping, WithinAbs(-rate.real() / std::abs(rate) - zeta, 1e-9));
         CHECK_THAT(error.period_error,
                    WithinAbs(omega * std::sqrt(1 - zeta * zeta) / rate.imag() - 1, 1e-9));
+    }
+}
+
+TEST_CASE("measured_mode_error: graph inertia slows a spring as its price says", "[tradeoff]") {
+    Random random(932);
+    for (int repeat = 0; repeat < 20; ++repeat) {
+        taut::SpringSystem<double, 2> fork;
+        const double stiffness = std::exp2(random.uniform(0, 10));
+        fork.add_particle({0, 1}, std::exp2(random.uniform(-6, 0)));
+        fork.add_particle({0, 0}, 1);
+        fork.pin(1);
+        fork.add_spring(0, 1, stiffness);
+        const auto rest = fork.initial_state();
+        const taut::Mode mode = taut::lowest_modes(fork, rest, 1).front();
+        // Below the limit, 2 rad, no spring is implicit.
+        const Candidate candidate{Scheme::graph_inertia, random.uniform(0.2, 4) / mode.omega};
+        const auto shares =
+            taut::graph_shares(fork, candidate.h, taut::GraphInertiaOptions{}.margin);
+        const auto price = taut::inertia_price(fork, rest, shares, 1);
+        const auto predicted = taut::slowed_mode_error(price.modes.front(), candidate.h);
+        const auto measured = taut::measured_mode_error(fork, rest, mode, candidate, 1e-6);
+        REQUIRE(measured);
+        CHECK_THAT(measured->artificial_damping, WithinAbs(predicted.artificial_damping, 1e-5));
+        CHECK_THAT(measured->period_error, WithinAbs(predicted.period_error, 1e-4));
     }
 }
 

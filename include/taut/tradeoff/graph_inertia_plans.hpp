@@ -63,7 +63,7 @@ public:
                 static_cast<Index>(share * static_cast<double>(system_.spring_count()));
             const Index substeps = fewest(most, below - 1);
             if (substeps == 0) continue;
-            const Trial& trial = trials_.at(substeps);
+            const Trial& trial = trials_.find(substeps)->second;
             // None implicit: symplectic Euler, beyond its recipe.
             if (trial.implicit == 0) continue;
             if (!found.empty() && found.back().substeps == substeps) continue;
@@ -126,6 +126,8 @@ private:
         price.admitted = !answer.modes.empty();  // else its price is not known
         const ModeTolerance& tolerance = goal_.accuracy ? *goal_.accuracy : lax;
         const auto judge = [&](SlowedMode mode) {
+            price.admitted = price.admitted && mode.slowed_frequency > 0;
+            if (!price.admitted) return;
             price.slowing = std::max(price.slowing, -mode.change());
             double zeta = 0;
             if (goal_.accuracy) {
@@ -166,8 +168,8 @@ private:
         plan.candidate.h = goal_.frame / static_cast<double>(substeps);
         plan.substeps = substeps;
         if (fails_ > 0) {
-            const auto& price = trials_.at(fails_).price;
-            const bool dear = trials_.at(fails_).implicit <= most && price;
+            const Trial& larger = trials_.find(fails_)->second;
+            const bool dear = larger.implicit <= most && larger.price;
             plan.bound = dear ? StepBound::accuracy : StepBound::stability;
         }
         if (goal_.accuracy) plan.error = trial.price->worst;
