@@ -87,7 +87,9 @@ private:
     // Modes of larger scenes take longer than what else is measured.
     static constexpr Index most_particles = 20'000;
     static constexpr Index judged_modes = 10;
-    static constexpr Index known_modes = 40;
+    // As many as are found of a large scene. More would let short waves that the inertia makes slow
+    // pass for changes of the low ones.
+    static constexpr Index known_modes = 20;
     /// Where the goal asks for no accuracy: motion must not freeze all the same.
     static constexpr ModeTolerance lax{std::numeric_limits<double>::infinity(), 0.05};
 

@@ -43,9 +43,9 @@ inline std::vector<Candidate> recommended_candidates(const Goal& goal) {
 /// the springs implicit, are larger than the explicit ones, and whose price at the pose of
 /// `state` is admitted (inertia_price [T33] and what the step does itself): by Goal::accuracy for
 /// the ten lowest modes and all up to Goal::up_to_frequency, or else 5 % of the periods of the ten
-/// lowest. Those above the twenty or so modes that are found count as slowed in proportion to ω².
-/// Not for springs that turn slack or buckle, which feed it with energy (measured), nor above
-/// 20 000 particles, where the modes take longer than all else.
+/// lowest. Those above the twenty lowest, which are all that is known, count as slowed in
+/// proportion to ω². Not for springs that turn slack or buckle, which feed it with energy
+/// (measured), nor above 20 000 particles, where the modes take longer than all else.
 template <class Scalar, int Dim, class... Laws>
 std::vector<Plan> feasible_plans(const SpringSystem<Scalar, Dim, Laws...>& system,
                                  const State<Scalar, Dim>& state, const Goal& goal,
