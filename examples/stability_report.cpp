@@ -94,8 +94,10 @@ Findings report_on_scene(const Options& options) {
     const double tightness = options.proof || options.any_pose ? proof_tightness : 0;
     found.any_pose = taut::any_pose_limit(scene.system, tightness);
     found.energy = example::prove_energy(scene.system, tightness);
+    found.graph_inertia = stability.max_step(Method::graph_inertia);
     if (found.remedies) {
         found.remedies->added_mass = taut::added_mass(scene.system, state, options.want_step);
+        found.inertia = example::tell_inertia(scene.system, options.want_step);
     }
     found.analysis = seconds_since(analysis);
     if (!options.html.empty()) {
@@ -171,7 +173,8 @@ int run(int argc, char** argv) {
                  "narrow the limits at any pose and of the energy likewise");
     app.add_option("--blame", options.blame, "name the N springs and particles that limit the step")
         ->check(CLI::Range(0, 1'000'000));
-    app.add_option("--want-step", options.want_step, "say what would make step H, s, safe")
+    app.add_option("--want-step", options.want_step,
+                   "say what would make step H, s, safe, and what graph inertia would cost")
         ->check(example::positive());
     app.add_option("--json", options.json,
                    "write the findings as JSON (- is stdout, without table)")

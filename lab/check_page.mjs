@@ -129,6 +129,10 @@ async function clickThrough(page, name) {
   expect(frame > 30 * limits.refuted && now.settings.method === 3 && now.limits.anyPose === Infinity, `${name}: implicit Euler at ${frame.toExponential(3)} s, every step certified`);
   expect(!whole.blown && whole.taken >= 150 && whole.far < 1.6 && !(await shown(page, "#verdict")), `${name}: keeps whole over ${whole.taken} steps, nothing farther than ${whole.far.toFixed(2)} m`);
 
+  await choose(page, "Graph inertia");
+  const heavy = await watch(page, 150);
+  expect(!heavy.blown && heavy.taken >= 150 && heavy.far < 1.6 && (await state(page)).limits.anyPose === Infinity, `${name}: graph inertia at the same step keeps whole over ${heavy.taken} steps, nothing farther than ${heavy.far.toFixed(2)} m`);
+
   await choose(page, "Velocity Verlet");
   const again = await watch(page, Infinity);
   expect(again.blown, `${name}: velocity Verlet at the same step blows up after ${again.taken} steps`);

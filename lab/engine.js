@@ -3,7 +3,7 @@
 
 // lab.wasm with the few calls that it needs of its host, for the page and for node.
 
-export const METHODS = ["explicit_euler", "symplectic_euler", "velocity_verlet", "implicit_euler"];
+export const METHODS = ["explicit_euler", "symplectic_euler", "velocity_verlet", "implicit_euler", "bdf2", "graph_inertia"];
 
 /// @param bytes  of lab.wasm
 export async function loadLab(bytes) {

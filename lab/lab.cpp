@@ -17,7 +17,7 @@ using taut::Method;
 using Gradients = taut::ConjugateGradient<double, 3>;
 using Stepper = std::variant<taut::ExplicitEuler<Cloth>, taut::SymplecticEuler<Cloth>,
                              taut::VelocityVerlet<Cloth>, taut::ImplicitEuler<Cloth, Gradients>,
-                             taut::Bdf2<Cloth, Gradients>>;
+                             taut::Bdf2<Cloth, Gradients>, taut::GraphInertia<Cloth>>;
 
 struct Lab {
     taut::ClothOptions options;

@@ -10,7 +10,7 @@
 #endif
 
 // One cloth for a page, or for a native program, to play with. Methods count as in taut::Method:
-// explicit Euler, symplectic Euler, velocity Verlet, implicit Euler, BDF2.
+// explicit Euler, symplectic Euler, velocity Verlet, implicit Euler, BDF2, graph inertia.
 
 extern "C" {
 
@@ -61,7 +61,8 @@ LAB_CALL const char* lab_cause();
 /// Largest |multiplier| of the limiting mode last analysed, at step h, s.
 LAB_CALL double lab_growth(int method, double h);
 
-/// Times symplectic and implicit Euler on this machine, for frames of 1/60 s and `seconds` each.
+/// Times symplectic and implicit Euler, and graph inertia where few springs hold the step down, on
+/// this machine, for frames of 1/60 s and `seconds` each.
 /// @returns one sentence; lab_plan(i) for i < lab_plan_count() has its numbers
 LAB_CALL const char* lab_recommend(double seconds);
 LAB_CALL int lab_plan_count();

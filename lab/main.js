@@ -13,9 +13,9 @@ const FRAME = 1 / 60;         // s
 const BUDGET = 11;            // ms of stepping a frame, so that the page stays in hand
 const SLOW = 1.12;            // an unstable vibration grows by at most this in a frame
 const SAMPLES = 300;          // frames in the chart
-const NAMES = ["Explicit Euler", "Symplectic Euler", "Velocity Verlet", "Implicit Euler"];
+const NAMES = ["Explicit Euler", "Symplectic Euler", "Velocity Verlet", "Implicit Euler", "BDF2", "Graph inertia"];
 const GRAVITY = 9.81;         // m/s²
-const EXPLICIT = 0, IMPLICIT = 3;
+const EXPLICIT = 0, IMPLICIT = 3, INERTIA = 5;
 
 const byId = (id) => document.getElementById(id);
 const whole = (n) => n.toLocaleString("en-US");
@@ -65,6 +65,7 @@ function sentence() {
     return `Explicit Euler needs damping: at this step, α between ${seconds(Math.max(0, alphaLower), 3)} and ${seconds(alphaUpper, 3)} is proved at the starting pose; it is ${settings.alpha > 0 ? seconds(settings.alpha, 3) : "none"}.`;
   }
   if (method === IMPLICIT) return `Implicit Euler’s linearised step is certified at every h, at any pose; what a large step costs is motion, which it damps. A frame in one step is 16.7\u00a0ms.`;
+  if (method === INERTIA) return `Graph inertia is certified at every h, linearised, at any pose: springs that would not bear the step become implicit. What a large step costs is inertia, which slows folds and rotation. A frame in one step is 16.7\u00a0ms.`;
   if (where === "certified") return `Proved at any pose, linearised: about no pose that the cloth takes does a small vibration grow. Its energy may rise all the same; Taut’s recipe, a share of this limit with damping, keeps it down: measured, not proved. A frame of 1/60\u00a0s is ${whole(Math.ceil(FRAME / h))} such steps.`;
   if (where === "posed") return method === EXPLICIT ? "Proved at the pose in which the cloth starts, for small motions. Explicit Euler has no limit that holds at every pose." : `Proved at the pose in which the cloth starts, for small motions, up to ${seconds(limits.certified, 3)}; not proved for all poses to come.`;
   if (where === "open") return `Between what is proved, up to ${seconds(limits.certified, 3)}, and what is refuted, from ${seconds(limits.refuted, 3)} on.`;
@@ -100,7 +101,8 @@ function recommend() {
   advice = best;
   const steps = (plan) => (plan.substeps === 1 ? "one step a frame" : `${whole(plan.substeps)} steps a frame`);
   byId("pick").textContent = `${NAMES[best.method]}, ${steps(best)}`;
-  byId("why").textContent = (best.method === IMPLICIT ? "Every step is stable, so it takes the whole frame at once" : "Its step by the recipe is large enough") +
+  const reasons = { [IMPLICIT]: "Every step is stable, so it takes the whole frame at once", [INERTIA]: "It makes only those springs implicit that hold the step down" };
+  byId("why").textContent = (reasons[best.method] || "Its step by the recipe is large enough") +
     `, and that is the cheapest: ${NAMES[second.method] === NAMES[best.method] ? planName(second) : NAMES[second.method]} would cost ${significant(second.cost / best.cost, 2)} times as much. Measured in this browser.`;
   byId("bars").replaceChildren(...plans.flatMap((plan) => {
     const row = document.createElement("div");

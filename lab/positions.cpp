@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
-// The positions after a hundred steps of each method of the page, one coordinate a line: what
+// The positions after a hundred steps of each method, one coordinate a line: what
 // check_same.mjs compares the WebAssembly with.
 
 #include <cstdio>
@@ -9,7 +9,7 @@
 #include "lab.hpp"
 
 int main() {
-    for (int method = 0; method < 4; ++method) {
+    for (int method = 0; method < 6; ++method) {
         lab_start(16, 1000, 0.3, 2e-4, 0.5);
         if (lab_step(method, 2e-4, 100) != 0) return 1;
         const double* x = lab_positions();

@@ -169,7 +169,7 @@ public:
                 trial.plan.substeps == advice.pick.substeps) {
                 pick = &trial;
             }
-            if (!trial.recommended) continue;
+            if (!trial.recommended || c.scheme == Scheme::graph_inertia) continue;
             double& side = is_implicit(c.scheme) ? implicit_cost : explicit_cost;
             if (!(side <= trial.plan.cost)) side = trial.plan.cost;
         }
@@ -238,7 +238,10 @@ private:
     bool meets(const Plan& plan) {
         worst_ = {};
         for (const Mode& mode : modes_) {
-            const auto error = taut::measured_mode_error(*linear_, mode, plan.candidate, 800);
+            const bool inertia = plan.candidate.scheme == Scheme::graph_inertia;
+            const auto error =
+                inertia ? taut::measured_mode_error(judged_, rest_, mode, plan.candidate, 1e-7, 800)
+                        : taut::measured_mode_error(*linear_, mode, plan.candidate, 800);
             if (!error) return false;
             if (std::abs(error->artificial_damping) > std::abs(worst_.artificial_damping)) {
                 worst_.artificial_damping = error->artificial_damping;

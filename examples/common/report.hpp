@@ -62,6 +62,32 @@ EnergyProof prove_energy(const System& system, double tightness) {
     return proof;
 }
 
+/// What graph inertia would make of the wanted step [T33].
+struct InertiaTold {
+    bool possible = false;  ///< some shares make the step safe
+    taut::Index implicit_springs = 0;
+    taut::Index touched = 0;  ///< free particles at their ends
+    taut::InertiaPrice price;
+};
+
+template <class System>
+InertiaTold tell_inertia(const System& system, double h) {
+    const taut::GraphShares shares =
+        taut::graph_shares(system, h, taut::GraphInertiaOptions{}.margin);
+    InertiaTold told;
+    told.possible = shares.status == taut::Status::ok;
+    told.implicit_springs = shares.implicit_springs();
+    std::vector<char> touched(static_cast<std::size_t>(system.size()), 0);
+    taut::for_each_inertia(system, shares, [&](taut::Index a, taut::Index b, double, double) {
+        for (const taut::Index i : {a, b})
+            touched[static_cast<std::size_t>(i)] = !system.is_pinned(i);
+    });
+    told.touched = std::count(touched.begin(), touched.end(), 1);
+    const taut::Index modes = told.implicit_springs > 0 ? 10 : 0;
+    told.price = taut::inertia_price(system, system.initial_state(), shares, modes);
+    return told;
+}
+
 struct Findings {
     std::string name;
     taut::Index degrees_of_freedom = 0;
@@ -71,13 +97,16 @@ struct Findings {
     taut::StepLimit<double> explicit_euler;
     taut::StepLimit<double> symplectic_euler;
     taut::StepLimit<double> implicit_euler;
+    /// At any pose, so at this one too; bare matrices have no springs to share.
+    std::optional<taut::StepLimit<double>> graph_inertia;
     std::optional<taut::StepLimit<double>> any_pose;
     std::optional<EnergyProof> energy;
     std::optional<taut::Certificate> proof;
     std::vector<taut::SpringShare> springs_to_blame;
     std::vector<taut::ParticleShare> particles_to_blame;
     std::optional<Remedies> remedies;
-    double window_step = 0;  // s
+    std::optional<InertiaTold> inertia;  // at the wanted step
+    double window_step = 0;              // s
     taut::AlphaWindow window;
     double setup = 0;     // s
     double analysis = 0;  // s
@@ -115,6 +144,17 @@ inline Json energy_json(const std::optional<EnergyProof>& energy) {
     return json;
 }
 
+/// null: no shares make the wanted step safe, or there are no springs.
+inline Json inertia_json(const std::optional<InertiaTold>& told) {
+    if (!told || !told->possible) return nullptr;
+    Json changes = Json::array();
+    for (const auto& mode : told->price.modes) changes.push_back(mode.change());
+    return {{"implicit_springs", told->implicit_springs},
+            {"touched_particles", told->touched},
+            {"added_inertia", told->price.added},
+            {"frequency_changes", changes}};
+}
+
 inline Json to_json(const Findings& found, double d0) {
     const auto bracket = [](const taut::EigenvalueBracket& k) {
         return Json{{"lower", k.lower}, {"upper", k.upper}};
@@ -131,6 +171,8 @@ inline Json to_json(const Findings& found, double d0) {
     json["explicit_euler"] = limit_json(found.explicit_euler);
     json["symplectic_euler"] = limit_json(found.symplectic_euler);
     json["implicit_euler"] = limit_json(found.implicit_euler);
+    json["graph_inertia"] =
+        found.graph_inertia ? limit_json(*found.graph_inertia) : Json{{"certified", nullptr}};
     json["any_pose"] = {
         {"certified", found.any_pose ? certified_json(*found.any_pose) : Json(nullptr)}};
     json["energy"] = energy_json(found.energy);
@@ -165,6 +207,7 @@ inline Json to_json(const Findings& found, double d0) {
                              {"added_mass", remedies.added_mass && remedies.added_mass->reached
                                                 ? Json(remedies.added_mass->total)
                                                 : Json(nullptr)}};
+        json["want_step"]["graph_inertia"] = inertia_json(found.inertia);
     }
     json["seconds"] = {{"setup", found.setup}, {"analysis", found.analysis}};
     return json;
@@ -274,6 +317,28 @@ inline void print_remedies(const Remedies& remedies) {
     std::printf("\n");
 }
 
+/// The price of making springs implicit.
+inline void print_inertia(const InertiaTold& told, const Findings& found) {
+    std::printf("For graph inertia at h = %.4e s at any pose, ", found.remedies->step);
+    if (!told.possible) {
+        std::printf("no shares are proved to make it safe\n");
+        return;
+    }
+    std::printf("%lld of %lld springs implicit", static_cast<long long>(told.implicit_springs),
+                static_cast<long long>(*found.springs));
+    if (told.implicit_springs == 0) {
+        std::printf(": it is symplectic Euler, and safe\n");
+        return;
+    }
+    std::printf("\n  one factor of %lld particles; the inertia added is %.3g %% of the mass",
+                static_cast<long long>(told.touched), 100 * told.price.added);
+    double most = 0;
+    for (const auto& mode : told.price.modes) most = std::min(most, mode.change());
+    if (!told.price.modes.empty())
+        std::printf(";\n  the lowest frequencies change by at most %.3g %%", -100 * most);
+    std::printf("\n");
+}
+
 inline void print_table(const Findings& found, double d0) {
     std::printf("%s, %lld degrees of freedom\n\n", found.name.c_str(),
                 static_cast<long long>(found.degrees_of_freedom));
@@ -283,9 +348,11 @@ inline void print_table(const Findings& found, double d0) {
     print_limit("explicit Euler", found.explicit_euler);
     print_limit("symplectic Euler", found.symplectic_euler);
     print_limit("implicit Euler", found.implicit_euler);
+    if (found.graph_inertia) print_limit("graph inertia", *found.graph_inertia);
     if (found.any_pose) {
         std::printf(" at any pose (linearised)\n");
         print_limit("symplectic Euler", *found.any_pose);
+        if (found.graph_inertia) print_limit("graph inertia", *found.graph_inertia);
     }
     if (found.energy) {
         std::printf(" energy (nonlinear)\n");
@@ -298,6 +365,7 @@ inline void print_table(const Findings& found, double d0) {
     print_note("explicit Euler", found.explicit_euler);
     print_note("symplectic Euler", found.symplectic_euler);
     print_note("implicit Euler", found.implicit_euler);
+    if (found.graph_inertia) print_note("graph inertia", *found.graph_inertia);
     std::printf("\n");
 
     const auto& k = found.spectrum;
@@ -319,6 +387,7 @@ inline void print_table(const Findings& found, double d0) {
     }
     if (!found.particles_to_blame.empty()) print_blame(found);
     if (found.remedies) print_remedies(*found.remedies);
+    if (found.inertia) print_inertia(*found.inertia, found);
     std::printf("Seconds: setup %.3f, analysis %.3f\n", found.setup, found.analysis);
 }
 

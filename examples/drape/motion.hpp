@@ -108,6 +108,9 @@ inline Advance make_motion(const Options& options, const Scene& scene) {
     if (options.integrator == "explicit") {
         return detail::by_stepper(scene, std::make_shared<taut::ExplicitEuler<Cloth>>(scene.cloth));
     }
+    if (options.integrator == "graph_inertia") {
+        return detail::by_stepper(scene, std::make_shared<taut::GraphInertia<Cloth>>(scene.cloth));
+    }
     if (options.integrator == "verlet") {
         return damped_or_guarded<taut::VelocityVerlet<Cloth>>(options, scene);
     }
@@ -135,7 +138,15 @@ inline double default_step(const Options& options, const Cloth& cloth, double fr
     const double usual = linearised ? 1.0 / 60 : frame;
     const double contact = options.collide.empty() ? frame : between_contacts;
     const double longest = std::min({frame, usual, contact});
-    if (options.implicit()) return longest;
+    if (options.integrator == "graph_inertia") {
+        taut::Goal goal;
+        goal.frame = longest;
+        const auto plans =
+            taut::feasible_plans(cloth, goal, {taut::Candidate{taut::Method::graph_inertia}});
+        if (!plans.empty()) return plans.back().candidate.h;
+    } else if (options.implicit()) {
+        return longest;
+    }
     const auto limit = taut::any_pose_limit(cloth);
     if (limit.unbounded()) return longest;
     if (!(limit.certified > 0)) {

@@ -4,6 +4,8 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "detail/low_modes.hpp"
@@ -52,14 +54,57 @@ struct InertiaPrice {
     std::vector<SlowedMode> modes;  ///< the lowest above the zero modes, ascending
 };
 
+/// The low modes of a scene at a pose, which inertia_price asks for: the same for all shares.
+struct LowModes {
+    Eigen::MatrixXd shapes;     ///< U, N × r, M-orthonormal but for rounding
+    Eigen::MatrixXd stiffness;  ///< UᵀK⁺U
+    Eigen::MatrixXd mass;       ///< UᵀMU
+    Eigen::VectorXd frequency;  ///< ω by Rayleigh and Ritz, rad/s, ascending
+    bool all = false;           ///< no mode above the zero modes is left out
+
+    /// The lowest modes above the zero modes; r ≤ `most`.
+    template <class Scalar, int Dim, class... Laws>
+    static LowModes of(const SpringSystem<Scalar, Dim, Laws...>& system,
+                       const State<Scalar, Dim>& state,
+                       Index most = std::numeric_limits<Index>::max()) {
+        const auto pencil =
+            SpringPencil<Dim>::at_pose(system, state.x.template cast<TangentReal<Scalar>>());
+        LowModes modes;
+        modes.shapes = stability_detail::low_modes(pencil);
+        modes.all = pencil.size() <= stability_detail::dense_low_modes;
+        if (modes.shapes.cols() > most) {
+            modes.shapes = modes.shapes.leftCols(most).eval();
+            modes.all = false;
+        }
+        const Eigen::MatrixXd& U = modes.shapes;
+        Eigen::MatrixXd KU(U.rows(), U.cols());
+        Eigen::VectorXd y;
+        for (Index j = 0; j < U.cols(); ++j) {
+            pencil.multiply(matrices::K_plus, U.col(j), y);
+            KU.col(j) = y;
+        }
+        modes.stiffness = U.transpose() * KU;
+        modes.mass = U.transpose() * pencil.mass().asDiagonal() * U;
+        modes.frequency = modes.frequencies(modes.mass);
+        return modes;
+    }
+    /// ω of other masses, UᵀM̃U, rad/s, ascending.
+    Eigen::VectorXd frequencies(const Eigen::MatrixXd& masses) const {
+        if (masses.rows() == 0) return {};
+        const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(
+            stiffness, masses, Eigen::EigenvaluesOnly);
+        return solver.eigenvalues().cwiseMax(0).cwiseSqrt();
+    }
+};
+
 /// The price of shares at their step: the added inertia as a share of the mass, and what it makes
 /// of the lowest frequencies at a pose: ω̃/ω = (1 + q)^−½, q = uᵀ(M̃ − M)u/uᵀMu, near-equal modes by
 /// Rayleigh and Ritz. Numerical, no proof. It does not count what the step itself does, an h²ω²/24.
-/// @param count  modes asked for; fewer where the scene has fewer
+/// @param modes  LowModes::of the system at that pose
+/// @param count  modes asked for; fewer where there are fewer
 template <class Scalar, int Dim, class... Laws>
 InertiaPrice inertia_price(const SpringSystem<Scalar, Dim, Laws...>& system,
-                           const State<Scalar, Dim>& state, const GraphShares& shares,
-                           Index count) {
+                           const GraphShares& shares, const LowModes& modes, Index count) {
     const FreeParticles free(system);
     std::vector<Eigen::Triplet<double>> entries;  // of M̃ − M, a row a free particle
     InertiaPrice price;
@@ -78,33 +123,27 @@ InertiaPrice inertia_price(const SpringSystem<Scalar, Dim, Laws...>& system,
         entries.emplace_back(i, j, -inertia);
         entries.emplace_back(j, i, -inertia);
     });
-    if (count <= 0 || free.count() == 0) return price;
+    if (count <= 0 || modes.frequency.size() == 0) return price;
     SparseMatrix<double> added(free.count(), free.count());
     added.setFromTriplets(entries.begin(), entries.end());
-    const auto pencil =
-        SpringPencil<Dim>::at_pose(system, state.x.template cast<TangentReal<Scalar>>());
-    const Eigen::MatrixXd U = stability_detail::low_modes(pencil);
-    Eigen::MatrixXd KU(U.rows(), U.cols());
-    Eigen::VectorXd y;
-    for (Index j = 0; j < U.cols(); ++j) {
-        pencil.multiply(matrices::K_plus, U.col(j), y);
-        KU.col(j) = y;
-    }
-    const Eigen::MatrixXd K = U.transpose() * KU;
-    const Eigen::MatrixXd M = U.transpose() * pencil.mass().asDiagonal() * U;
-    Eigen::MatrixXd heavier = M;
+    Eigen::MatrixXd heavier = modes.mass;
     for (int d = 0; d < Dim; ++d) {
-        const Eigen::MatrixXd axis = U(Eigen::seqN(d, free.count(), Dim), Eigen::all);
+        const Eigen::MatrixXd axis = modes.shapes(Eigen::seqN(d, free.count(), Dim), Eigen::all);
         heavier += axis.transpose() * (added * axis);
     }
-    using Solver = Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>;
-    const Solver before(K, M, Eigen::EigenvaluesOnly);
-    const Solver after(K, heavier, Eigen::EigenvaluesOnly);
-    for (Index j = 0; j < std::min<Index>(count, U.cols()); ++j) {
-        price.modes.push_back({std::sqrt(std::max(0.0, before.eigenvalues()[j])),
-                               std::sqrt(std::max(0.0, after.eigenvalues()[j]))});
-    }
+    const Eigen::VectorXd slowed = modes.frequencies(heavier);
+    for (Index j = 0; j < std::min<Index>(count, slowed.size()); ++j)
+        price.modes.push_back({modes.frequency[j], slowed[j]});
     return price;
+}
+
+/// The same at the pose of a state, whose modes are found first.
+template <class Scalar, int Dim, class... Laws>
+InertiaPrice inertia_price(const SpringSystem<Scalar, Dim, Laws...>& system,
+                           const State<Scalar, Dim>& state, const GraphShares& shares,
+                           Index count) {
+    const LowModes modes = count > 0 ? LowModes::of(system, state) : LowModes{};
+    return inertia_price(system, shares, modes, count);
 }
 
 }  // namespace taut

@@ -9,12 +9,13 @@
 #include "../stability/rayleigh_design.hpp"
 #include "choose.hpp"
 #include "cost.hpp"
+#include "graph_inertia_plans.hpp"
 
 namespace taut {
 
-/// What recommend() compares: symplectic Euler by the recipe and implicit Euler with both solvers;
-/// BDF2 with both where accuracy is asked for, and not where stability is all that counts, for one
-/// of its linearised steps may gain energy.
+/// What recommend() compares: symplectic Euler by the recipe, graph inertia, and implicit Euler
+/// with both solvers; BDF2 with both where accuracy is asked for, and not where stability is all
+/// that counts, for one of its linearised steps may gain energy.
 inline std::vector<Candidate> recommended_candidates(const Goal& goal) {
     // What is left of a linear solve must not blur the mode errors that the goal admits.
     const double tolerance = goal.accuracy ? 1e-6 : 1e-3;
@@ -22,6 +23,7 @@ inline std::vector<Candidate> recommended_candidates(const Goal& goal) {
     Candidate symplectic;
     symplectic.damping = recipe.damping;
     candidates.push_back(symplectic);
+    candidates.push_back({Scheme::graph_inertia});
     for (const Scheme scheme : {Scheme::implicit_euler, Scheme::bdf2}) {
         if (scheme == Scheme::bdf2 && !goal.accuracy) continue;
         for (const auto solver : {LinearSolver::conjugate_gradient, LinearSolver::direct}) {
@@ -31,13 +33,22 @@ inline std::vector<Candidate> recommended_candidates(const Goal& goal) {
     return candidates;
 }
 
-/// Explicit or implicit? The plans that reach a goal, without their costs: explicit steps at
-/// recipe.safety of any_pose_limit [T23], which with recipe.damping kept the energy of the scenes
-/// tried: measured, not proved; implicit ones, linearised stable at any pose, as large as the
-/// frame; and none above its accurate_step [T25]. The damping that accuracy is predicted with is
-/// the scene's Rayleigh damping; dampers on springs are not in it.
+/// Explicit, implicit, or which springs implicit? The plans that reach a goal, without their costs:
+/// explicit steps at recipe.safety of any_pose_limit [T23], which with recipe.damping kept the
+/// energy of the scenes tried: measured, not proved; implicit ones, linearised stable at any pose,
+/// as large as the frame; and none above its accurate_step [T25]. The damping that accuracy is
+/// predicted with is the scene's Rayleigh damping; dampers on springs are not in it.
+///
+/// Graph inertia is tried at up to three steps: the largest that make at most 1/16, 1/4 and 1/2 of
+/// the springs implicit, are larger than the explicit ones, and whose price at the pose of
+/// `state` is admitted (inertia_price [T33] and what the step does itself): by Goal::accuracy for
+/// the ten lowest modes and all up to Goal::up_to_frequency, or else 5 % of the periods of the ten
+/// lowest. Those above the twenty lowest, which are all that is known, count as slowed in
+/// proportion to ω². Not for springs that turn slack or buckle, which feed it with energy
+/// (measured), nor above 20 000 particles, where the modes take longer than all else.
 template <class Scalar, int Dim, class... Laws>
-std::vector<Plan> feasible_plans(const SpringSystem<Scalar, Dim, Laws...>& system, const Goal& goal,
+std::vector<Plan> feasible_plans(const SpringSystem<Scalar, Dim, Laws...>& system,
+                                 const State<Scalar, Dim>& state, const Goal& goal,
                                  const std::vector<Candidate>& candidates) {
     double zeta = 0;
     if (goal.accuracy) {
@@ -50,7 +61,13 @@ std::vector<Plan> feasible_plans(const SpringSystem<Scalar, Dim, Laws...>& syste
     for (const Candidate& candidate : candidates) {
         const method::AnyPose safe = method::visit(
             candidate.scheme, [](auto descriptor) { return decltype(descriptor)::any_pose; });
-        if (safe == method::AnyPose::every_step) {
+        if (candidate.scheme == Scheme::graph_inertia) {
+            if (!(limit > 0)) continue;
+            const double by_recipe = share_of_limit(recipe.safety, recipe.damping) * limit;
+            const auto most = static_cast<Index>(std::min(1e15, std::ceil(goal.frame / by_recipe)));
+            tradeoff_detail::GraphInertiaPlans<Scalar, Dim, Laws...> inertia(system, state, goal);
+            for (const Plan& plan : inertia.plans(candidate, most)) plans.push_back(plan);
+        } else if (safe == method::AnyPose::every_step) {
             plans.push_back(
                 plan_for(candidate, std::numeric_limits<double>::infinity(), goal, zeta));
         } else if (safe == method::AnyPose::limited && limit > 0) {
@@ -59,6 +76,13 @@ std::vector<Plan> feasible_plans(const SpringSystem<Scalar, Dim, Laws...>& syste
         }
     }
     return plans;
+}
+
+/// The same at the pose in which the system was built.
+template <class Scalar, int Dim, class... Laws>
+std::vector<Plan> feasible_plans(const SpringSystem<Scalar, Dim, Laws...>& system, const Goal& goal,
+                                 const std::vector<Candidate>& candidates) {
+    return feasible_plans(system, system.initial_state(), goal, candidates);
 }
 
 /// The integrator, solver, step and substeps that reach a goal at the least cost on this machine:
@@ -75,7 +99,7 @@ Recommendation recommend(const SpringSystem<Scalar, Dim, Laws...>& system,
                          const State<Scalar, Dim>& state, const Goal& goal,
                          const std::vector<Candidate>& candidates,
                          const Calibration& calibration = {}) {
-    std::vector<Plan> plans = feasible_plans(system, goal, candidates);
+    std::vector<Plan> plans = feasible_plans(system, state, goal, candidates);
     // A factorisation of a large scene takes seconds: one step shows that it is far behind.
     constexpr double far = 5;
     double least = std::numeric_limits<double>::infinity();
