@@ -91,6 +91,7 @@ private:
         matrix_.subtract_braking(v, rows_);
         if (pins_jump_) {
             matrix_.subtract_pins(
+                step_,
                 [&](Index i) { return typename System::Vector((v(i) - last_.v.col(i)) / step_); },
                 rows_);
             pins_jump_ = false;
