@@ -116,9 +116,12 @@ TEMPLATE_TEST_CASE("graph_inertia: a step satisfies its own update equation", "[
         touched += stepper.touched() > 0;
         const auto g =
             graph_matrices(system, stepper.shares().shares, options.margin, stepper.shares().step);
-        const Eigen::MatrixXd v = rows(before.v);
+        // What joins two pins holds nothing.
+        auto at_rest = before;
+        for (Index i = 0; i < system.size(); ++i) at_rest.v.col(i) *= Scalar(!system.is_pinned(i));
+        const Eigen::MatrixXd v = rows(at_rest.v);
         const double added = ((v.transpose() * (g.heavy() - g.M) * v).trace()) / 2;
-        CHECK_THAT(stepper.added_kinetic(before), WithinAbs(added, 1e-5 * (1 + added)));
+        CHECK_THAT(stepper.added_kinetic(at_rest), WithinAbs(added, 1e-5 * (1 + added)));
     }
     CHECK(touched > 18);
 }

@@ -24,11 +24,19 @@ using taut::Status;
 
 namespace {
 
-/// The largest |μ| of steps of h with M̃ made for h, on a scene with K = L_k ⊗ I and
-/// D = d0 M + L_c ⊗ I: one coordinate stands for all. Zero modes have the multiplier 1 twice, which
-/// rounding takes apart by its root.
+/// The largest |μ|, of those to the left, where steps explode, and of those near 1: zero modes have
+/// the multiplier 1 twice, which rounding takes apart by its root.
+struct Radius {
+    Real left = 0;
+    Real right = 0;
+
+    bool bounded() const { return left <= 1 + 1e-8L && right <= 1 + 1e-4L; }
+};
+
+/// Of steps of h with M̃ made for h, on a scene with K = L_k ⊗ I and D = d0 M + L_c ⊗ I: one
+/// coordinate stands for all.
 template <class System>
-Real radius(const System& system, const taut::GraphShares& shares, double h) {
+Radius radius(const System& system, const taut::GraphShares& shares, double h) {
     const auto g = graph_matrices(system, shares.shares, shares.margin, h);
     const auto block = [&](const Eigen::MatrixXd& A) {
         const Eigen::MatrixXd free = free_block(system, A);
@@ -47,9 +55,12 @@ Real radius(const System& system, const taut::GraphShares& shares, double h) {
     // Velocities times h: both halves in metres.
     step.bottomLeftCorner(n, n) *= t;
     step.topRightCorner(n, n) /= t;
-    Real largest = 0;
-    for (const auto& mu : general_eigenvalues(step)) largest = std::max(largest, std::abs(mu));
-    return largest;
+    Radius found;
+    for (const auto& mu : general_eigenvalues(step)) {
+        Real& largest = mu.real() < 0.5L ? found.left : found.right;
+        largest = std::max(largest, std::abs(mu));
+    }
+    return found;
 }
 
 /// Sometimes d0, α or graph damping.
@@ -69,11 +80,11 @@ TEMPLATE_TEST_CASE("graph_inertia_limit: bounded below certified, growing above 
     Random random(3340 + TestType::Dim);
     int refuted = 0;
     for (int repeat = 0; repeat < 60; ++repeat) {
-        auto system = linear_network<System>(random, 5);
+        auto system = linear_network<System>(random, 3);
         const auto explicit_limit = taut::any_pose_limit(system);
         if (explicit_limit.unbounded()) continue;
         const double scale = static_cast<double>(explicit_limit.certified);
-        const double h = scale * log_uniform(random, 0.3, 300);
+        const double h = scale * log_uniform(random, 0.3, 100);
         damp(random, system, repeat % 4, h);
         const double theta = repeat % 3 == 0 ? 1 : repeat % 3 == 1 ? 0.83 : random.uniform(0.3, 1);
         const auto shares = graph_shares(system, h, theta);
@@ -87,12 +98,13 @@ TEMPLATE_TEST_CASE("graph_inertia_limit: bounded below certified, growing above 
         const double certified = static_cast<double>(limit.certified);
         for (const double part : {0.99, 0.5, 0.01}) {
             if (!std::isfinite(certified)) continue;
-            CHECK(radius(system, shares, part * certified) <= 1 + 1e-6L);
+            CHECK(radius(system, shares, part * certified).bounded());
         }
-        CHECK(radius(system, shares, h) <= 1 + 1e-6L);
+        CHECK(radius(system, shares, h).bounded());
         if (std::isfinite(limit.refuted)) {
             ++refuted;
-            CHECK(radius(system, shares, 1.01 * static_cast<double>(limit.refuted)) > 1 + 1e-4L);
+            CHECK(radius(system, shares, 1.01 * static_cast<double>(limit.refuted)).left >
+                  1 + 1e-7L);
         }
         // All implicit: every step, but for drag.
         auto all = shares;
@@ -101,11 +113,11 @@ TEMPLATE_TEST_CASE("graph_inertia_limit: bounded below certified, growing above 
         const auto every = graph_inertia_limit(system, all);
         if (d0 > 0) {
             CHECK_THAT(static_cast<double>(every.certified), WithinRel(2 * theta / d0, 1e-5));
-            CHECK(radius(system, all, 0.99 * 2 * theta / d0) <= 1 + 1e-6L);
+            CHECK(radius(system, all, 0.99 * 2 * theta / d0).bounded());
         } else {
             CHECK(every.unbounded());
             for (const double far : {1.0, 30.0, 1e3}) {
-                CHECK(radius(system, all, far * scale) <= 1 + 1e-6L);
+                CHECK(radius(system, all, far * scale).bounded());
             }
         }
     }
@@ -149,8 +161,10 @@ TEMPLATE_TEST_CASE(
         options.particles = 6 + random.below(10);
         options.springs = repeat % 2 == 0 ? 4 * options.particles : 2 * options.particles;
         options.pinned = repeat % 3 == 0 ? 0 : 3;
-        const auto system = random_system<Scalar, Dim, Hookean>(random, options);
-        const auto state = random_state(random, system);
+        const bool flat = repeat % 6 == 5;  // with mechanisms
+        const auto system = flat ? hemmed_cloth<Scalar, Dim>(5, 5, 100)
+                                 : random_like<SpringSystem<Scalar, Dim>>(random, options);
+        const auto state = flat ? system.initial_state() : random_state(random, system);
         const double h = static_cast<double>(taut::any_pose_limit(system).certified) *
                          log_uniform(random, 1, 20);
         auto shares = graph_shares(system, h, 0.83);

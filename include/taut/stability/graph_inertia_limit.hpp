@@ -91,8 +91,9 @@ struct InertiaPrice {
 };
 
 /// The price of shares at their step: the added inertia as a share of the mass, and what it makes
-/// of the lowest frequencies at a pose: ω̃/ω = (1 + q)^−½, q = uᵀ(M̃ − M)u/uᵀMu, near-equal modes by
-/// Rayleigh and Ritz. Numerical, no proof. It does not count what the step itself does, an h²ω²/24.
+/// of the lowest frequencies at a pose: ω̃/ω = (1 + q)^−½, q = uᵀ(M̃ − M)u/uᵀMu, all low modes by
+/// Rayleigh and Ritz, free of mechanisms. Numerical, no proof. It does not count what the step
+/// itself does, an h²ω²/24.
 /// @param count  modes asked for; fewer where the scene has fewer
 template <class Scalar, int Dim, class... Laws>
 InertiaPrice inertia_price(const SpringSystem<Scalar, Dim, Laws...>& system,
@@ -117,27 +118,40 @@ InertiaPrice inertia_price(const SpringSystem<Scalar, Dim, Laws...>& system,
         entries.emplace_back(j, i, -inertia);
     });
     if (count <= 0 || free.count() == 0) return price;
-    SparseMatrix<double> added(free.count(), free.count());
-    added.setFromTriplets(entries.begin(), entries.end());
     const auto pencil =
         SpringPencil<Dim>::at_pose(system, state.x.template cast<TangentReal<Scalar>>());
     const Eigen::MatrixXd U = stability_detail::low_modes(pencil);
-    Eigen::MatrixXd KU(U.rows(), U.cols());
-    Eigen::VectorXd y;
-    for (Index j = 0; j < U.cols(); ++j) {
-        pencil.multiply(matrices::K_plus, U.col(j), y);
-        KU.col(j) = y;
+    if (U.cols() == 0) return price;
+    std::vector<Eigen::Triplet<double>> along_axes;
+    for (const auto& entry : entries) {
+        for (int d = 0; d < Dim; ++d) {
+            along_axes.emplace_back(Dim * entry.row() + d, Dim * entry.col() + d, entry.value());
+        }
     }
-    const Eigen::MatrixXd K = U.transpose() * KU;
-    const Eigen::MatrixXd M = U.transpose() * pencil.mass().asDiagonal() * U;
-    Eigen::MatrixXd heavier = M;
-    for (int d = 0; d < Dim; ++d) {
-        const Eigen::MatrixXd axis = U(Eigen::seqN(d, free.count(), Dim), Eigen::all);
-        heavier += axis.transpose() * (added * axis);
-    }
+    SparseMatrix<double> heavy(pencil.size(), pencil.size());  // M̃ ⊗ I
+    heavy.setFromTriplets(along_axes.begin(), along_axes.end());
+    heavy += pencil.assemble(1 * matrices::M);
+    // Modes are orthogonal to mechanisms, by M before and by M̃ after: (K⁺ + σM̃)⁻¹K⁺u is.
+    const double sigma = 1e-7 * std::max(0.0, pencil.upper_bound(matrices::K_plus));
+    const Eigen::SimplicialLLT<SparseMatrix<double>> shifted(pencil.assemble(1 * matrices::K_plus) +
+                                                             sigma * heavy);
+    if (shifted.info() != Eigen::Success) return price;
+    const auto times_K = [&](const Eigen::MatrixXd& V) {
+        Eigen::MatrixXd KV(V.rows(), V.cols());
+        Eigen::VectorXd y;
+        for (Index j = 0; j < V.cols(); ++j) {
+            pencil.multiply(matrices::K_plus, V.col(j), y);
+            KV.col(j) = y;
+        }
+        return KV;
+    };
+    const Eigen::MatrixXd KU = times_K(U);
+    const Eigen::MatrixXd V = shifted.solve(KU);
     using Solver = Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>;
-    const Solver before(K, M, Eigen::EigenvaluesOnly);
-    const Solver after(K, heavier, Eigen::EigenvaluesOnly);
+    const Solver before(U.transpose() * KU, U.transpose() * pencil.mass().asDiagonal() * U,
+                        Eigen::EigenvaluesOnly);
+    const Solver after(V.transpose() * times_K(V), V.transpose() * (heavy * V),
+                       Eigen::EigenvaluesOnly);
     for (Index j = 0; j < std::min<Index>(count, U.cols()); ++j) {
         price.modes.push_back({std::sqrt(std::max(0.0, before.eigenvalues()[j])),
                                std::sqrt(std::max(0.0, after.eigenvalues()[j]))});
