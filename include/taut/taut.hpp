@@ -39,6 +39,7 @@
 #include "stability/any_pose.hpp"
 #include "stability/energy_limit.hpp"
 #include "stability/graph_inertia_limit.hpp"
+#include "stability/inertia_price.hpp"
 #include "stability/mass_scaling.hpp"
 #include "stability/rayleigh_design.hpp"
 #include "stability/stability.hpp"

@@ -153,6 +153,15 @@ TEST_CASE("mode: stable just below critical_step, unstable just above", "[method
                 }
                 continue;
             }
+            if (method == Method::graph_inertia) {
+                CHECK(h == infinity);  // a mode is heavier, the longer the step [T33]
+                for (const double z : {1e-3, 1.0, 2.0, 1e3}) {
+                    const Real radius = transition(method, k, d, z / (std::sqrt(k) + d)).radius();
+                    CHECK(radius <= 1 + 1e-17L);
+                    if (d > 0 && k > 0) CHECK(radius < 1);
+                }
+                continue;
+            }
             REQUIRE(h > 0);
             REQUIRE(std::isfinite(h));
             for (const double part : {1 - 1e-9, 0.999, 0.5, 0.01}) {

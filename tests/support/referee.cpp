@@ -92,6 +92,12 @@ RealMatrix Multipliers::step(taut::Method method, double seconds) const {
         v.rightCols(N) = one;
         v = solve(one + h * D_ + h * h * K_plus_, v);
     }
+    if (method == taut::Method::graph_inertia) {
+        // Symplectic Euler of M̃ = M + (½hD + ¼h²K⁺)/θ: all springs are implicit.
+        const RealMatrix heavy = one + (h / 2 * D_ + h * h / 4 * K_plus_) / Real(0.83);
+        v.leftCols(r) = solve(heavy, v.leftCols(r));
+        v.rightCols(N) = one - solve(heavy, h * D_);
+    }
     A.bottomRows(N) = v;
     if (method == taut::Method::explicit_euler) {
         A.topRightCorner(r, N) = h * R_.transpose();

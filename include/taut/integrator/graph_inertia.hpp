@@ -186,7 +186,8 @@ void GraphInertia<System, Solver>::correct(const Accelerations& a, const Velocit
     const bool jump = std::exchange(pins_jump_, false);
     if (jump) {
         jump_.setZero(matrix_.size(), System::Dim);
-        matrix_.subtract_pins([&](Index i) { return Vector((v(i) - last_.v.col(i)) / h); }, jump_);
+        matrix_.subtract_pins(
+            h, [&](Index i) { return Vector((v(i) - last_.v.col(i)) / h); }, jump_);
         rows_ += jump_;
     }
     rows_ = solver_.solve(rows_);

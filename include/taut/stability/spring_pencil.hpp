@@ -36,8 +36,9 @@ public:
     static SpringPencil any_pose(const System& system, Damping counted = Damping::all);
 
     /// The pencil of what stays explicit beside implicit shares, all over the margin θ [T33]:
-    /// springs times (1 − s)/θ, d0/θ.
-    /// @param shares  s of each spring of the system, in index order, 0 … 1
+    /// springs times (1 − s)/θ, d0/θ. Of any_pose.
+    /// @param shares  s of each spring of the system, in index order, 0 …; beyond 1 they take
+    ///                springs away, and only `quadratic` and `multiply` serve, with the true K
     SpringPencil explicit_part(const std::vector<double>& shares, double margin) const;
 
     void multiply(const Combination& c, const Eigen::VectorXd& u,
@@ -348,10 +349,17 @@ SpringPencil<Dim> SpringPencil<Dim>::explicit_part(const std::vector<double>& sh
     for (std::size_t s = 0; s < links_.size(); ++s) {
         const double part = (1 - shares[static_cast<std::size_t>(names_[s][0])]) / margin;
         Link& link = pencil.links_[s];
-        for (double* value : {&link.axial, &link.softer, &link.transverse, &link.damping,
-                              &link.graph, &link.bound}) {
+        for (double* value :
+             {&link.axial, &link.softer, &link.transverse, &link.damping, &link.graph}) {
             *value *= part;
         }
+        link.bound *= std::abs(part);
+        if (part >= 0) continue;
+        // K⁺, which Rayleigh's α acts through, has no negative springs.
+        link.damping += rayleigh_.stiffness_proportional * link.axial;
+        pencil.facts_.is_rayleigh = false;
+        pencil.facts_.stiffness_semidefinite = false;
+        pencil.facts_.damping_semidefinite = false;
     }
     return pencil;
 }

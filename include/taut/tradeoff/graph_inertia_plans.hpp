@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "../stability/graph_inertia_limit.hpp"
+#include "../stability/inertia_price.hpp"
 #include "../stability/rayleigh_design.hpp"
 #include "choose.hpp"
 

@@ -54,14 +54,17 @@ public:
     }
     /// Whether a spring with a share ends at a pin.
     bool holds_pins() const { return holds_pins_; }
-    /// rows ← rows − A_fp·dv.  @param dv  dv(i): by how much the velocity of pin i changed, m/s
+    /// rows ← rows − (A − h D_i)_fp·dv: braking acts at the mean of the velocities before and
+    /// after, and subtract_braking has that after of pins.
+    /// @param h   of the step, s   @param dv  dv(i): by how much the velocity of pin i changed,
+    /// over h
     template <class Change>
-    void subtract_pins(const Change& dv, Rows& rows) const {
+    void subtract_pins(Scalar h, const Change& dv, Rows& rows) const {
         for (const Link& link : links_) {
             if (link.row_a >= 0 && link.row_b >= 0) continue;
             const Index pin = link.row_a < 0 ? link.a : link.b;
             const int row = link.row_a < 0 ? link.row_b : link.row_a;
-            rows.row(row) += link.coupling * dv(pin).transpose();
+            rows.row(row) += (link.coupling - h * link.braking) * dv(pin).transpose();
         }
     }
     /// ½vᵀ(M̃ − M)v over the free particles, J.
@@ -114,6 +117,7 @@ void GraphMatrix<System>::find_springs(const System& system, const GraphShares& 
         return row_[i];
     };
     for_each_inertia(system, shares, [&](Index a, Index b, double damped, double elastic) {
+        if (system.is_pinned(a) && system.is_pinned(b)) return;  // with a share where all have
         links_.push_back({a, b, row_of(a), row_of(b), damped + elastic,
                           static_cast<Scalar>(damped + (1 + dissipation) * elastic),
                           static_cast<Scalar>(2 * dissipation * elastic / shares.step)});
