@@ -60,8 +60,9 @@ void analyse(const taut::Stability<double>& stability, const Options& options, F
             options.want_step > 0 ? options.want_step : found.symplectic_euler.certified;
         if (h > 0 && std::isfinite(h)) found.proof = stability.certify(Method::symplectic_euler, h);
     }
-    found.springs_to_blame = stability.limiting_springs(options.blame);
-    found.particles_to_blame = stability.limiting_particles(options.blame);
+    if (options.blame > 0 || !options.html.empty()) found.limiting_mode = stability.limiting_mode();
+    found.springs_to_blame = stability.limiting_springs(options.blame, found.limiting_mode);
+    found.particles_to_blame = stability.limiting_particles(options.blame, found.limiting_mode);
     if (options.want_step > 0) {
         const double h = options.want_step;
         found.remedies = Remedies{h,
@@ -101,7 +102,7 @@ Findings report_on_scene(const Options& options) {
     }
     found.analysis = seconds_since(analysis);
     if (!options.html.empty()) {
-        const auto mode = stability.limiting_mode();
+        const auto& mode = found.limiting_mode;
         found.page = example::page_data(stability, found, mode, scene.system.rayleigh());
         example::add_mesh(found.page, scene, stability, mode);
         example::add_runs(found.page, scene, found.symplectic_euler, mode);
@@ -143,7 +144,7 @@ Findings report_on_matrices(const Options& options) {
     if (!options.html.empty()) {
         std::optional<taut::RayleighDamping> undamped;
         if (options.damping_matrix.empty()) undamped.emplace();
-        found.page = example::page_data(stability, found, stability.limiting_mode(), undamped);
+        found.page = example::page_data(stability, found, found.limiting_mode, undamped);
     }
     return found;
 }

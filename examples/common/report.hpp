@@ -102,6 +102,7 @@ struct Findings {
     std::optional<taut::StepLimit<double>> any_pose;
     std::optional<EnergyProof> energy;
     std::optional<taut::Certificate> proof;
+    taut::LimitingMode limiting_mode;  // where it was asked for
     std::vector<taut::SpringShare> springs_to_blame;
     std::vector<taut::ParticleShare> particles_to_blame;
     std::optional<Remedies> remedies;
