@@ -82,7 +82,7 @@ TEST_CASE("slowed_mode_error: symplectic Euler of the heavier mode", "[tradeoff]
         const auto rate = std::log(-half + std::sqrt(half * half - polynomial.c)) / h;
         CHECK_THAT(error.artificial_damping, WithinAbs(-rate.real() / std::abs(rate) - zeta, 1e-9));
         CHECK_THAT(error.period_error,
-                   WithinAbs(omega * std::sqrt(1 - zeta * zeta) / rate.imag() - 1, 1e-9));
+                   WithinAbs(omega * std::sqrt(1 - zeta * zeta) / std::abs(rate.imag()) - 1, 1e-9));
     }
 }
 
@@ -187,7 +187,7 @@ TEST_CASE("recommend: which springs implicit, where all steps cost the same", "[
     CHECK(hem.pick.candidate.scheme == Scheme::graph_inertia);
     CHECK(hem.runner_up);
     const auto& inertia = hem.pick.inertia;
-    CHECK(10 * inertia.implicit_springs < inertia.springs);
+    CHECK(4 * inertia.implicit_springs < inertia.springs);
     const std::string made = "makes " + std::to_string(inertia.implicit_springs) + " of " +
                              std::to_string(inertia.springs) + " springs implicit, slowing";
     CHECK(missing(hem.why, {"graph inertia (", made.c_str(), "is the cheapest that is stable",
