@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include <functional>
+#include <string>
 #include <taut/integrator/graph_inertia.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/stability/any_pose.hpp>
@@ -21,10 +23,10 @@ using System = taut::SpringSystem<double, 3>;
 
 namespace {
 
-/// A step that fails with `status` leaves the state as it was.
+/// A step that fails with `status` leaves the state as it was. @returns the particle it names
 template <class AnySystem>
-taut::Report refused(const AnySystem& system, typename AnySystem::Scalar h, Status status,
-                     const GraphInertiaOptions& options = {}) {
+Index refused(const AnySystem& system, typename AnySystem::Scalar h, Status status,
+              const GraphInertiaOptions& options = {}) {
     GraphInertia<AnySystem> stepper(system, options);
     Random random(4500);
     auto state = random_state(random, system);
@@ -32,7 +34,8 @@ taut::Report refused(const AnySystem& system, typename AnySystem::Scalar h, Stat
     const taut::Report report = stepper.step(state, h, 3);
     CHECK(report.status == status);
     CHECK(same_bits(state, before));
-    return report;
+    CHECK_FALSE(std::string(describe(report.status)).empty());
+    return report.where;
 }
 
 }  // namespace
@@ -143,9 +146,7 @@ TEST_CASE("graph_inertia: steps too large for the masses, for numbers, for drag 
     system.add_spring(0, 1, 1);
     system.add_spring(2, 3, 1e16);
     // ¼h²k beside m = 1: more digits than double has.
-    const auto lost = refused(system, 1.0, Status::masses_lost);
-    CHECK(lost.where == 3);
-    CHECK(std::string(describe(lost.status)).find("masses") != std::string::npos);
+    CHECK(refused(system, 1.0, Status::masses_lost) == 3);
     refused(system, 1e145, Status::masses_lost);
     GraphInertia stepper(system);
     auto state = system.initial_state();
@@ -164,7 +165,7 @@ TEST_CASE("graph_inertia: steps too large for the masses, for numbers, for drag 
     taut::SpringSystem<float, 3> single;
     for (int i = 0; i < 2; ++i) single.add_particle({1.0F * float(i), 0, 0}, 1);
     single.add_spring(0, 1, 1e7F);
-    CHECK(refused(single, 1.0F, Status::masses_lost).where == 0);
+    CHECK(refused(single, 1.0F, Status::masses_lost) == 0);
 
     const auto cloth = hemmed_cloth<double, 3>(6, 6, 1e4);
     GraphInertiaOptions small;
