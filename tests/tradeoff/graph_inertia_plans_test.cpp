@@ -76,8 +76,11 @@ TEST_CASE("slowed_mode_error: symplectic Euler of the heavier mode", "[tradeoff]
             CHECK(error.artificial_damping == plain.artificial_damping);
             CHECK_THAT(error.period_error, WithinAbs(plain.period_error, 1e-12));
         }
+        // A = M̃ + ½hD_i and D_i at the default δ.
+        const double delta = taut::GraphInertiaOptions{}.dissipation;
+        const double a = 1 + (1 + delta) * q;
         const auto polynomial = taut::method::SymplecticEuler::step_quadratic(
-            omega * omega / (1 + q), 2 * zeta * omega / (1 + q), h);
+            omega * omega / a, (2 * zeta * omega + 2 * delta * q / h) / a, h);
         const std::complex<double> half(polynomial.b / 2);
         const auto rate = std::log(-half + std::sqrt(half * half - polynomial.c)) / h;
         CHECK_THAT(error.artificial_damping, WithinAbs(-rate.real() / std::abs(rate) - zeta, 1e-9));

@@ -23,11 +23,12 @@ namespace taut {
 /// L_e being the graph Laplacian of one spring, k its stiffness bound, c its damping bound. The
 /// shares are the least that make h safe at every pose: a stiff hem is implicit, the cloth beside
 /// it explicit. One n × n factor of the particles that such springs touch serves all coordinates
-/// and all steps. There is no numerical damping; linear momentum is kept. What it costs in
-/// accuracy: implicit springs resist rotation and folding as if they were heavier.
+/// and all steps. Linear momentum is kept. What it costs in accuracy: implicit springs resist
+/// rotation and folding as if they were heavier.
 ///
-/// `dissipation` δ adds implicit damping D_i = (δ/θ) Σ s ½hk L_e, taken at the mean of v and v⁺; at
-/// δ = 1 all springs are implicit and the energy cannot rise [T35].
+/// `dissipation` δ adds implicit damping D_i = (δ/θ) Σ s ½hk L_e, taken at the mean of v and v⁺. At
+/// δ = 0 there is no numerical damping; at δ = 1 all springs are implicit and the energy cannot
+/// rise [T35].
 ///
 /// A factor made for a step serves every shorter one. It is made anew when the step grows, when the
 /// system's revision() moves on, or on prepare().

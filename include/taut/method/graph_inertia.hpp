@@ -10,9 +10,9 @@
 
 namespace taut::method {
 
-/// The descriptor of GraphInertia with every spring implicit [T33]: symplectic Euler of the heavier
-/// mass m̃ = m + (hd/2 + h²k/4)/θ, where d is that of dampers and Rayleigh's α. A stepper whose
-/// springs are implicit in part errs less.
+/// The descriptor of GraphInertia with every spring implicit [T33]: symplectic Euler of the mass
+/// a = 1 + (hd/2 + (1 + δ)h²k/4)/θ and the damping d + δhk/(2θ), for d of dampers and Rayleigh's α.
+/// A stepper whose springs are implicit in part errs less.
 struct GraphInertia : SymplecticEuler {
     static constexpr Method method = Method::graph_inertia;
     static constexpr const char* name = "graph_inertia";
@@ -21,19 +21,21 @@ struct GraphInertia : SymplecticEuler {
     static constexpr AnyPose any_pose = AnyPose::every_step;
     /// θ, what GraphInertiaOptions has unless told otherwise.
     static constexpr double margin = 0.83;
+    /// δ, likewise.
+    static constexpr double dissipation = 0.03;
 
-    /// Symplectic Euler's, of k/m̃ and d/m̃.
+    /// Symplectic Euler's, of the heavier mode.
     static StepQuadratic step_quadratic(double k, double d, double h) {
-        const double m = mass(k, d, h);
-        return SymplecticEuler::step_quadratic(k / m, d / m, h);
+        const double a = mass(k, d, h);
+        return SymplecticEuler::step_quadratic(k / a, (d + braking(k, h)) / a, h);
     }
     /// The largest |μ| of that polynomial.
     static double spectral_radius(double k, double d, double h) {
         return taut::method_detail::largest_root(step_quadratic(k, d, h));
     }
-    /// Infinity: 4m̃ − 2hd − h²k > 0 for every h.
+    /// Infinity: 4a − 2h(d + δhk/(2θ)) − h²k > 0 for every h.
     static double critical_step(double, double) { return std::numeric_limits<double>::infinity(); }
-    /// Symplectic Euler's, with M̃ in place of M; the inertia is that of K⁺.
+    /// Symplectic Euler's, with A in place of M and D + D_i in place of D; both are of K⁺.
     template <class Matrix>
     static Matrix step_matrix(const Matrix& C, typename Matrix::Scalar h, Eigen::Index positions) {
         using Real = typename Matrix::Scalar;
@@ -47,21 +49,26 @@ struct GraphInertia : SymplecticEuler {
         const Matrix projected =
             U * modes.eigenvalues().cwiseMax(Real(0)).asDiagonal() * U.transpose();
         const Matrix D = -C.bottomRightCorner(N, N);
-        const Matrix heavier = Matrix::Identity(N, N) +
-                               (h / 2 * D + h * h / 4 * projected) / static_cast<Real>(margin);
+        constexpr Real theta = margin, delta = dissipation;
+        const Matrix heavier =
+            Matrix::Identity(N, N) + (h / 2 * D + (1 + delta) * h * h / 4 * projected) / theta;
         Matrix slower = C;
-        slower.bottomRows(N) = heavier.partialPivLu().solve(C.bottomRows(N));
+        slower.bottomRightCorner(N, N) -= delta * h / 2 / theta * projected;
+        slower.bottomRows(N) = heavier.partialPivLu().solve(slower.bottomRows(N)).eval();
         return SymplecticEuler::step_matrix(slower, h, positions);
     }
     /// As symplectic Euler's, of the heavier mode.
     static std::complex<double> multiplier_less_one(double z, double zeta) {
         const double root = std::sqrt(mass(1, 2 * zeta, z));
-        return SymplecticEuler::multiplier_less_one(z / root, zeta / root);
+        return SymplecticEuler::multiplier_less_one(z / root, (zeta + braking(1, z) / 2) / root);
     }
 
 private:
     static double mass(double k, double d, double h) {
-        return 1 + (h * d / 2 + h * h * std::max(k, 0.0) / 4) / margin;
+        return 1 + (h * d / 2 + (1 + dissipation) * h * h * std::max(k, 0.0) / 4) / margin;
+    }
+    static double braking(double k, double h) {
+        return dissipation * h * std::max(k, 0.0) / 2 / margin;
     }
 };
 

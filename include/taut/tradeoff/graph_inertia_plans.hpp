@@ -17,15 +17,22 @@
 namespace taut {
 
 /// The errors of graph inertia in a mode that its shares slow from ω to ω̃ [T33]: those of
-/// symplectic Euler on the heavier mode, beside what is lost to the inertia.
+/// symplectic Euler on the heavier mode, with the default dissipation, beside what is lost to the
+/// inertia. Springs are taken to have no dampers. Infinity where the mode does not swing.
 /// @param h  s, > 0   @param zeta  the mode's own damping ratio, in [0, 1)
 inline ModeError slowed_mode_error(const SlowedMode& mode, double h, double zeta = 0) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    constexpr double delta = method::GraphInertia::dissipation;
     const double slowing = mode.frequency / mode.slowed_frequency;
-    const double heavier = zeta / slowing;
-    ModeError error = mode_error(Method::symplectic_euler, h * mode.slowed_frequency, heavier);
+    const double q = (slowing - 1) * (slowing + 1);
+    // A = M̃ + ½hD_i and D_i, which is 2δ/h of the springs' part of M̃ − M.
+    const double root = std::sqrt(1 + (1 + delta) * q);
+    const double heavier = (zeta + delta * q / (h * mode.frequency)) / root;
+    if (!(heavier < 1)) return {infinity, infinity};
+    ModeError error = mode_error(Method::symplectic_euler, h * mode.frequency / root, heavier);
     error.artificial_damping += heavier - zeta;
     const double lively = (1 - zeta) * (1 + zeta) / ((1 - heavier) * (1 + heavier));
-    error.period_error = (1 + error.period_error) * slowing * std::sqrt(lively) - 1;
+    error.period_error = (1 + error.period_error) * root * std::sqrt(lively) - 1;
     return error;
 }
 
