@@ -31,6 +31,7 @@ const browser = await chromium.launch({
 
 async function open(width, height, options = {}) {
   const page = await browser.newPage({ viewport: { width, height }, ...options });
+  page.setDefaultTimeout(120_000); // a busy machine draws a frame in seconds
   page.problems = [];
   page.on("console", (message) => message.type() === "error" && page.problems.push(message.text()));
   page.on("pageerror", (error) => page.problems.push(error.message));
