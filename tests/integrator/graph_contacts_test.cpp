@@ -99,6 +99,52 @@ TEST_CASE("graph contacts: where no spring is implicit they are those of the pla
     }
 }
 
+TEST_CASE("graph contacts: masses may differ by decades, and thousands may touch", "[integrator]") {
+    Random random(3);
+    taut::SpringSystem<double, 3> grains;
+    for (int i = 0; i < 60; ++i) {
+        grains.add_particle(random.vector<double, 3>(-1, 1), std::exp(random.uniform(-7, 7)));
+    }
+    for (int i = 0; i < 10; ++i) grains.add_spring(2 * i, 2 * i + 1, 1e5);
+    taut::GraphInertia stepper(grains);
+    REQUIRE(stepper.prepare(0.01));
+    REQUIRE(stepper.touched() > 0);
+    auto state = grains.initial_state();
+    state.x.row(2).setConstant(-0.1);
+    for (taut::Index i = 0; i < grains.size(); ++i) {
+        state.v.col(i) = random.vector<double, 3>(-1, 1);
+    }
+    const taut::HalfSpace<double, 3> ground({0, 0, 0}, {0, 0, 1});
+    (void)taut::resolve_contacts(stepper, ground, state);
+    CHECK(state.v.row(2).minCoeff() >= -2e-6);
+}
+
+TEST_CASE("graph contacts: after a step that was refused, and after edits, nothing is stale",
+          "[integrator][bad_input]") {
+    auto cloth = taut::hanging_cloth<double>({5, 5});
+    const taut::HalfSpace<double, 3> ground({0, 0, 0}, {0, 0, 1});
+    taut::GraphInertia stepper(cloth);
+    CHECK(stepper.inertia(3) == cloth.mass(3));
+    auto state = cloth.initial_state();
+    state.v.row(2).setConstant(-1);
+    for (int round = 0; round < 2; ++round) {
+        CHECK(stepper.step(state, 1e9).status == taut::Status::masses_lost);
+        CHECK(stepper.touched() == 0);
+        auto fallen = state;
+        (void)taut::resolve_contacts(stepper, ground, fallen);
+        CHECK(stepper.added_kinetic(fallen) == 0);
+        REQUIRE(stepper.step(state, 1e-3));
+    }
+    for (taut::Index i = 0; i < 2; ++i) {
+        cloth.pin(7 + i);
+        state.v.col(7 + i) << 0.1, 0.2, -1;
+        auto pushed = state;
+        pushed.x.row(2).setConstant(-0.1);
+        (void)taut::resolve_contacts(stepper, ground, pushed);
+        CHECK(pushed.v.col(7 + i) == state.v.col(7 + i));
+    }
+}
+
 TEST_CASE("graph contacts: friction stops what it can, and turns nothing round", "[integrator]") {
     // One block that slides: all particles on the ground, the same velocity along it.
     for (const double friction : {0.05, 0.2, 5.0}) {

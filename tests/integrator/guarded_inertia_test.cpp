@@ -82,6 +82,46 @@ TEST_CASE("guarded inertia: pins that start and stop, edits and contacts pass as
     CHECK(guard.stepper().factorizations() == 3);
 }
 
+TEST_CASE("guarded inertia: the work of moving pins counts through dissipation, too",
+          "[integrator]") {
+    for (const double dissipation : {0.0, 0.03, 0.3, 1.0}) {
+        INFO("dissipation " << dissipation);
+        taut::SpringSystem<double, 3> rope;
+        for (int i = 0; i < 6; ++i) rope.add_particle({0.1 * i, 0, 0}, 0.01);
+        for (int i = 0; i < 5; ++i) rope.add_spring(i, i + 1, 1e4);
+        rope.pin(0);
+        taut::GraphInertiaOptions how;
+        how.dissipation = dissipation;
+        taut::Guarded<taut::GraphInertia<taut::SpringSystem<double, 3>>> guard(rope, {}, how);
+        auto state = rope.initial_state();
+        for (int frame = 0; frame < 60; ++frame) {
+            INFO("frame " << frame);
+            // At rest, then at a constant velocity, then one that changes in every frame.
+            const double v = frame < 5 ? 0 : frame < 30 ? 1 : std::sin(0.3 * frame);
+            state.v.col(0) << 0, 0, v;
+            const auto report = guard.advance(state, 0.01);
+            REQUIRE(report);
+            CHECK(report.retries == 0);
+        }
+    }
+}
+
+TEST_CASE("guarded inertia: a factor that somebody else remakes moves the books", "[integrator]") {
+    Hemmed<double> scene(7);
+    taut::GraphInertia stepper(scene.cloth);
+    taut::Guarded guard(scene.cloth, stepper);
+    for (int frame = 0; frame < 20; ++frame) {
+        INFO("frame " << frame);
+        if (frame == 0) REQUIRE(stepper.prepare(1.0 / 600));
+        if (frame == 10) REQUIRE(stepper.prepare(1.0 / 60));
+        if (frame == 15) {
+            auto preview = scene.state;
+            REQUIRE(stepper.step(preview, 0.05));
+        }
+        REQUIRE(guard.advance(scene.state, 1.0 / 600));
+    }
+}
+
 TEST_CASE("guarded inertia: what accepted frames may reach is bounded by what was there",
           "[integrator]") {
     // E = T̃ + V ≤ C·E_then + …, C = (1 + √θ)/(1 − √θ), for a scene that is thrown too fast.

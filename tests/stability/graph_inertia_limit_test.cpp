@@ -252,4 +252,19 @@ TEST_CASE("graph_inertia_limit: wrong input and scenes with little in them",
     CHECK(taut::inertia_price(system, system.initial_state(), pinned, 10).modes.empty());
 }
 
+TEST_CASE("inertia_price: shares of another revision are refused", "[stability][bad_input]") {
+    SpringSystem<double, 1> pair;
+    pair.add_particle(Eigen::Matrix<double, 1, 1>(0.0), 1);
+    pair.add_particle(Eigen::Matrix<double, 1, 1>(1.0), 1);
+    pair.add_spring(0, 1, 100);
+    const auto state = pair.initial_state();
+    const auto price = [&](const taut::GraphShares& shares) {
+        return message_of([&] { (void)taut::inertia_price(pair, state, shares, 1); });
+    };
+    CHECK(missing(price({}), {"inertia_price", "revision"}) == "");
+    const auto shares = taut::graph_shares(pair, 1, 1);
+    pair.set_stiffness(0, 200);
+    CHECK(missing(price(shares), {"inertia_price", "revision"}) == "");
+}
+
 }  // namespace taut_test::graph_inertia_limit_test

@@ -21,17 +21,18 @@ namespace taut {
 ///     M̃ = M + (1/θ) Σ s(h c/2 + h² k/4) L_e,   M̃(v⁺ − v) = h f(x, v),   x⁺ = x + h v⁺ ,
 ///
 /// L_e being the graph Laplacian of one spring, k its stiffness bound, c its damping bound. The
-/// shares are the least that make h safe at every pose: a stiff hem is implicit, the cloth beside
-/// it explicit. One n × n factor of the particles that such springs touch serves all coordinates
-/// and all steps. Linear momentum is kept. What it costs in accuracy: implicit springs resist
-/// rotation and folding as if they were heavier.
+/// shares make h safe at every pose and add little inertia: a stiff hem is implicit, the cloth
+/// beside it explicit. One n × n factor of the particles that such springs touch serves all
+/// coordinates and all steps. Linear momentum is kept. What it costs in accuracy: implicit springs
+/// resist rotation and folding as if they were heavier.
 ///
 /// `dissipation` δ adds implicit damping D_i = (δ/θ) Σ s ½hk L_e, taken at the mean of v and v⁺. At
-/// δ = 0 there is no numerical damping; at δ = 1 all springs are implicit and the energy cannot
-/// rise [T35].
+/// δ = 0 there is no numerical damping; at δ = 1 all springs are implicit, and at the step that the
+/// factor was made for the energy cannot rise, that of the dampers' inertia counted [T35].
 ///
-/// A factor made for a step serves every shorter one. It is made anew when the step grows, when the
-/// system's revision() moves on, or on prepare().
+/// A factor made for a step serves every shorter one, with the inertia of the longer: prepare(h)
+/// gives the shorter step its own. It is made anew by itself when the step grows and when the
+/// system's revision() moves on.
 /// @tparam Solver  for symmetric n × n matrices, solve() taking n × Dim with contiguous rows
 template <class System,
           class Solver = InterleavedLLT<typename System::Scalar, Eigen::NaturalOrdering<int>>>
@@ -77,16 +78,26 @@ public:
     Index touched() const { return matrix_.size(); }
     /// Factorisations so far.
     std::int64_t factorizations() const { return factorizations_; }
-    /// ½vᵀ(M̃ − M)v over the free particles, J: what the added inertia holds.
-    double added_kinetic(const State& state) const { return matrix_.added_kinetic(state.v); }
-    /// A_ii of particle i, kg, which response_to() shares out among its neighbours.
+    /// How often shares were chosen so far, with a factor or without: the inertia is another then.
+    std::int64_t renewals() const { return renewals_; }
+    /// ½vᵀ(M̃ − M)v over the free particles, J: what the added inertia holds; 0 until the next step
+    /// where the system was edited.
+    double added_kinetic(const State& state) const {
+        return is_current() ? matrix_.added_kinetic(state.v) : 0;
+    }
+    /// A_ii of particle i, kg, which response_to() shares out among its neighbours; its mass before
+    /// the first step.
     Scalar inertia(Index i) const { return matrix_.diagonal(i, system_->mass(i)); }
     /// √θ: within this share of ½vᵀM̃v + U the energy oscillates that the steps keep, as that of
     /// symplectic Euler does at this share of its limit [T36].
     double energy_share() const { return std::sqrt(options_.margin); }
-    /// The work done in the last call by pins that had changed their velocity before it, through
-    /// the added inertia, J.
-    double jump_work() const { return jump_work_; }
+    /// The work that pins did in the last successful call through added inertia and dissipation, J.
+    double pin_work() const { return pin_work_; }
+    /// The pins as the last call left them, and how to go on from there: a step sees by them that
+    /// pins have changed their velocity since. For who takes a state back.
+    const State& pins_seen() const { return last_; }
+    /// @param seen  what pins_seen() was then
+    void see_pins(const State& seen) { last_ = seen; }
     /// The change of velocity, m/s, that impulses make, N·s, Dim × n; none of pins. What changes
     /// velocities from outside, such as contacts, must go through it: a particle that is changed
     /// alone gains what its neighbours should have lost.
@@ -96,11 +107,18 @@ private:
     using Matrix = integrator_detail::GraphMatrix<System>;
     using Vector = typename System::Vector;
 
+    /// Whether shares and factor are of the system as it is.
+    bool is_current() const { return prepared_ && shares_.revision == system_->revision(); }
+    Report fail_to_prepare(const Report& why) {
+        matrix_ = Matrix();
+        last_ = {};
+        return why;
+    }
     /// a ← M̃⁻¹M a and what pins and dissipation add, of the touched particles.
     template <class Accelerations, class Velocities>
     void correct(const Accelerations& a, const Velocities& v, Scalar h);
     template <class AnyState>
-    bool goes_on(const AnyState& state) const;
+    bool pins_jump(const AnyState& state, Scalar h) const;
     template <class AnyState>
     void remember_pins(const AnyState& state);
 
@@ -109,20 +127,20 @@ private:
     GraphShares shares_;
     Matrix matrix_;
     Solver solver_;
-    typename Matrix::Rows rows_, jump_;
+    typename Matrix::Rows rows_, solution_, jump_;
     integrator_detail::ExplicitSteps<System> steps_;
     std::int64_t factorizations_ = 0;
+    std::int64_t renewals_ = 0;
     bool prepared_ = false;
     // Where springs with a share end at pins: the last state, to see pins change their velocity.
     State last_;
     bool pins_jump_ = false;  // before the next step
-    double jump_work_ = 0;
+    double pin_work_ = 0;     // J
 };
 
 template <class System, class Solver>
 Report GraphInertia<System, Solver>::renew(Scalar h) {
-    const bool serves = prepared_ && shares_.revision == system_->revision() &&
-                        static_cast<double>(h) <= shares_.step;
+    const bool serves = is_current() && static_cast<double>(h) <= shares_.step;
     return serves ? Report{} : prepare(h);
 }
 
@@ -131,17 +149,19 @@ Report GraphInertia<System, Solver>::prepare(Scalar h) {
     if (!(h > 0) || !std::isfinite(h)) return {Status::invalid_step};
     prepared_ = false;
     shares_ = graph_shares(*system_, static_cast<double>(h), options_.margin);
-    if (shares_.status != Status::ok) return {shares_.status};
+    ++renewals_;
+    if (shares_.status != Status::ok) return fail_to_prepare({shares_.status});
     if (options_.dissipation == 1) shares_.make_all_implicit();
     const Report built =
         matrix_.build(*system_, shares_, options_.dissipation, options_.most_factor_entries);
-    if (!built) return built;
+    if (!built) return fail_to_prepare(built);
     rows_.resize(matrix_.size(), System::Dim);
     if (matrix_.size() > 0) {
         solver_.analyzePattern(matrix_.matrix());
         solver_.factorize(matrix_.matrix());
         ++factorizations_;
-        if (solver_.info() != Eigen::Success) return {Status::not_positive_definite};
+        if (solver_.info() != Eigen::Success)
+            return fail_to_prepare({Status::not_positive_definite});
     }
     prepared_ = true;
     return {};
@@ -153,18 +173,20 @@ Report GraphInertia<System, Solver>::step(AnyState& state, Scalar h, Index count
     const Report checked = integrator_detail::StepLoop<State>::check(*system_, state, h);
     if (!checked || count <= 0) return checked;
     if (const Report renewed = renew(h); !renewed) return renewed;
-    const bool jumps = goes_on(state);
-    jump_work_ = 0;
+    const bool jumps = pins_jump(state, h);
     const auto correction = [&](const auto& a, const auto& v) { correct(a, v, h); };
     bool first = true;
     const Report report = steps_.run(
         *system_, state, h, count,
         [&](auto& sweep, int threads, const StepDamping&) {
             pins_jump_ = jumps;
+            pin_work_ = 0;
             return sweep.run_corrected(*system_, state, h, count, threads, correction);
         },
         [&](State& own) {
-            pins_jump_ = jumps && std::exchange(first, false);
+            if (first) pin_work_ = 0;
+            pins_jump_ = jumps && first;
+            first = false;
             steps_.corrected_step(*system_, own, h, correction);
         });
     if (matrix_.holds_pins() && report) {
@@ -191,27 +213,31 @@ void GraphInertia<System, Solver>::correct(const Accelerations& a, const Velocit
             h, [&](Index i) { return Vector((v(i) - last_.v.col(i)) / h); }, jump_);
         rows_ += jump_;
     }
-    rows_ = solver_.solve(rows_);
+    solution_ = solver_.solve(rows_);
     for (Index j = 0; j < matrix_.size(); ++j) {
-        a.set(particle(j), rows_.row(j));
+        a.set(particle(j), solution_.row(j));
         if (!jump) continue;
-        const Vector way = h * (v(particle(j)) + h / 2 * rows_.row(j).transpose());
-        jump_work_ += static_cast<double>(jump_.row(j).dot(way));
+        const Vector way = h * (v(particle(j)) + h / 2 * solution_.row(j).transpose());
+        pin_work_ += static_cast<double>(jump_.row(j).dot(way));
     }
+    pin_work_ += matrix_.braking_work(h, v, solution_);
 }
 
-/// Whether this is the last state, up to what pins and contacts did since.
+/// Whether pins have changed their velocity since the last state: if they are about where they
+/// were, for engines write positions, too.
 template <class System, class Solver>
 template <class AnyState>
-bool GraphInertia<System, Solver>::goes_on(const AnyState& state) const {
-    if (last_.x.cols() != state.x.cols() || static_cast<Scalar>(state.time) != last_.time) {
-        return false;
-    }
+bool GraphInertia<System, Solver>::pins_jump(const AnyState& state, Scalar h) const {
+    if (last_.x.cols() != state.x.cols()) return false;
     bool jumps = false;
     for (Index i = 0; i < system_->size(); ++i) {
         if (!system_->is_pinned(i)) continue;
-        if (last_.x.col(i) != state.x.col(i).template cast<Scalar>()) return false;
-        jumps = jumps || last_.v.col(i) != state.v.col(i).template cast<Scalar>();
+        const Vector x = state.x.col(i).template cast<Scalar>();
+        const Vector v = state.v.col(i).template cast<Scalar>();
+        const Scalar rounding = Scalar(1e-4) * (x.norm() + last_.x.col(i).norm());
+        const Scalar near = 2 * h * (v.norm() + last_.v.col(i).norm()) + rounding;
+        if (!((x - last_.x.col(i)).norm() <= near)) return false;
+        jumps = jumps || last_.v.col(i) != v;
     }
     return jumps;
 }
@@ -229,14 +255,15 @@ void GraphInertia<System, Solver>::remember_pins(const AnyState& state) {
 template <class System, class Solver>
 auto GraphInertia<System, Solver>::response_to(const Points<Scalar, System::Dim>& impulse)
     -> Points<Scalar, System::Dim> {
+    if (shares_.step > 0) (void)renew(static_cast<Scalar>(shares_.step));  // an edit since
     Points<Scalar, System::Dim> dv = impulse * system_->inverse_mass().asDiagonal();
     if (matrix_.size() == 0) return dv;
     for (Index j = 0; j < matrix_.size(); ++j) {
         rows_.row(j) = impulse.col(matrix_.particle(j)).transpose();
     }
-    rows_ = solver_.solve(rows_);
+    solution_ = solver_.solve(rows_);
     for (Index j = 0; j < matrix_.size(); ++j) {
-        dv.col(matrix_.particle(j)) = rows_.row(j).transpose();
+        dv.col(matrix_.particle(j)) = solution_.row(j).transpose();
     }
     return dv;
 }

@@ -13,12 +13,13 @@ struct GraphInertiaOptions {
     /// For the springs, with OpenMP (-fopenmp) only. The same bits for any number.
     int threads = 1;
     /// θ, in (0, 1]: the share that is taken of the condition [T33]. At 1 cloths that move gain
-    /// energy within minutes.
+    /// energy within minutes, and a guard's bound on the energy says nothing.
     double margin = method::GraphInertia::margin;
     /// δ, in [0, 1]: implicit damping of the springs that are implicit, which makes no step less
-    /// stable. 0: none. 1: every spring is implicit, and the energy of the scene itself cannot rise
-    /// at any step [T35]; it slows all relative motion. The default is the least that kept the
-    /// energy of every moving scene tried (docs/graph_inertia.md): measured, not proved.
+    /// stable. 0: none. 1: every spring is implicit, and the energy cannot rise at any step that
+    /// the factor is made for, pins at rest [T35]; it slows all relative motion. The default is the
+    /// least that kept the energy of every moving scene tried (docs/graph_inertia.md): measured,
+    /// not proved.
     double dissipation = method::GraphInertia::dissipation;
     /// The most nonzeros that the factor may have; else a step ends with Status::too_large.
     Index most_factor_entries = 100'000'000;

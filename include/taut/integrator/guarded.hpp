@@ -139,7 +139,7 @@ private:
     Report attempt(State& state, GuardedReport<Scalar>& report, Respond& respond);
     Report steps(State& state, Scalar h, Index count) {
         const Report report = stepper().step(state, h, count);
-        if constexpr (has_inertia) meter_.add(stepper().jump_work());
+        if constexpr (has_inertia) meter_.add(stepper().pin_work());
         return report;
     }
     bool admits(const State& state, Scalar span, GuardedReport<Scalar>& report);
@@ -157,6 +157,8 @@ private:
     integrator_detail::EnergyAccount::Frame frame_;
     integrator_detail::WorkMeter<System, method::Of<method>> meter_;
     integrator_detail::Refinement refinement_;
+    State pins_seen_;                     // by a stepper with inertia, at the frame's start
+    std::int64_t renewals_ = 0;           // of such a stepper, when start_books_ were made
     Points<Scalar, System::Dim> forces_;  // workspace
     integrator_detail::ViewedState<State> viewed_;
 };
@@ -321,9 +323,9 @@ template <class Stepper, class System>
 Status Guarded<Stepper, System>::open(const State& state, [[maybe_unused]] Scalar h) {
     bool same_books = true;
     if constexpr (has_inertia) {
-        const auto factors = stepper().factorizations();
         if (const Report made = stepper().renew(h); !made) return made.status;
-        same_books = factors == stepper().factorizations();
+        same_books = std::exchange(renewals_, stepper().renewals()) == stepper().renewals();
+        pins_seen_ = stepper().pins_seen();
     }
     if (same_books && start_.is(*system_, state)) return Status::ok;
     const integrator_detail::EnergyBooks touched = books(state);
@@ -366,10 +368,12 @@ auto Guarded<Stepper, System>::advance(State& state, Scalar frame, Respond&& res
         if (!refinement_.again(report.retries)) {
             name_culprits(report, state, respond);
             state = start_.state();
+            if constexpr (has_inertia) stepper().see_pins(pins_seen_);
             refinement_.give_up();
             return report;
         }
         state = start_.state();
+        if constexpr (has_inertia) stepper().see_pins(pins_seen_);
     }
     report.advanced = span;
     settle(state, report.retries);

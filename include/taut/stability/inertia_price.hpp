@@ -108,13 +108,17 @@ struct LowModes {
 
 /// The price of shares at their step: the added inertia as a share of the mass, and what it makes
 /// of the lowest frequencies: ω̃/ω = (1 + q)^−½, q = uᵀ(M̃ − M)u/uᵀMu, all low modes by Rayleigh and
-/// Ritz. Numerical, no proof. It does not count what the step itself does, an h²ω²/24, nor that
-/// mechanisms may give way to a mode: the slowing is at least what it is.
+/// Ritz. Numerical, no proof. It does not count what the step itself does, an h²ω²/24, nor that a
+/// mode may give way along mechanisms: where there are any, the slowing is less than it says.
+/// Fails unless the shares are of the system as it is.
 /// @param modes  LowModes::of the system at a pose
 /// @param count  modes asked for; fewer where there are fewer
 template <class System>
 InertiaPrice inertia_price(const System& system, const GraphShares& shares, const LowModes& modes,
                            Index count) {
+    if (shares.revision != system.revision() ||
+        static_cast<Index>(shares.shares.size()) != system.spring_count())
+        fail("inertia_price: the shares are of another revision of the system");
     const auto added = stability_detail::added_inertia(system, shares);
     InertiaPrice price;
     double mass = 0;

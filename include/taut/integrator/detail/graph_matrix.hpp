@@ -39,7 +39,7 @@ public:
     const SparseMatrix<Scalar>& matrix() const { return matrix_; }
     /// A_ii of particle i, kg; of an untouched one its mass.
     Scalar diagonal(Index i, Scalar mass) const {
-        const int row = row_[static_cast<std::size_t>(i)];
+        const int row = row_.empty() ? -1 : row_[static_cast<std::size_t>(i)];
         return row < 0 ? mass : matrix_.coeff(row, row);
     }
     /// rows ← rows − D_i v.  @param v  v(i): velocity of particle i
@@ -66,6 +66,23 @@ public:
             const int row = link.row_a < 0 ? link.row_b : link.row_a;
             rows.row(row) += (link.coupling - h * link.braking) * dv(pin).transpose();
         }
+    }
+    /// The work that moving pins do in a step through D_i, J.
+    /// @param v  of the step's start   @param a  accelerations, a row a touched particle
+    template <class Velocity>
+    double braking_work(Scalar h, const Velocity& v, const Rows& a) const {
+        if (!brakes_ || !holds_pins_) return 0;
+        double work = 0;
+        for (const Link& link : links_) {
+            if (link.row_a >= 0 && link.row_b >= 0) continue;
+            const bool a_is_pin = link.row_a < 0;
+            const Vector pin = v(a_is_pin ? link.a : link.b);
+            if (pin.isZero(0)) continue;
+            const int row = a_is_pin ? link.row_b : link.row_a;
+            const Vector mean = v(a_is_pin ? link.b : link.a) + h / 2 * a.row(row).transpose();
+            work += static_cast<double>(h * link.braking * (pin - mean).dot(pin));
+        }
+        return work;
     }
     /// ½vᵀ(M̃ − M)v over the free particles, J.
     template <class Points>
