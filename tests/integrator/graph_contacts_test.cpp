@@ -159,7 +159,7 @@ TEST_CASE("graph contacts: friction stops what it can, and turns nothing round",
         (void)taut::resolve_contacts(stepper, ground, state, {friction, 0});
         const double left = std::max(0.0, 0.3 - friction);
         CHECK((state.v.row(0).array() - left).abs().maxCoeff() < 1e-6);
-        CHECK(state.v.row(2).cwiseAbs().maxCoeff() < 1e-6);
+        CHECK(state.v.row(2).cwiseAbs().maxCoeff() < 3e-6);
     }
 }
 
@@ -169,7 +169,9 @@ template <class Resolve>
 double most_gain(double times_limit, Resolve&& resolve) {
     auto cloth = taut::hanging_cloth<double>({8, 8});
     for (taut::Index i = 0; i < cloth.size(); ++i) cloth.unpin(i);
-    taut::GraphInertia stepper(cloth);
+    taut::GraphInertiaOptions undamped;
+    undamped.dissipation = 0;
+    taut::GraphInertia stepper(cloth, undamped);
     const taut::Sphere<double, 3> ball{{0.5, 0.5, -0.3}, 0.2};
     auto state = cloth.initial_state();
     const double start = cloth.energy(state);

@@ -237,7 +237,6 @@ TEST_CASE("graph_inertia: a solver that clears its destination serves as well", 
     using Iterative =
         Eigen::ConjugateGradient<taut::SparseMatrix<double>, Eigen::Lower | Eigen::Upper>;
     const auto cloth = taut::hanging_cloth<double>({6, 6});
-    using System = taut::SpringSystem<double, 3>;
     taut::GraphInertia<System> direct(cloth);
     taut::GraphInertia<System, Iterative> iterative(cloth);
     auto state = cloth.initial_state();
