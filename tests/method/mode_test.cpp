@@ -52,7 +52,7 @@ Step transition(Method method, double stiffness, double damping, double seconds)
             return {(1 + h * d) / a, h / a, -h * k / a, 1 / a};
         }
         case Method::graph_inertia: {
-            const Real theta = 0.83, delta = 0.03, stiff = std::max(k, Real(0));
+            const Real theta = 0.83, delta = 0.01, stiff = std::max(k, Real(0));
             const Real a = 1 + (h * d / 2 + (1 + delta) * h * h * stiff / 4) / theta;
             const Real drag = (d + delta * h * stiff / 2 / theta) / a;
             return {1 - h * h * k / a, h * (1 - h * drag), -h * k / a, 1 - h * drag};

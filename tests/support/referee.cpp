@@ -95,7 +95,7 @@ RealMatrix Multipliers::step(taut::Method method, double seconds) const {
     if (method == taut::Method::graph_inertia) {
         // Symplectic Euler of A = M + (½hD + ¼(1 + δ)h²K⁺)/θ and D + ½δhK⁺/θ: all springs are
         // implicit.
-        const Real theta = 0.83, delta = 0.03;
+        const Real theta = 0.83, delta = 0.01;
         const RealMatrix heavy = one + (h / 2 * D_ + (1 + delta) * h * h / 4 * K_plus_) / theta;
         const RealMatrix damping = D_ + delta * h / 2 / theta * K_plus_;
         v.leftCols(r) = solve(heavy, v.leftCols(r));

@@ -17,9 +17,9 @@ struct GraphInertiaOptions {
     double margin = method::GraphInertia::margin;
     /// δ, in [0, 1]: implicit damping of the springs that are implicit, which makes no step less
     /// stable. 0: none. 1: every spring is implicit, and the energy cannot rise at any step that
-    /// the factor is made for, pins at rest [T35]; it slows all relative motion. The default is the
-    /// least that kept the energy of every moving scene tried (docs/graph_inertia.md): measured,
-    /// not proved.
+    /// the factor is made for, pins at rest [T35]; it slows all relative motion. The default keeps
+    /// the energy of nearly all moving scenes tried at little error (docs/graph_inertia.md):
+    /// measured, not proved.
     double dissipation = method::GraphInertia::dissipation;
     /// The most nonzeros that the factor may have; else a step ends with Status::too_large.
     Index most_factor_entries = 100'000'000;

@@ -22,7 +22,7 @@ struct GraphInertia : SymplecticEuler {
     /// θ, what GraphInertiaOptions has unless told otherwise.
     static constexpr double margin = 0.83;
     /// δ, likewise.
-    static constexpr double dissipation = 0.03;
+    static constexpr double dissipation = 0.01;
 
     /// Symplectic Euler's, of the heavier mode.
     static StepQuadratic step_quadratic(double k, double d, double h) {
