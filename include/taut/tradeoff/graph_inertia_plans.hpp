@@ -24,7 +24,7 @@ inline ModeError slowed_mode_error(const SlowedMode& mode, double h, double zeta
     constexpr double infinity = std::numeric_limits<double>::infinity();
     constexpr double delta = method::GraphInertia::dissipation;
     const double slowing = mode.frequency / mode.slowed_frequency;
-    const double q = (slowing - 1) * (slowing + 1);
+    const double q = std::max(0.0, (slowing - 1) * (slowing + 1));
     // A = M̃ + ½hD_i and D_i, which is 2δ/h of the springs' part of M̃ − M.
     const double root = std::sqrt(1 + (1 + delta) * q);
     const double heavier = (zeta + delta * q / (h * mode.frequency)) / root;
