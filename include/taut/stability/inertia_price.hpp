@@ -28,6 +28,9 @@ inline Eigen::MatrixXd stiffness_times(const Pencil& pencil, const Eigen::Matrix
 /// M̃ − M of the free degrees of freedom, kg.
 template <class System>
 SparseMatrix<double> added_inertia(const System& system, const GraphShares& shares) {
+    if (shares.revision != system.revision() ||
+        static_cast<Index>(shares.shares.size()) != system.spring_count())
+        fail("inertia_price: the shares are of another revision of the system");
     constexpr int Dim = System::Dim;
     const FreeParticles free(system);
     std::vector<Eigen::Triplet<double>> entries;
@@ -116,9 +119,6 @@ struct LowModes {
 template <class System>
 InertiaPrice inertia_price(const System& system, const GraphShares& shares, const LowModes& modes,
                            Index count) {
-    if (shares.revision != system.revision() ||
-        static_cast<Index>(shares.shares.size()) != system.spring_count())
-        fail("inertia_price: the shares are of another revision of the system");
     const auto added = stability_detail::added_inertia(system, shares);
     InertiaPrice price;
     double mass = 0;
