@@ -178,7 +178,6 @@ struct Excess {
 inline Excess watch(const Motion& motion, const taut::GraphInertiaOptions& options,
                     double seconds) {
     Net net = motion.net;
-    constexpr double frame = 1.0 / 60;
     const double h =
         frame / std::ceil(frame / (motion.multiple * taut::any_pose_limit(net).certified));
     const auto substeps = static_cast<Index>(std::lround(frame / h));

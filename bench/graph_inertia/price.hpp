@@ -10,8 +10,6 @@
 
 namespace bench::graph_inertia {
 
-constexpr double frame = 1.0 / 60;  // s
-
 /// Positions at the end of each frame, and the least time of a frame, ms.
 struct Frames {
     std::vector<taut::Points<double, 3>> x;
@@ -53,18 +51,6 @@ inline Error error_of(const Frames& frames, const Frames& reference, const Net& 
     return error;
 }
 
-/// Free particles that a spring with a share ends at.
-inline Index touched(const Net& net, const taut::GraphShares& shares) {
-    std::vector<char> is(static_cast<std::size_t>(net.size()), 0);
-    Index index = 0;
-    net.for_each_spring([&](Index a, Index b) {
-        if (shares.shares[static_cast<std::size_t>(index++)] > 0) is[a] = is[b] = 1;
-    });
-    Index count = 0;
-    for (Index i = 0; i < net.size(); ++i) count += is[i] && !net.is_pinned(i);
-    return count;
-}
-
 /// The fewest steps a frame that touch at most `share` of the particles.
 inline Index fewest_that_touch(const Net& net, double share, Index substeps) {
     Index low = 1, high = substeps;
@@ -72,7 +58,8 @@ inline Index fewest_that_touch(const Net& net, double share, Index substeps) {
         const Index n = (low + high) / 2;
         const auto shares = taut::graph_shares(net, frame / static_cast<double>(n),
                                                taut::GraphInertiaOptions{}.margin);
-        const bool few = touched(net, shares) <= share * static_cast<double>(net.size());
+        const bool few = static_cast<double>(taut::touched_particles(net, shares)) <=
+                         share * static_cast<double>(net.size());
         (few ? high : low) = n;
     }
     return high;

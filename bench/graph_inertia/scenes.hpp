@@ -18,6 +18,8 @@ using taut::Index;
 using Net = taut::SpringSystem<double, 3>;
 using survival::Random;
 
+constexpr double frame = 1.0 / 60;  // s
+
 /// A scene and the error that is asked of it.
 struct Scene {
     std::string name;

@@ -77,12 +77,7 @@ InertiaTold tell_inertia(const System& system, double h) {
     InertiaTold told;
     told.possible = shares.status == taut::Status::ok;
     told.implicit_springs = shares.implicit_springs();
-    std::vector<char> touched(static_cast<std::size_t>(system.size()), 0);
-    taut::for_each_inertia(system, shares, [&](taut::Index a, taut::Index b, double, double) {
-        for (const taut::Index i : {a, b})
-            touched[static_cast<std::size_t>(i)] = !system.is_pinned(i);
-    });
-    told.touched = std::count(touched.begin(), touched.end(), 1);
+    told.touched = taut::touched_particles(system, shares);
     const taut::Index modes = told.implicit_springs > 0 ? 10 : 0;
     told.price = taut::inertia_price(system, system.initial_state(), shares, modes);
     return told;

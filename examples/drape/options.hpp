@@ -161,7 +161,7 @@ inline void Options::check() const {
     }
     if (integrator == "graph_inertia" && (guard || !collide.empty())) {
         throw std::runtime_error(
-            "--integrator graph_inertia: --guard and --collide do not know its inertia");
+            "--integrator graph_inertia: --guard and --collide are not offered with it");
     }
     if (integrator == "explicit" && scene.d0 == 0 && scene.alpha == 0) {
         throw std::runtime_error("--integrator explicit: " +

@@ -173,7 +173,7 @@ ContactReport<typename System::Scalar, System::Dim> resolve_contacts(
     GraphInertia<System, Solver>& stepper, const Obstacle& obstacle, typename System::State& state,
     const ContactOptions& options = {}) {
     using Scalar = typename System::Scalar;
-    if (stepper.shares().step > 0) (void)stepper.renew(static_cast<Scalar>(stepper.shares().step));
+    (void)stepper.renew();
     if (stepper.touched() == 0) {
         return resolve_contacts(stepper.system(), obstacle, state, options);
     }

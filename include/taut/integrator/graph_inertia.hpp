@@ -11,6 +11,7 @@
 #include "../stability/graph_shares.hpp"
 #include "detail/explicit_steps.hpp"
 #include "detail/graph_matrix.hpp"
+#include "detail/last_state.hpp"
 #include "graph_inertia_options.hpp"
 
 namespace taut {
@@ -65,6 +66,10 @@ public:
     /// Makes the stepper ready for steps of h, s, as step() does by itself: with the factor that it
     /// has if that serves.
     Report renew(Scalar h);
+    /// The same for the step of the shares in force, after an edit; nothing before the first step.
+    Report renew() {
+        return shares_.step > 0 ? renew(static_cast<Scalar>(shares_.step)) : Report{};
+    }
     /// The same with a factor of its own for h, even where that of a larger step would serve: less
     /// inertia.
     Report prepare(Scalar h);
@@ -95,9 +100,9 @@ public:
     double pin_work() const { return pin_work_; }
     /// The pins as the last call left them, and how to go on from there: a step sees by them that
     /// pins have changed their velocity since. For who takes a state back.
-    const State& pins_seen() const { return last_; }
+    const State& pins_seen() const { return last_.state(); }
     /// @param seen  what pins_seen() was then
-    void see_pins(const State& seen) { last_ = seen; }
+    void see_pins(const State& seen) { last_.keep(*system_, seen); }
     /// The change of velocity, m/s, that impulses make, N·s, Dim × n; none of pins. What changes
     /// velocities from outside, such as contacts, must go through it: a particle that is changed
     /// alone gains what its neighbours should have lost.
@@ -111,7 +116,7 @@ private:
     bool is_current() const { return prepared_ && shares_.revision == system_->revision(); }
     Report fail_to_prepare(const Report& why) {
         matrix_ = Matrix();
-        last_ = {};
+        last_.forget();
         return why;
     }
     /// a ← M̃⁻¹M a and what pins and dissipation add, of the touched particles.
@@ -119,8 +124,6 @@ private:
     void correct(const Accelerations& a, const Velocities& v, Scalar h);
     template <class AnyState>
     bool pins_jump(const AnyState& state, Scalar h) const;
-    template <class AnyState>
-    void remember_pins(const AnyState& state);
 
     const System* system_;
     Options options_;
@@ -133,7 +136,7 @@ private:
     std::int64_t renewals_ = 0;
     bool prepared_ = false;
     // Where springs with a share end at pins: the last state, to see pins change their velocity.
-    State last_;
+    integrator_detail::LastState<State> last_;
     bool pins_jump_ = false;  // before the next step
     double pin_work_ = 0;     // J
 };
@@ -190,9 +193,9 @@ Report GraphInertia<System, Solver>::step(AnyState& state, Scalar h, Index count
             steps_.corrected_step(*system_, own, h, correction);
         });
     if (matrix_.holds_pins() && report) {
-        remember_pins(state);
+        last_.keep(*system_, state);
     } else {
-        last_ = {};
+        last_.forget();
     }
     return report;
 }
@@ -210,7 +213,7 @@ void GraphInertia<System, Solver>::correct(const Accelerations& a, const Velocit
     if (jump) {
         jump_.setZero(matrix_.size(), System::Dim);
         matrix_.subtract_pins(
-            h, [&](Index i) { return Vector((v(i) - last_.v.col(i)) / h); }, jump_);
+            h, [&](Index i) { return Vector((v(i) - pins_seen().v.col(i)) / h); }, jump_);
         rows_ += jump_;
     }
     solution_ = solver_.solve(rows_);
@@ -228,34 +231,25 @@ void GraphInertia<System, Solver>::correct(const Accelerations& a, const Velocit
 template <class System, class Solver>
 template <class AnyState>
 bool GraphInertia<System, Solver>::pins_jump(const AnyState& state, Scalar h) const {
-    if (last_.x.cols() != state.x.cols()) return false;
+    const State& last = pins_seen();
+    if (last.x.cols() != state.x.cols()) return false;
     bool jumps = false;
     for (Index i = 0; i < system_->size(); ++i) {
         if (!system_->is_pinned(i)) continue;
         const Vector x = state.x.col(i).template cast<Scalar>();
         const Vector v = state.v.col(i).template cast<Scalar>();
-        const Scalar rounding = Scalar(1e-4) * (x.norm() + last_.x.col(i).norm());
-        const Scalar near = 2 * h * (v.norm() + last_.v.col(i).norm()) + rounding;
-        if (!((x - last_.x.col(i)).norm() <= near)) return false;
-        jumps = jumps || last_.v.col(i) != v;
+        const Scalar rounding = Scalar(1e-4) * (x.norm() + last.x.col(i).norm());
+        const Scalar near = 2 * h * (v.norm() + last.v.col(i).norm()) + rounding;
+        if (!((x - last.x.col(i)).norm() <= near)) return false;
+        jumps = jumps || last.v.col(i) != v;
     }
     return jumps;
 }
 
 template <class System, class Solver>
-template <class AnyState>
-void GraphInertia<System, Solver>::remember_pins(const AnyState& state) {
-    if constexpr (model_detail::is_state_view_v<AnyState>) {
-        state.copy_to(last_);
-    } else {
-        last_ = state;
-    }
-}
-
-template <class System, class Solver>
 auto GraphInertia<System, Solver>::response_to(const Points<Scalar, System::Dim>& impulse)
     -> Points<Scalar, System::Dim> {
-    if (shares_.step > 0) (void)renew(static_cast<Scalar>(shares_.step));  // an edit since
+    (void)renew();  // where that fails, nothing is touched
     Points<Scalar, System::Dim> dv = impulse * system_->inverse_mass().asDiagonal();
     if (matrix_.size() == 0) return dv;
     for (Index j = 0; j < matrix_.size(); ++j) {

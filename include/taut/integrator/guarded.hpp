@@ -110,7 +110,7 @@ private:
             return {};
         }
     }
-    /// Of the any-pose limit: what substeps are cut to.
+    /// Of the any-pose limit: what substeps are cut to; of a stepper with inertia, its own.
     double share() const {
         if constexpr (has_inertia) {
             return stepper().energy_share();
@@ -141,6 +141,10 @@ private:
         const Report report = stepper().step(state, h, count);
         if constexpr (has_inertia) meter_.add(stepper().pin_work());
         return report;
+    }
+    void take_back(State& state) {
+        state = start_.state();
+        if constexpr (has_inertia) stepper().see_pins(pins_seen_);
     }
     bool admits(const State& state, Scalar span, GuardedReport<Scalar>& report);
     void settle(const State& state, int retries);
@@ -367,13 +371,11 @@ auto Guarded<Stepper, System>::advance(State& state, Scalar frame, Respond&& res
         if (step) report.status = Status::diverged;
         if (!refinement_.again(report.retries)) {
             name_culprits(report, state, respond);
-            state = start_.state();
-            if constexpr (has_inertia) stepper().see_pins(pins_seen_);
+            take_back(state);
             refinement_.give_up();
             return report;
         }
-        state = start_.state();
-        if constexpr (has_inertia) stepper().see_pins(pins_seen_);
+        take_back(state);
     }
     report.advanced = span;
     settle(state, report.retries);

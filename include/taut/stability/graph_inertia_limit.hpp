@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "detail/quick_mode.hpp"
 #include "detail/symplectic_limit.hpp"
 #include "graph_shares.hpp"
 
@@ -50,8 +51,7 @@ inline double refuted_inertia(const SpringPencil<1>& pencil, const GraphShares& 
 template <class Scalar, int Dim, class... Laws>
 StepLimit<Scalar> graph_inertia_limit(const SpringSystem<Scalar, Dim, Laws...>& system,
                                       const GraphShares& shares) {
-    if (shares.revision != system.revision())
-        fail("graph_inertia_limit: the shares are of another revision of the system");
+    stability_detail::require_shares_of("graph_inertia_limit", system, shares);
     if (shares.status != Status::ok) {
         return stability_detail::rounded<Scalar>({0, stability_detail::infinity, Cause::overflow},
                                                  system.revision());

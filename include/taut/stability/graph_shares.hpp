@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "../core/status.hpp"
 #include "../model/spring_system.hpp"
-#include "detail/quick_mode.hpp"
 #include "detail/symplectic_limit.hpp"
 #include "spring_pencil.hpp"
 
@@ -20,7 +20,6 @@ struct GraphShares {
     Status status = Status::ok;  ///< not ok: no shares make that step safe
     double step = 0;             ///< h₀, s
     double margin = 1;           ///< θ
-    double drag = 0;             ///< d0, 1/s, of the scene
     std::vector<double> shares;  ///< s of each spring, in index order, 0 … 1
     std::uint64_t revision = 0;  ///< of the system
 
@@ -48,7 +47,36 @@ void for_each_inertia(const System& system, const GraphShares& shares, Visitor&&
     });
 }
 
+/// Free particles that springs with a share end at.
+template <class System>
+Index touched_particles(const System& system, const GraphShares& shares) {
+    std::vector<char> touched(static_cast<std::size_t>(system.size()), 0);
+    for_each_inertia(system, shares, [&](Index a, Index b, double, double) {
+        for (const Index i : {a, b}) touched[static_cast<std::size_t>(i)] = !system.is_pinned(i);
+    });
+    return std::count(touched.begin(), touched.end(), 1);
+}
+
 namespace stability_detail {
+
+/// Fails by the function's name unless the shares are of the system as it is.
+template <class System>
+void require_shares_of(const char* function, const System& system, const GraphShares& shares) {
+    if (shares.revision != system.revision() ||
+        static_cast<Index>(shares.shares.size()) != system.spring_count())
+        fail(function, ": the shares are of another revision of the system");
+}
+
+/// Appends weight·L_e of a spring between two rows; a negative one is a pin's and has no entries.
+inline void add_laplacian(int a, int b, double weight,
+                          std::vector<Eigen::Triplet<double>>& entries) {
+    for (const int row : {a, b}) {
+        if (row >= 0) entries.emplace_back(row, row, weight);
+    }
+    if (a < 0 || b < 0) return;
+    entries.emplace_back(a, b, -weight);
+    entries.emplace_back(b, a, -weight);
+}
 
 /// The springs of 2hD + h²L_k between free particles, and the shares that fit them to what the
 /// masses bear.
@@ -59,7 +87,7 @@ public:
         : allowed_(std::move(allowed)) {
         pencil.for_each_link(2 * h * D + h * h * K_plus,
                              [&](int a, int b, const auto&, double axial, double) {
-                                 springs_.push_back({a, b, axial, 1});
+                                 springs_.push_back({a, b, axial, 1, 0});
                              });
         weight_.reserve(allowed_.size());
         for (Index i = 0; i < pencil.size(); ++i)
@@ -70,17 +98,23 @@ public:
 
     /// Lowers explicit parts until every particle bears its load [T33].
     void run() {
-        if (measure() < 2) {
+        double largest = measure();
+        if (largest < 2) {
             const std::vector<double> even = weight_;
-            for (int repeat = 0; repeat < 60 && measure() > bound; ++repeat) improve_weights();
-            if (measure() <= bound) return;
+            for (int repeat = 0; repeat < 60 && largest > bound; ++repeat) {
+                improve_weights(largest);
+                largest = measure();
+            }
+            if (largest <= bound) return;
             weight_ = even;  // the others lean on the stiffest
+            largest = measure();
         }
-        for (int repeat = 0; repeat < 300 && measure() > 1 + 1e-3; ++repeat) {
+        for (int repeat = 0; repeat < 300 && largest > 1 + 1e-3; ++repeat) {
             shrink();
             lean();
+            largest = measure();
         }
-        if (measure() > bound) settle();
+        if (largest > bound) settle();
     }
     /// 1 − s of the springs, in the pencil's order.
     double explicit_part(std::size_t s) const { return springs_[s].part; }
@@ -91,6 +125,7 @@ private:
         int a, b;     // free particle, or −1 when pinned
         double pull;  // 2hc + h²k, kg
         double part;  // 1 − s
+        double less;  // of shrink(): −ln of the factor on it
     };
     /// What rounding may add to a load.
     static constexpr double bound = 1 - 1e-9;
@@ -118,8 +153,7 @@ private:
         return load_.empty() ? 0 : *std::max_element(load_.begin(), load_.end());
     }
     /// As upper bounds of the whole scene do [T26].
-    void improve_weights() {
-        const double largest = *std::max_element(load_.begin(), load_.end());
+    void improve_weights(double largest) {
         for (std::size_t i = 0; i < load_.size(); ++i) {
             weight_[i] *= std::sqrt(std::max(load_[i] / largest, 1e-4));
         }
@@ -133,23 +167,16 @@ private:
     /// A spring gives way as it takes part in what is too much: soft neighbours of a stiff one stay
     /// explicit.
     void shrink() {
-        std::vector<double> less(springs_.size(), 0);
-        for (std::size_t s = 0; s < springs_.size(); ++s) {
-            const Link& link = springs_[s];
-            const auto at = [&](int i, int other) {
-                if (i < 0 || !(load_[i] > 1)) return;
-                less[s] = std::max(
-                    less[s], 0.3 * load_at(link, i, other) / heaviest_[i] * std::log(load_[i]));
-            };
-            at(link.a, link.b);
-            at(link.b, link.a);
-        }
-        for (std::size_t s = 0; s < springs_.size(); ++s) springs_[s].part *= std::exp(-less[s]);
+        for_each_end([&](Link& link, int i, int other) {
+            if (!(load_[i] > 1)) return;
+            link.less = std::max(link.less,
+                                 0.3 * load_at(link, i, other) / heaviest_[i] * std::log(load_[i]));
+        });
+        for (Link& link : springs_) link.part *= std::exp(-std::exchange(link.less, 0));
     }
     /// At fixed weights loads are linear in the parts.
     void settle() {
-        const std::vector<double> load = load_;
-        const auto over = [&](int i) { return i < 0 ? 0 : load[i] / bound; };
+        const auto over = [&](int i) { return i < 0 ? 0 : load_[i] / bound; };
         for (Link& link : springs_) {
             link.part /= std::max({1.0, over(link.a), over(link.b)});
         }
@@ -183,9 +210,8 @@ GraphShares graph_shares(const SpringSystem<Scalar, Dim, Laws...>& system, doubl
     answer.revision = system.revision();
     answer.shares.assign(static_cast<std::size_t>(system.spring_count()), 0);
     const auto pencil = SpringPencil<1>::any_pose(system);
-    answer.drag = pencil.rayleigh().mass_proportional;
     const double wide = h * (1 + stability_detail::step_rounding<Scalar>);
-    const double left = 4 * margin - 2 * wide * answer.drag;
+    const double left = 4 * margin - 2 * wide * pencil.rayleigh().mass_proportional;
     std::vector<double> allowed;
     for (Index i = 0; i < pencil.size(); ++i) allowed.push_back(left * pencil.mass()[i]);
     if (!pencil.lost().empty() || (pencil.size() > 0 && !(left > 0))) {

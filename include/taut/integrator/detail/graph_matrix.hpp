@@ -3,7 +3,7 @@
 #pragma once
 
 #include <Eigen/OrderingMethods>
-#include <cmath>
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -53,35 +53,29 @@ public:
         }
     }
     /// Whether a spring with a share ends at a pin.
-    bool holds_pins() const { return holds_pins_; }
+    bool holds_pins() const { return at_pins_ < links_.size(); }
     /// rows ← rows − (A − h D_i)_fp·dv: braking acts at the mean of the velocities before and
     /// after, and subtract_braking has that after of pins.
     /// @param h   of the step, s   @param dv  dv(i): by how much the velocity of pin i changed,
     /// over h
     template <class Change>
     void subtract_pins(Scalar h, const Change& dv, Rows& rows) const {
-        for (const Link& link : links_) {
-            if (link.row_a >= 0 && link.row_b >= 0) continue;
-            const Index pin = link.row_a < 0 ? link.a : link.b;
-            const int row = link.row_a < 0 ? link.row_b : link.row_a;
+        for_each_at_pin([&](const Link& link, Index pin, int row, Index) {
             rows.row(row) += (link.coupling - h * link.braking) * dv(pin).transpose();
-        }
+        });
     }
     /// The work that moving pins do in a step through D_i, J.
     /// @param v  of the step's start   @param a  accelerations, a row a touched particle
     template <class Velocity>
     double braking_work(Scalar h, const Velocity& v, const Rows& a) const {
-        if (!brakes_ || !holds_pins_) return 0;
+        if (!brakes_) return 0;
         double work = 0;
-        for (const Link& link : links_) {
-            if (link.row_a >= 0 && link.row_b >= 0) continue;
-            const bool a_is_pin = link.row_a < 0;
-            const Vector pin = v(a_is_pin ? link.a : link.b);
-            if (pin.isZero(0)) continue;
-            const int row = a_is_pin ? link.row_b : link.row_a;
-            const Vector mean = v(a_is_pin ? link.b : link.a) + h / 2 * a.row(row).transpose();
-            work += static_cast<double>(h * link.braking * (pin - mean).dot(pin));
-        }
+        for_each_at_pin([&](const Link& link, Index pin, int row, Index particle) {
+            const Vector held = v(pin);
+            if (held.isZero(0)) return;
+            const Vector mean = v(particle) + h / 2 * a.row(row).transpose();
+            work += static_cast<double>(h * link.braking * (held - mean).dot(held));
+        });
         return work;
     }
     /// ½vᵀ(M̃ − M)v over the free particles, J.
@@ -104,17 +98,28 @@ private:
         double inertia;    // of M̃ − M, kg
         Scalar coupling;   // of A − M, kg
         Scalar braking;    // of D_i, kg/s
+
+        bool at_pin() const { return row_a < 0 || row_b < 0; }
     };
 
+    /// visit(link, pin, row, particle) for each spring at a pin, with its other end.
+    template <class Visitor>
+    void for_each_at_pin(Visitor&& visit) const {
+        for (std::size_t l = at_pins_; l < links_.size(); ++l) {
+            const Link& link = links_[l];
+            if (link.row_a < 0) visit(link, link.a, link.row_b, link.b);
+            if (link.row_b < 0) visit(link, link.b, link.row_a, link.a);
+        }
+    }
     void find_springs(const System& system, const GraphShares& shares, double dissipation);
     SparseMatrix<double> assemble(const System& system) const;
 
     std::vector<Index> particles_;  // of the rows
     std::vector<int> row_;          // of each particle, or −1
-    std::vector<Link> links_;
+    std::vector<Link> links_;       // those at pins last
+    std::size_t at_pins_ = 0;       // where these begin
     SparseMatrix<Scalar> matrix_;
     bool brakes_ = false;
-    bool holds_pins_ = false;
 };
 
 template <class System>
@@ -123,7 +128,6 @@ void GraphMatrix<System>::find_springs(const System& system, const GraphShares& 
     links_.clear();
     particles_.clear();
     brakes_ = dissipation > 0;
-    holds_pins_ = false;
     row_.assign(static_cast<std::size_t>(system.size()), -1);
     const auto row_of = [&](Index i) {
         if (system.is_pinned(i)) return -1;
@@ -138,8 +142,10 @@ void GraphMatrix<System>::find_springs(const System& system, const GraphShares& 
         links_.push_back({a, b, row_of(a), row_of(b), damped + elastic,
                           static_cast<Scalar>(damped + (1 + dissipation) * elastic),
                           static_cast<Scalar>(2 * dissipation * elastic / shares.step)});
-        holds_pins_ = holds_pins_ || links_.back().row_a < 0 || links_.back().row_b < 0;
     });
+    const auto at_pins = std::stable_partition(links_.begin(), links_.end(),
+                                               [](const Link& link) { return !link.at_pin(); });
+    at_pins_ = static_cast<std::size_t>(at_pins - links_.begin());
 }
 
 template <class System>
@@ -149,13 +155,8 @@ SparseMatrix<double> GraphMatrix<System>::assemble(const System& system) const {
         entries.emplace_back(j, j, static_cast<double>(system.mass(particles_[j])));
     }
     for (const Link& link : links_) {
-        const auto add = static_cast<double>(link.coupling);
-        for (const int row : {link.row_a, link.row_b}) {
-            if (row >= 0) entries.emplace_back(row, row, add);
-        }
-        if (link.row_a < 0 || link.row_b < 0) continue;
-        entries.emplace_back(link.row_a, link.row_b, -add);
-        entries.emplace_back(link.row_b, link.row_a, -add);
+        stability_detail::add_laplacian(link.row_a, link.row_b, static_cast<double>(link.coupling),
+                                        entries);
     }
     SparseMatrix<double> A(size(), size());
     A.setFromTriplets(entries.begin(), entries.end());

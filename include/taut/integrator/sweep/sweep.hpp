@@ -206,6 +206,13 @@ private:
     /// Brings all members up to date.
     template <class AnyState>
     void load(const System& system, const AnyState& state, const StepDamping& added);
+    /// Puts the state back after `count` steps. @param x  its positions, planes, m
+    template <class AnyState>
+    void store(const Planes<Scalar>& x, Scalar h, Index count, AnyState& state) const {
+        plan_.from_planes(x, state.x);
+        plan_.from_planes(state_.planes().v, state.v);
+        for (Index i = 0; i < count; ++i) state.time += h;
+    }
     /// @returns whether all is finite
     template <class Update>
     bool steps(Scalar h, Index count, int threads, const Update& update);

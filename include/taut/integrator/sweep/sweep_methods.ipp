@@ -12,9 +12,7 @@ bool Sweep<System>::run(const System& system, AnyState& state, Scalar h, Index c
                         const StepDamping& added, const Update& update) {
     load(system, state, added);
     if (!steps(h, count, threads, update)) return false;
-    plan_.from_planes(state_.planes().x, state.x);
-    plan_.from_planes(state_.planes().v, state.v);
-    for (Index i = 0; i < count; ++i) state.time += h;
+    store(state_.planes().x, h, count, state);
     return true;
 }
 
@@ -53,10 +51,8 @@ bool Sweep<System>::run_verlet(const System& system, AnyState& state, Scalar h, 
         x = a;
     };
     if (!steps(h, 1, threads, kick)) return false;
-    plan_.from_planes({end_x_.data(), plan_.stride()}, state.x);
-    plan_.from_planes(state_.planes().v, state.v);
+    store({end_x_.data(), plan_.stride()}, h, count, state);
     acceleration_ = state_.whole(state_.planes().x);
-    for (Index i = 0; i < count; ++i) state.time += h;
     return true;
 }
 
@@ -84,9 +80,7 @@ bool Sweep<System>::run_corrected(const System& system, AnyState& state, Scalar 
         if (check && !state_.finite()) return false;
         outside_.pass(h);
     }
-    plan_.from_planes(state_.planes().x, state.x);
-    plan_.from_planes(state_.planes().v, state.v);
-    for (Index i = 0; i < count; ++i) state.time += h;
+    store(state_.planes().x, h, count, state);
     return true;
 }
 

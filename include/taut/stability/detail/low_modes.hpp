@@ -70,6 +70,18 @@ MatrixX<Real> low_modes(const Pencil& pencil) {
     return U;
 }
 
+/// K⁺V.
+template <class Real>
+MatrixX<Real> stiffness_times(const Pencil& pencil, const MatrixX<Real>& V) {
+    MatrixX<Real> KV(V.rows(), V.cols());
+    VectorX<Real> y;
+    for (Index j = 0; j < V.cols(); ++j) {
+        pencil.multiply(matrices::K_plus, V.col(j), y);
+        KV.col(j) = y;
+    }
+    return KV;
+}
+
 /// An orthonormal basis of what the columns span.
 template <class Real = double>
 MatrixX<Real> orthonormal(const MatrixX<Real>& U) {
@@ -89,13 +101,7 @@ std::vector<double> frequency_changes(const Pencil& before, const Pencil& after)
     MatrixX<Real> both(low.rows(), low.cols() + low_after.cols());
     both << low.colwise().normalized(), low_after.colwise().normalized();
     const MatrixX<Real> U = orthonormal<Real>(both);
-    MatrixX<Real> KU(U.rows(), U.cols());
-    VectorX<Real> y;
-    for (Index j = 0; j < U.cols(); ++j) {
-        before.multiply(matrices::K_plus, U.col(j), y);
-        KU.col(j) = y;
-    }
-    const MatrixX<Real> K = U.transpose() * KU;
+    const MatrixX<Real> K = U.transpose() * stiffness_times<Real>(before, U);
     const auto eigenvalues = [&](const Pencil& pencil) {
         const MatrixX<Real> M = U.transpose() * pencil.mass().asDiagonal() * U;
         const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX<Real>> modes(K, M,
