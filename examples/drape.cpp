@@ -39,11 +39,7 @@ drape::Advance make_motion(const Options& options, const drape::Scene& scene) {
     if (options.integrator == "explicit") {
         return drape::by_stepper(scene, std::make_shared<taut::ExplicitEuler<Cloth>>(scene.cloth));
     }
-#ifdef DRAPE_CHOLMOD
-    if (options.solver == "cholmod") return motion_by_cholmod(options, scene);
-#endif
-    if (options.solver == "conjugate_gradient") return motion_by_gradients(options, scene);
-    return motion_by_cholesky(options, scene);
+    return make_implicit_motion(options, scene);
 }
 
 /// What became of a run.

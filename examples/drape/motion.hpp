@@ -20,12 +20,7 @@ struct Scene {
     const Plan& plan;
 };
 
-/// The motions whose steps solve linear systems, by the solver of --solver. Each is compiled by
-/// itself.
-Advance motion_by_cholesky(const Options& options, const Scene& scene);
-Advance motion_by_gradients(const Options& options, const Scene& scene);
-#ifdef DRAPE_CHOLMOD
-Advance motion_by_cholmod(const Options& options, const Scene& scene);
-#endif
+/// implicit, newton, bdf2, projective and graph_inertia.
+Advance make_implicit_motion(const Options& options, const Scene& scene);
 
 }  // namespace drape

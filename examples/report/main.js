@@ -26,7 +26,7 @@ function writeHead() {
   const parts = [];
   if (mesh) parts.push(`${whole(findings.particles)} particles, ${mesh.pinned.length ? whole(mesh.pinned.length) : "none"} pinned`, `${whole(findings.springs)} springs`);
   parts.push(`${whole(findings.degrees_of_freedom)} degrees of freedom`);
-  fill("scene", [parts.join(", "), data.space].filter(Boolean).join("; "));
+  fill("scene", [parts.join(", "), data.space && data.space.replaceAll(" x ", " × ").replace("^2", "²")].filter(Boolean).join("; "));
   const fact = (name, limit) => {
     const { certified } = bracket(limit);
     const [value, unit] = certified === Infinity ? ["every step", ""] : certified > 0 ? seconds(certified).split("\u00a0") : ["none", ""];
