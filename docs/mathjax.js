@@ -1,0 +1,6 @@
+MathJax.Hub.Config({
+  messageStyle: "none",
+  showMathMenu: false,
+  SVG: {font: "TeX", linebreaks: {automatic: true}, scale: 95},
+  TeX: {Macros: {T: "^{\\mathsf T}"}}
+});
