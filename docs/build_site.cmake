@@ -41,9 +41,8 @@ if(NOT warnings STREQUAL "")
 endif()
 
 # The part of MathJax that writes TeX as SVG.
-foreach(part IN ITEMS MathJax.js extensions/tex2jax.js extensions/MathEvents.js extensions/MathMenu.js
-        extensions/MathZoom.js extensions/TeX jax/element jax/input/TeX jax/output/SVG/jax.js
-        jax/output/SVG/autoload jax/output/SVG/fonts/TeX)
+foreach(part IN ITEMS MathJax.js extensions jax/element jax/input/TeX jax/output/SVG)
     cmake_path(GET part PARENT_PATH folder)
-    file(COPY "${MATHJAX}/${part}" DESTINATION "${SITE}/mathjax/${folder}")
+    file(COPY "${MATHJAX}/${part}" DESTINATION "${SITE}/mathjax/${folder}"
+        REGEX "/fonts/(Asana|Gyre|Latin|Neo|STIX)" EXCLUDE REGEX "/extensions/(a11y|HTML-CSS|MathML)" EXCLUDE)
 endforeach()
