@@ -125,6 +125,13 @@ private:
                           std::to_string(longest_line));
             }
             check_links(path, row, line);
+            static const std::regex open_bracket("\\[[^\\]]*$");
+            static const std::regex closed_below("^[^\\[`]*\\]\\(");
+            if (row + 1 < page.lines.size() && std::regex_search(line, open_bracket) &&
+                std::regex_search(page.lines[row + 1], closed_below)) {
+                fault(path, row,
+                      "the text of a link goes over the end of the line, which the site breaks");
+            }
         }
         if (fenced) fault(path, page.lines.size() - 1, "the code that ``` begins does not end");
     }
