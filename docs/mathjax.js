@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+
 MathJax.Hub.Config({
   messageStyle: "none",
   showMathMenu: false,
