@@ -25,11 +25,8 @@ endfunction()
 
 # The identifier of a heading of a page. Doxygen has one set of them for all pages.
 function(identifier result page slug)
-    cmake_path(NORMAL_PATH page)
-    cmake_path(GET page STEM stem)
-    cmake_path(GET page PARENT_PATH folder)
-    cmake_path(GET folder FILENAME folder)
-    set(${result} "${folder}-${stem}-${slug}" PARENT_SCOPE)
+    page_name(name "${page}")
+    set(${result} "${name}-${slug}" PARENT_SCOPE)
 endfunction()
 
 # The words of a heading as the end of a link to it.
