@@ -25,29 +25,78 @@ endfunction()
 
 # The identifier of a heading of a page. Doxygen has one set of them for all pages.
 function(identifier result page slug)
+    page_name(name "${page}")
+    set(${result} "${name}-${slug}" PARENT_SCOPE)
+endfunction()
+
+# The words of a heading as the end of a link to it.
+function(heading_slug result heading)
+    string(REGEX REPLACE "^\n?#+ " "" slug "${heading}")
+    string(TOLOWER "${slug}" slug)
+    string(REGEX REPLACE "[^a-z0-9 _-]" "" slug "${slug}")
+    string(REPLACE " " "-" slug "${slug}")
+    set(${result} "${slug}" PARENT_SCOPE)
+endfunction()
+
+# A label as [T19] that is no link yet becomes one, in parentheses, to the section of docs/theory.md that has its
+# formula.
+# Brackets are <open> and <close> here.
+macro(link_labels)
+    set(theory_page "${CMAKE_CURRENT_LIST_DIR}/theory.md")
+    file(STRINGS "${theory_page}" lines REGEX "^## |[[]T[0-9]+\\]}?$")
+    string(REGEX REPLACE "<open>(T[0-9]+)<close>\\(" "<linked>\\1<close>(" text "${text}")
+    foreach(line IN LISTS lines)
+        if(line MATCHES "^## ")
+            heading_slug(section "${line}")
+            identifier(section "${theory_page}" "${section}")
+        elseif(line MATCHES "[[](T[0-9]+)\\]}?$")
+            string(REPLACE "<open>${CMAKE_MATCH_1}<close>"
+                "(<linked>${CMAKE_MATCH_1}<close>(@ref ${section}))" text "${text}")
+        endif()
+    endforeach()
+    string(REPLACE "<linked>" "<open>" text "${text}")
+endmacro()
+
+# The name of a page, and so of its file on the site.
+function(page_name result page)
     cmake_path(NORMAL_PATH page)
     cmake_path(GET page STEM stem)
-    cmake_path(GET page PARENT_PATH folder)
-    cmake_path(GET folder FILENAME folder)
-    set(${result} "${folder}-${stem}-${slug}" PARENT_SCOPE)
+    cmake_path(GET page PARENT_PATH parent)
+    cmake_path(GET parent FILENAME parent)
+    string(TOLOWER "${stem}" stem)
+    if(parent STREQUAL "docs" OR stem MATCHES "^(contributing|changelog)$")
+        set(${result} "${stem}" PARENT_SCOPE)
+    elseif(NOT stem STREQUAL "readme")
+        set(${result} "${parent}_${stem}" PARENT_SCOPE)
+    elseif(EXISTS "${page}" AND parent MATCHES "^(systems|bench)$")
+        set(${result} "${parent}" PARENT_SCOPE)
+    else()
+        set(${result} index PARENT_SCOPE)
+    endif()
 endfunction()
 
 # Pages are written for their place in the repository, where links to headings, programs and folders
-# work. On the site a heading is called by its words, a program has its page among the examples, and
-# other files and folders have none; what does not exist becomes a reference that Doxygen refuses.
+# work. On the site a page is called by its file, a heading by its words, a program has its page among the
+# examples, and other files and folders have none; what does not exist becomes a reference that Doxygen
+# refuses. A block of ```math becomes a formula.
 function(filter_page text)
     # CMake's lists would split at these.
     string(REPLACE ";" "<semicolon>" text "${text}")
     string(REPLACE "[" "<open>" text "${text}")
     string(REPLACE "]" "<close>" text "${text}")
 
+    page_name(name "${file}")
+    if(NOT name STREQUAL "index")
+        string(REGEX REPLACE "^(# [^\n]+)\n" "\\1 {#${name}}\n" text "${text}")
+    endif()
+
+    # Formulas stand apart from links and spans of code: their backslashes and brackets are TeX's.
+    string(REGEX REPLACE "\n```math\n([^`]*)\n```\n" "\n\\\\f[\n\\1\n\\\\f]\n" text "${text}")
+
     set(known "")
     string(REGEX MATCHALL "\n##+ [^\n]+" headings "${text}")
     foreach(heading IN LISTS headings)
-        string(REGEX REPLACE "^\n#+ " "" slug "${heading}")
-        string(TOLOWER "${slug}" slug)
-        string(REGEX REPLACE "[^a-z0-9 _-]" "" slug "${slug}")
-        string(REPLACE " " "-" slug "${slug}")
+        heading_slug(slug "${heading}")
         if(NOT slug IN_LIST known)
             list(APPEND known "${slug}")
             identifier(id "${file}" "${slug}")
@@ -81,11 +130,14 @@ function(filter_page text)
             string(REPLACE "${link}" "<close>(@ref ${id})" text "${text}")
         elseif(contents AND target MATCHES "^([a-z_]+)\\.md$")
             string(REGEX REPLACE "<open>([^<\n]+)<close>\\(${target}\\)"
-                "@subpage md_docs_${contents}_${CMAKE_MATCH_1} \"\\1\"" text "${text}")
+                "@subpage ${contents}_${CMAKE_MATCH_1} \"\\1\"" text "${text}")
+        elseif(target MATCHES "\\.md$" AND EXISTS "${folder}/${target}")
+            page_name(id "${folder}/${target}")
+            string(REPLACE "${link}" "<close>(@ref ${id})" text "${text}")
         elseif(target MATCHES "([^/:]+\\.cpp)$")
             string(REPLACE "${link}" "<close>(@ref ${CMAKE_MATCH_1})" text "${text}")
         elseif(target MATCHES ":" OR
-                (target MATCHES "\\.(md|png|svg)$" AND EXISTS "${folder}/${target}"))
+                (target MATCHES "\\.(png|svg)$" AND EXISTS "${folder}/${target}"))
             continue()
         elseif(EXISTS "${folder}/${target}")
             string(REPLACE "<close>(${target})" "<nowhere>" text "${text}")
@@ -95,6 +147,9 @@ function(filter_page text)
         endif()
     endforeach()
 
+    if(NOT name STREQUAL "theory")
+        link_labels()
+    endif()
     string(REPLACE "<open>" "[" text "${text}")
     string(REPLACE "<close>" "]" text "${text}")
     string(REPLACE "<semicolon>" ";" text "${text}")

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 
 # The program (or several, with commas between) succeeds, and prints every line that the page quotes
-# ("    > …"), its numbers apart.
-include(${CMAKE_CURRENT_LIST_DIR}/without_numbers.cmake)
+# ("    > …"), its numbers within the range that check/same_output.cpp and check/ranges.txt state.
+cmake_path(GET page STEM name)
 string(REPLACE "," ";" programs "${program}")
 set(output "")
 foreach(program IN LISTS programs)
@@ -13,17 +13,8 @@ foreach(program IN LISTS programs)
     endif()
     string(APPEND output "${printed}")
 endforeach()
-
-without_numbers("${output}" printed)
-file(STRINGS ${page} quoted REGEX "^    > ")
-if(NOT quoted)
-    message(FATAL_ERROR "${page} quotes no output")
-endif()
-foreach(line IN LISTS quoted)
-    string(SUBSTRING "${line}" 6 -1 line)
-    without_numbers("${line}" wanted)
-    string(FIND "${printed}" "${wanted}\n" found)
-    if(found EQUAL -1)
-        message(SEND_ERROR "${page} quotes \"${line}\"; ${programs} print\n${output}")
-    endif()
-endforeach()
+file(WRITE ${folder}/${name}.printed "${output}")
+execute_process(
+    COMMAND ${same_output} ${CMAKE_CURRENT_LIST_DIR}/check/ranges.txt ${name} ${page}
+        ${folder}/${name}.printed
+    COMMAND_ERROR_IS_FATAL ANY)

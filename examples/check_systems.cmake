@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 
 # The code on a page of docs/systems is that of the example of its name, as it is; what a page shows
-# exists. Code on the pages for beginners is that of their programs.
+# exists. Code on the pages for beginners is that of their programs; the tutorial's is cut out of its page
+# (check_tutorial.cmake).
 set(pages_dir ${CMAKE_CURRENT_LIST_DIR}/../docs/systems)
 file(GLOB pages ${pages_dir}/*.md)
 list(FILTER pages EXCLUDE REGEX "/README\\.md$")
@@ -17,7 +18,6 @@ function(check_code name page examples)
         file(READ ${path} text)
         string(APPEND example "${text}")
     endforeach()
-    string(REPLACE "```cmake\n" "```cpp\n" page "${page}")
     string(FIND "${page}" "```cpp\n" at)
     while(NOT at EQUAL -1)
         math(EXPR at "${at} + 7")
@@ -56,10 +56,8 @@ foreach(path IN LISTS pages)
     endforeach()
 endforeach()
 
-file(GLOB tutorial ${CMAKE_CURRENT_LIST_DIR}/tutorial/*)
-foreach(name IN ITEMS tutorial explode coming_from)
-    set(programs ${tutorial} ${CMAKE_CURRENT_LIST_DIR}/why_explode.cpp
-        ${CMAKE_CURRENT_LIST_DIR}/coming_from.cpp)
+foreach(name IN ITEMS explode coming_from)
+    set(programs ${CMAKE_CURRENT_LIST_DIR}/why_explode.cpp ${CMAKE_CURRENT_LIST_DIR}/coming_from.cpp)
     file(READ ${pages_dir}/../${name}.md page)
     check_code(${name}.md "${page}" "${programs}")
 endforeach()

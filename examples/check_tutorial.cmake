@@ -1,26 +1,105 @@
 # SPDX-FileCopyrightText: 2026 Taut contributors
 # SPDX-License-Identifier: MIT
 
-# cmake -D BUILD=... -D GENERATOR=... -D CXX=... -D EIGEN=... -D CONFIG=... -D WORK=... -P check_tutorial.cmake
-# Installs Taut into WORK, and builds and runs there the project that docs/tutorial.md shows.
+# cmake -D SOURCE=... -D GENERATOR=... -D CXX=... -D EIGEN=... -D WORK=... -D same_output=...
+#     -P check_tutorial.cmake
+# Does in the empty folder WORK what docs/tutorial.md asks of its reader, from top to bottom: writes the
+# listings as the page tells to, runs the commands and compares what they print. `git clone` becomes a copy, and
+# Release is made with -O1, which compiles in two thirds of the time.
+set(page ${SOURCE}/docs/tutorial.md)
 file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
+set(ENV{CXX} ${CXX})
+set(ENV{CXXFLAGS} "-Wall -Wextra -Werror")
+set(ENV{Eigen3_DIR} ${EIGEN})
+set(ENV{CMAKE_GENERATOR} ${GENERATOR})
+find_program(shell sh REQUIRED)
 
-function(run)
-    execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
+# A listing becomes a file, or goes on in one: C++ in front of the last brace, CMake at the end.
+function(write_listing language listing)
+    if(language STREQUAL "cmake")
+        set(path ${WORK}/CMakeLists.txt)
+    else()
+        set(path ${WORK}/${named})
+    endif()
+    if(listing MATCHES "^(#include|cmake_minimum_required)")
+        if(EXISTS ${path})
+            message(FATAL_ERROR "tutorial.md, line ${row}: begins ${path} for a second time")
+        endif()
+        file(WRITE ${path} "${listing}")
+        return()
+    endif()
+    file(READ ${path} text)
+    if(language STREQUAL "cmake")
+        string(APPEND text "${listing}")
+    else()
+        string(FIND "${text}" "}" brace REVERSE)
+        string(SUBSTRING "${text}" ${brace} -1 rest)
+        string(SUBSTRING "${text}" 0 ${brace} text)
+        set(text "${text}${listing}${rest}")
+    endif()
+    file(WRITE ${path} "${text}")
 endfunction()
 
-set(config "")
-if(CONFIG)
-    set(config --config ${CONFIG})
-endif()
-run(${CMAKE_COMMAND} --install ${BUILD} ${config} --prefix ${WORK}/taut)
+function(run_command command)
+    if(command MATCHES "^git clone .* taut$")
+        file(COPY ${SOURCE}/CMakeLists.txt ${SOURCE}/LICENSE ${SOURCE}/cmake ${SOURCE}/include ${SOURCE}/scripts
+            DESTINATION ${WORK}/taut)
+        return()
+    endif()
+    string(REPLACE "=Release" "=Release -D CMAKE_CXX_FLAGS_RELEASE=-O1" command "${command}")
+    execute_process(COMMAND ${shell} -e -c "${command}" WORKING_DIRECTORY ${WORK}
+        OUTPUT_FILE ${WORK}/printed RESULT_VARIABLE result)
+    if(NOT result EQUAL 0)
+        file(READ ${WORK}/printed printed)
+        message(FATAL_ERROR "tutorial.md, line ${row}: ${command}\nexits with ${result}\n${printed}")
+    endif()
+endfunction()
 
-set(my_cloth ${WORK}/my_cloth)
-file(COPY ${CMAKE_CURRENT_LIST_DIR}/tutorial/CMakeLists.txt ${CMAKE_CURRENT_LIST_DIR}/tutorial/cloth.cpp
-    DESTINATION ${my_cloth})
-run(${CMAKE_COMMAND} -S ${my_cloth} -B ${my_cloth}/build -G ${GENERATOR} -D CMAKE_CXX_COMPILER=${CXX}
-    -D Eigen3_DIR=${EIGEN} -D CMAKE_PREFIX_PATH=${WORK}/taut -D CMAKE_BUILD_TYPE=${CONFIG})
-run(${CMAKE_COMMAND} --build ${my_cloth}/build ${config})
-find_program(cloth NAMES cloth PATHS ${my_cloth}/build ${my_cloth}/build/${CONFIG} NO_DEFAULT_PATH
-    REQUIRED)
-run(${cloth})
+function(compare_output quoted)
+    file(WRITE ${WORK}/quoted "${quoted}")
+    execute_process(
+        COMMAND ${same_output} ${CMAKE_CURRENT_LIST_DIR}/check/ranges.txt tutorial ${WORK}/quoted ${WORK}/printed
+        COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+file(READ ${page} rest)
+set(language "")  # of the listing that is being read
+set(named "")     # the source file that the page has named last
+set(quoted "")
+set(row 0)
+set(listings 0)
+set(quotes 0)
+while(NOT rest STREQUAL "")
+    math(EXPR row "${row} + 1")
+    string(FIND "${rest}" "\n" end)
+    string(SUBSTRING "${rest}" 0 ${end} line)
+    math(EXPR end "${end} + 1")
+    string(SUBSTRING "${rest}" ${end} -1 rest)
+
+    if(language AND line STREQUAL "```")
+        write_listing(${language} "${listing}")
+        math(EXPR listings "${listings} + 1")
+        set(language "")
+    elseif(language)
+        string(APPEND listing "${line}\n")
+    elseif(line MATCHES "^```([a-z]+)$")
+        set(language ${CMAKE_MATCH_1})
+        set(listing "")
+    elseif(line MATCHES "^    > (.*)")
+        string(APPEND quoted "${CMAKE_MATCH_1}\n")
+        continue()
+    elseif(line MATCHES "^    ([^ ].*)")
+        run_command("${CMAKE_MATCH_1}")
+    elseif(line MATCHES "`([a-z]+\\.cpp)`")
+        set(named ${CMAKE_MATCH_1})
+    endif()
+    if(quoted)
+        compare_output("${quoted}")
+        math(EXPR quotes "${quotes} + 1")
+        set(quoted "")
+    endif()
+endwhile()
+if(listings LESS 10 OR quotes LESS 6)
+    message(FATAL_ERROR "tutorial.md: found ${listings} listings and ${quotes} quoted outputs alone")
+endif()
