@@ -118,33 +118,11 @@ inline example::MeshFile rough_tube(Index columns, Index rows, Random& random) {
 /// Springs over a mesh with masses by area, `density` kg/m², and k = `stretch`·(mean L)/L; those
 /// across an edge are ten times softer. The highest particles (y is up) are held.
 inline Net garment(const example::MeshFile& file, double stretch, double density = 0.2) {
-    auto mesh = taut::springs_from_mesh<double>(file.vertices, file.faces);
-    const auto held = survival::garment(mesh);
-    const auto x = held.net.initial_state().x;
-    Eigen::VectorXd mass = Eigen::VectorXd::Zero(x.cols());
-    for (const auto& triangle : mesh.triangles) {
-        const Eigen::Vector3d one = x.col(triangle[1]) - x.col(triangle[0]);
-        const Eigen::Vector3d other = x.col(triangle[2]) - x.col(triangle[0]);
-        for (const Index i : triangle) mass[i] += density * one.cross(other).norm() / 6;
-    }
-    double length = 0;  // mean, of those that stretch
-    Index s = 0;
-    held.net.visit_springs([&](const auto& spring) {
-        if (s++ < held.bends_from)
-            length += spring.rest_length / static_cast<double>(held.bends_from);
-    });
-    Net net;
-    for (Index i = 0; i < x.cols(); ++i) {
-        net.add_particle(x.col(i), mass[i]);
-        if (held.net.is_pinned(i)) net.pin(i);
-    }
-    s = 0;
-    held.net.visit_springs([&](const auto& spring) {
-        const double k = (s++ < held.bends_from ? 1 : 0.1) * stretch * length / spring.rest_length;
-        net.add_spring(spring.a, spring.b, k);
-    });
-    net.set_gravity(held.net.gravity());
-    return net;
+    const Eigen::VectorXd area = taut::scene_detail::areas_of_vertices(file.vertices, file.faces);
+    taut::MeshOptions options{stretch, stretch / 10, density * area.sum()};
+    options.mass_by_area = options.stiffness_by_length = true;
+    const auto mesh = taut::springs_from_mesh<double>(file.vertices, file.faces, options);
+    return survival::garment(mesh).net;
 }
 
 }  // namespace bench::graph_inertia

@@ -32,6 +32,7 @@
 #include "scene/contact.hpp"
 #include "scene/mesh.hpp"
 #include "scene/obstacle.hpp"
+#include "scene/weld.hpp"
 #include "scene/with_law.hpp"
 #include "solver/conjugate_gradient.hpp"
 #include "solver/interleaved_llt.hpp"
