@@ -17,14 +17,16 @@ function planName(plan) {
 const steps = (plan) => (plan.substeps === 1 ? "one step a frame" : `${whole(plan.substeps)} steps a frame`);
 const REASONS = { [IMPLICIT]: "Every step is stable, so it takes the whole frame at once.", [INERTIA]: "It makes only those springs implicit that hold the step down." };
 
-/// @param plans  the cheapest first   @returns {best, close}; best: none where nothing can be chosen
+/// @param plans  the cheapest first   @returns {best, second, near, close}: none is best where nothing
+/// can be chosen; near: two cost about the same; close: and are two methods
 export function chosen(plans) {
   const [best, second] = plans;
-  return { best, second, close: Boolean(second) && second.cost < CLOSE * best.cost };
+  const near = Boolean(second) && second.cost < CLOSE * best.cost;
+  return { best, second, near, close: near && second.method !== best.method };
 }
 
 export function writeAdvice(plans) {
-  const { best, second, close } = chosen(plans);
+  const { best, second, near, close } = chosen(plans);
   byId("use").disabled = !best;
   byId("bars").replaceChildren();
   if (!best) {
@@ -37,7 +39,7 @@ export function writeAdvice(plans) {
   if (close) {
     byId("why").textContent = `${short(best, second)} (${steps(best)}) and ${short(second, best)} (${steps(second)}) cost the same within 20\u00a0% in this browser.`;
   } else {
-    const next = second ? `The next, ${short(second, best)}, costs ${significant(second.cost / best.cost, 2)} times as much.` : "";
+    const next = near ? "Its two solvers are too close to call." : second ? `The next, ${short(second, best)}, costs ${significant(second.cost / best.cost, 2)} times as much.` : "";
     byId("why").textContent = `${REASONS[best.method] || "Its step by the recipe is large enough."} It is the cheapest in this browser. ${next}`;
   }
   byId("bars").replaceChildren(...plans.flatMap((plan) => {
@@ -46,7 +48,7 @@ export function writeAdvice(plans) {
     row.append(...texts.map((text) => Object.assign(document.createElement("span"), { textContent: text })));
     const bar = document.createElement("i");
     bar.style.width = `${(100 * plan.cost) / plans[plans.length - 1].cost}%`;
-    if (plan === best || (close && plan === second)) bar.className = "best";
+    if (plan === best || (near && plan === second)) bar.className = "best";
     return [row, bar];
   }));
 }

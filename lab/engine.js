@@ -59,7 +59,8 @@ export async function loadLab(source) {
   return {
     // ---- the scene ----
 
-    /// @param scene  {side} of a cloth, or {text (bytes of an OBJ file), scale, up}
+    /// @param scene  {side} of a cloth, or {text (bytes of an OBJ file), scale, up,
+    ///              options (as lab_open_mesh takes them)}
     /// @returns sentences that are worth knowing. Throws what is wrong with the file
     open(scene) {
       this.read(scene);
@@ -74,7 +75,7 @@ export async function loadLab(source) {
     },
     join(scene) {
       if (scene.side) wasm.lab_open_cloth(scene.side);
-      else if (!wasm.lab_open_mesh(scene.scale, scene.up)) throw refused();
+      else if (!wasm.lab_open_mesh(scene.scale, scene.up, scene.options ?? 0)) throw refused();
       return words();
     },
     size: wasm.lab_size,

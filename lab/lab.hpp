@@ -24,8 +24,10 @@ LAB_CALL int lab_read();
 /// Makes a scene of the mesh that was read: springs as springs_from_mesh has them, pinned at its
 /// top edge. lab_words() then says what is worth knowing, a sentence a line.
 /// @param scale  m, of the file's unit   @param up  the file's axis that points up: 0, 1 or 2
+/// @param options  the sum of: 1, vertices at one place are one (weld_vertices); 2, masses by area;
+///                 4, stiffness by length (MeshOptions)
 /// @returns whether there is one; if not, lab_words() says why
-LAB_CALL int lab_open_mesh(double scale, int up);
+LAB_CALL int lab_open_mesh(double scale, int up, int options);
 /// A cloth of side × side particles, flat and at rest, 1 m wide, hung by two corners. @param side ≥
 /// 2
 LAB_CALL void lab_open_cloth(int side);

@@ -103,8 +103,6 @@ async function analyse() {
 
 function take(result) {
   found = result;
-  const { kick, ...told } = result;
-  window.labFound = told;
   setScale(found.limits[SYMPLECTIC]);
   setStep(settings.h);
   writeLimits();
@@ -113,7 +111,6 @@ function take(result) {
   view.each((model) => {
     model.setPins(pinned, mesh.positions);
     model.setBlamed(found.blamed, found.shares);
-    model.showBlamed(byId("blame").checked);
   });
   pair.show(mesh, found, pinned);
   byId("blamed").textContent = blamedWords(found.shares, lab.springs());
@@ -229,7 +226,6 @@ byId("use").addEventListener("click", () => {
   writeLimits();
   forget();
 });
-byId("blame").addEventListener("change", () => view.each((model) => model.showBlamed(byId("blame").checked)));
 byId("reset").addEventListener("click", async () => {
   choose(SYMPLECTIC);
   byId("blame").checked = true;
@@ -249,7 +245,11 @@ function tick(now) {
     byId("pace").textContent = paceWords({ slowed, taken, pace: run.pace, cost });
     if (run.measured) byId("growth-words").textContent = `Every step multiplies it by ${run.measured.toFixed(3)}; the limiting vibration’s multiplier says ${growth().toFixed(3)}.`;
   }
-  view.each((model) => model.draw(lab.drawnPositions(), lab.ringing(), mesh.edge));
+  const swings = run.ringing > mesh.edge / 300;  // its colours say more than the springs at rest
+  view.each((model) => {
+    model.showBlamed(byId("blame").checked && !swings);
+    model.draw(lab.drawnPositions(), lab.ringing(), mesh.edge);
+  });
   view.render();
   pair.tick();
   if (++frames % 3 === 0) drawRinging(byId("chart"), run.samples, SAMPLES, mesh.edge);
@@ -260,14 +260,11 @@ await open(await shipped("cloth"));
 requestAnimationFrame(tick);
 
 /// What the page's test reads.
-window.labState = () => {
-  const x = Array.from(lab.drawnPositions());
-  const { low, high } = lab.shape();
-  return {
-    blown: run.blown, steps: run.steps, time: lab.time(), settings: { ...settings }, limits: limits(), ringing: run.ringing, reach: run.reach(), plans,
-    busy: bar.busy, pinned: lab.pinned(), size: lab.size(), low, high, preset: knobs.preset, camera: view.camera.position.toArray(), scene: scene.name, x: x.length < 9000 ? x : [],
-    pair: { taken: pair.taken, reach: pair.reach },
-  };
-};
+window.labState = () => ({
+  blown: run.blown, steps: run.steps, time: lab.time(), ringing: run.ringing, reach: run.reach(), cost: run.cost,
+  settings: { ...settings }, limits: limits(), slider: { ...STEP }, plans, advice: chosen(plans),
+  scene: scene.name, busy: bar.busy, size: lab.size(), preset: knobs.preset, ...lab.shape(), pinned: lab.pinned(),
+  camera: view.camera.position.toArray(), drawn: view.farthest(), pair: { taken: pair.taken, reach: pair.reach, h: pair.h, kick: found.mode.size },
+});
 window.labView = view;
 

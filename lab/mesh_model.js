@@ -124,7 +124,8 @@ export class MeshModel {
       this.blamed.lines.material.dispose();
       this.blamed = null;
     }
-    const count = Math.min(MOST_BLAMED, shares.length);
+    let count = 0;
+    while (count < Math.min(MOST_BLAMED, shares.length) && shares[count] > 0.05 * shares[0]) ++count;
     if (count === 0) return;
     const pairs = blamed.slice(0, 2 * count);
     const ends = new Float32Array(6 * count);
@@ -134,7 +135,7 @@ export class MeshModel {
       for (let c = 0; c < 6; ++c) colours[6 * s + c] = this.table[3 * Math.round(255 * Math.min(1, level)) + (c % 3)];
     }
     const geometry = new LineSegmentsGeometry().setPositions(ends).setColors(colours);
-    const material = new LineMaterial({ linewidth: 3, vertexColors: true, polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -2 });
+    const material = new LineMaterial({ linewidth: count > 300 ? 2 : 3, vertexColors: true, polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -2 });
     const lines = new LineSegments2(geometry, material);
     this.add(lines);
     this.blamed = { pairs, lines, ends: geometry.attributes.instanceStart.data };

@@ -37,6 +37,7 @@ export class Pair {
     byId("below").textContent = `${seconds(this.h[0], 3)}, 1 % below the certified step`;
     byId("above").textContent = `${seconds(this.h[1], 3)}, 1 % above the refuted step: grows ${significant(growth, 3)}-fold a step`;
     this.restart();
+    this.draw();
   }
   restart() {
     this.taken = 0;
@@ -54,6 +55,10 @@ export class Pair {
       this.taken += STEPS;
       this.ended = !(this.reach < 0.35 * mesh.size) || this.taken >= this.found.mode.steps;
     } else if (++this.held > HOLD) this.restart();
+    this.draw();
+  }
+  draw() {
+    const { lab, mesh } = this;
     this.view.panes.forEach(({ model }, which) => model.draw(lab.pairPositions(which), lab.pairMoved(which), mesh.edge));
     this.view.render();
     byId("pair-words").textContent = `Step ${this.taken}. Both began with a kick of ${metres(this.found.mode.size, 2)} along the limiting vibration, without gravity.`;

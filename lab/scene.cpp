@@ -11,6 +11,7 @@
 #include <string>
 #include <taut/scene/cloth.hpp>
 #include <taut/scene/mesh.hpp>
+#include <taut/scene/weld.hpp>
 #include <utility>
 
 #include "../examples/common/obj_text.hpp"
@@ -69,6 +70,52 @@ taut::Points<double, 3> upright(const taut::Points<double, 3>& x, double scale, 
     return scale * turned;
 }
 
+/// Whether every vertex is where a picture and a proof can be made of it.
+bool check_place(const example::ObjText& obj, const taut::Points<double, 3>& x) {
+    constexpr double farthest = 1e6;  // m
+    for (taut::Index v = 0; v < x.cols(); ++v) {
+        if (!(x.col(v).cwiseAbs().maxCoeff() <= farthest))
+            return refuse("With this scale " + vertex(obj, v) + " is more than 1000 km away.");
+    }
+    const Eigen::Vector3d size = x.rowwise().maxCoeff() - x.rowwise().minCoeff();
+    return size.maxCoeff() >= 1e-6 || refuse("All vertices lie within a micrometre of " +
+                                             vertex(obj, 0) + ". Is the unit right?");
+}
+
+/// Whether every vertex can have its share of the area.
+bool check_area(const example::ObjText& obj, const taut::Points<double, 3>& x,
+                const std::vector<std::vector<taut::Index>>& faces) {
+    const Eigen::VectorXd area = taut::scene_detail::areas_of_vertices(x, faces);
+    for (const auto& face : faces) {
+        for (const auto v : face) {
+            if (!(area[v] > 0))
+                return refuse("No face around " + vertex(obj, v) +
+                              " has an area: it would have no mass.");
+        }
+    }
+    return true;
+}
+
+/// Whether stiffness can be by length.
+bool check_length(const example::ObjText& obj, const taut::Points<double, 3>& x,
+                  const std::vector<std::vector<taut::Index>>& faces) {
+    const auto mesh = taut::springs_from_mesh<double>(x, faces, {1, bend_share, 1});
+    std::vector<taut::Index> vertex_of(std::size_t(mesh.system.size()));
+    for (std::size_t v = 0; v < mesh.particle_of_vertex.size(); ++v) {
+        const auto particle = mesh.particle_of_vertex[v];
+        if (particle >= 0) vertex_of[std::size_t(particle)] = taut::Index(v);
+    }
+    bool good = true;
+    mesh.system.for_each_spring([&](taut::Index a, taut::Index b) {
+        const auto p = vertex_of[std::size_t(a)];
+        const auto q = vertex_of[std::size_t(b)];
+        if (!good || x.col(p) != x.col(q)) return;
+        good = refuse("A spring between " + vertex(obj, p) + " and " + vertex(obj, q) +
+                      " has no length, by which its stiffness would be divided.");
+    });
+    return good;
+}
+
 /// Sentences about vertices that lie at one place.
 void tell_coincident(const example::ObjText& obj, const Cloth& cloth,
                      const std::vector<taut::Index>& particle_of_vertex) {
@@ -101,7 +148,8 @@ void tell_coincident(const example::ObjText& obj, const Cloth& cloth,
     for (std::size_t i = 1; i < order.size(); ++i) twins += x.col(order[i - 1]) == x.col(order[i]);
     if (twins > joined) {
         tell(vertices(twins - joined) +
-             " lie where another one lies without being joined to it: the mesh comes apart there.");
+             " lie where another one lies without being joined to it. The mesh comes apart there "
+             "unless it is welded.");
     }
 }
 
@@ -209,34 +257,35 @@ int lab_read() {
     return true;
 }
 
-int lab_open_mesh(double scale, int up) {
+int lab_open_mesh(double scale, int up, int options) {
     lab::words.clear();
     if (!lab::file.obj || !lab::file.obj->why.empty()) return lab::refuse("There is no mesh.");
     if (!(scale > 0) || !std::isfinite(scale))
         return lab::refuse("The scale is a number above 0, in metres.");
     const example::ObjText& obj = *lab::file.obj;
     const auto x = lab::upright(obj.mesh.vertices, scale, up);
-    constexpr double farthest = 1e6;  // m
-    for (taut::Index v = 0; v < x.cols(); ++v) {
-        if (!(x.col(v).cwiseAbs().maxCoeff() <= farthest)) {
-            return lab::refuse("With this scale " + lab::vertex(obj, v) +
-                               " is more than 1000 km away.");
-        }
-    }
-    auto mesh = taut::springs_from_mesh<double>(x, obj.mesh.faces, {1, lab::bend_share, 1});
+    if (!lab::check_place(obj, x)) return false;
     auto faces = obj.mesh.faces;
+    if (options & 1) {
+        auto welded = taut::weld_vertices<double>(x, faces);
+        faces = std::move(welded.faces);
+        if (faces.empty()) return lab::refuse("Welded, no two corners of a face stay apart.");
+        lab::tell(lab::vertices(welded.welded) +
+                  " lay where another one lies and became one with it.");
+    }
+    taut::MeshOptions spring_options{1, lab::bend_share, 1};
+    spring_options.mass_by_area = (options & 2) != 0;
+    spring_options.stiffness_by_length = (options & 4) != 0;
+    if (spring_options.mass_by_area && !lab::check_area(obj, x, faces)) return false;
+    if (spring_options.stiffness_by_length && !lab::check_length(obj, x, faces)) return false;
+    auto mesh = taut::springs_from_mesh<double>(x, faces, spring_options);
     for (auto& face : faces) {
         for (auto& corner : face) corner = mesh.particle_of_vertex[std::size_t(corner)];
     }
-    const auto start = mesh.system.initial_state().x;
-    const Eigen::Vector3d size = start.rowwise().maxCoeff() - start.rowwise().minCoeff();
-    if (!(size.maxCoeff() >= 1e-6)) {
-        return lab::refuse("All vertices lie within " + lab::vertex(obj, 0) +
-                           " and a micrometre of it. Is the scale right?");
-    }
-    if (mesh.unused_vertices > 0) {
-        lab::tell(lab::vertices(mesh.unused_vertices) + " that no face or line uses " +
-                  (mesh.unused_vertices == 1 ? "is" : "are") + " left out.");
+    const auto left_out = mesh.unused_vertices;
+    if (left_out > 0 && !(options & 1)) {
+        lab::tell(lab::vertices(left_out) + " that no face or line uses " +
+                  (left_out == 1 ? "is" : "are") + " left out.");
     }
     lab::tell_coincident(obj, mesh.system, mesh.particle_of_vertex);
     lab::take(std::move(mesh.system), std::move(faces));

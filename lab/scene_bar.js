@@ -7,6 +7,7 @@
 import { UNITS, changed, fromFile, shipped } from "./scenes.js";
 
 const byId = (id) => document.getElementById(id);
+const OPTIONS = ["weld", "by-area", "by-length"];  // the bits of lab_open_mesh
 const PATIENCE = 250;  // ms after which progress is shown
 
 export class SceneBar {
@@ -24,11 +25,19 @@ export class SceneBar {
       target.value = "";  // the same file, mended, can be picked again
     });
     byId("up").addEventListener("change", ({ target }) => this.open(() => changed(this.scene, { up: Number(target.value) })));
-    for (const id of ["unit", "factor"]) byId(id).addEventListener("change", () => {
-      byId("factor").hidden = byId("unit").value !== "factor";
-      const scale = UNITS[byId("unit").value] ?? Number(byId("factor").value);
-      if (scale > 0) this.open(() => changed(this.scene, { scale }));
+    byId("unit").addEventListener("change", ({ target }) => {
+      byId("factor").hidden = target.value !== "factor";
+      if (target.value === "factor") byId("factor").focus();
+      else this.open(() => changed(this.scene, { scale: UNITS[target.value] }));
+    });
+    byId("factor").addEventListener("change", ({ target }) => {
+      const scale = Number(target.value);
+      if (scale > 0 && scale < Infinity) this.open(() => changed(this.scene, { scale }));
       else this.complain("A scale is a number above 0: how many metres one unit of the file has.");
+    });
+    for (const id of OPTIONS) byId(id).addEventListener("change", () => {
+      const options = OPTIONS.reduce((sum, name, bit) => sum + (byId(name).checked ? 1 << bit : 0), 0);
+      this.open(() => changed(this.scene, { options, pins: undefined }));
     });
     byId("pin-top").addEventListener("click", act.pinTop);
     byId("unpin").addEventListener("click", act.unpin);
@@ -74,11 +83,12 @@ export class SceneBar {
   }
   /// The controls as the scene has them.
   mark() {
-    const { id, name, scale, up, side } = this.scene;
+    const { id, name, scale, up, side, options } = this.scene;
     for (const radio of document.getElementsByName("scene")) radio.checked = radio.value === id;
     byId("file-name").textContent = id === "file" ? name : "Your mesh …";
     document.querySelector(".file").classList.toggle("chosen", id === "file");
-    byId("axes").hidden = Boolean(side);
+    byId("axes").hidden = byId("options").hidden = Boolean(side);
+    OPTIONS.forEach((name, bit) => (byId(name).checked = Boolean(options & (1 << bit))));
     byId("up").value = String(up);
     const unit = Object.keys(UNITS).find((name) => UNITS[name] === scale);
     byId("unit").value = unit ?? "factor";

@@ -7,7 +7,7 @@ import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { MeshModel } from "./mesh_model.js";
 
-const START = [1.14, -2.45, 0.95];  // the camera, where the scene's size is one
+const START = [0.91, -1.96, 0.76];  // the camera, where the scene's size is one
 
 /// Where the scene is drawn: about its middle, or where it will hang if it lies flat.
 export function framing({ low, high }, pinned, positions) {
@@ -117,6 +117,14 @@ export class View {
       }
     }
     return best;
+  }
+
+  /// How far from the middle something is drawn, where the scene's size is one.
+  farthest() {
+    const at = this.panes[0].model.position.array;
+    let most = 0;
+    for (let i = 0; i < at.length; i += 3) most = Math.max(most, Math.hypot(at[i], at[i + 1], at[i + 2]));
+    return most;
   }
 
   /// Where a particle is drawn in the window, px.

@@ -15,6 +15,7 @@ export const whole = (n) => n.toLocaleString("en-US");
 const rounded = (n) => whole(+n.toPrecision(1));
 export const counted = (n, one, many = `${one}s`) => `${whole(n)} ${n === 1 ? one : many}`;
 
+const SLOW = 1.02;  // growth a step, up to which it takes a while to be seen
 /// How many steps a vibration that grows so slowly needs until it is seen: from a hundred-thousandth
 /// of an edge to a twentieth.
 function slowly(growth) {
@@ -23,14 +24,17 @@ function slowly(growth) {
   return steps < 1e7 ? `${by}: it becomes visible after some ${rounded(steps)} steps.` : `${by}: too slowly to be seen here.`;
 }
 
+/// Explicit Euler at a step that is not certified.
+function explicitWords({ alpha, drag }, { cause }, window) {
+  if (alpha === 0 && drag === 0) return `Explicit Euler: ${cause}.`;
+  if (!(window.upper > 0)) return "No damping α makes explicit Euler stable at this step. Take a smaller step, or symplectic or implicit Euler.";
+  return `Explicit Euler needs damping. At this step, α between ${seconds(Math.max(0, window.lower), 3)} and ${seconds(window.upper, 3)} is proved at the starting pose; it is ${alpha > 0 ? seconds(alpha, 3) : "none"}.`;
+}
+
 /// @param window  of α: {lower (−1: 0 is in it), upper}   @param growth  of the limiting vibration
 export function sentence({ method, h, alpha, drag }, limits, window, growth) {
   const where = standing(h, limits);
-  if (method === EXPLICIT && (where === "open" || where === "refuted")) {
-    if (alpha === 0 && drag === 0) return `Explicit Euler: ${limits.cause}.`;
-    if (!(window.upper > 0)) return "No damping α makes explicit Euler stable at this step. Take a smaller step, or symplectic or implicit Euler.";
-    return `Explicit Euler needs damping. At this step, α between ${seconds(Math.max(0, window.lower), 3)} and ${seconds(window.upper, 3)} is proved at the starting pose; it is ${alpha > 0 ? seconds(alpha, 3) : "none"}.`;
-  }
+  if (method === EXPLICIT && (where === "open" || where === "refuted")) return explicitWords({ alpha, drag }, limits, window) + (growth > 1 && growth <= SLOW ? ` ${slowly(growth)}` : "");
   if (method === IMPLICIT) return `Every step h of implicit Euler is certified, linearised, at any pose. A large step costs motion, which it damps. A frame in one step is ${seconds(FRAME, 3)}.`;
   if (method === INERTIA) return `Every step h of graph inertia is certified, linearised, at any pose: springs that would not bear the step become implicit. A large step costs inertia, which slows folds and rotation. A frame in one step is ${seconds(FRAME, 3)}.`;
   if (where === "certified") {
@@ -44,7 +48,7 @@ export function sentence({ method, h, alpha, drag }, limits, window, growth) {
   if (where === "open") return `Not decided: this step lies between what is proved, up to ${seconds(limits.certified, 3)}, and what is refuted, from ${seconds(limits.refuted, 3)} on.`;
   const times = `Refuted: ${significant(h / limits.refuted, 4)} times the refuted step.`;
   if (growth <= 1) return `${times} A vibration is known that grows.`;
-  return growth <= 1.02 ? `${times} ${slowly(growth)}` : `${times} The limiting vibration grows ${significant(growth, 4)}-fold with every step.`;
+  return growth <= SLOW ? `${times} ${slowly(growth)}` : `${times} The limiting vibration grows ${significant(growth, 4)}-fold with every step.`;
 }
 
 /// Why the scene has blown up.
@@ -77,7 +81,7 @@ export function sceneWords(name, size, springs, shape) {
 /// How fast the page steps. @param cost  s a frame of 1/60 s of the scene, or NaN
 export function paceWords({ slowed, taken, pace, cost }) {
   if (slowed) return `slow motion: ${taken === 1 ? "one step" : `${taken} steps`} a picture, so that the growth can be seen`;
-  const stepping = Number.isFinite(cost) ? `stepping takes ${significant(1000 * cost, 2)}\u00a0ms of a frame’s 16.7\u00a0ms` : "";
+  const stepping = Number.isFinite(cost) ? `stepping a frame of 16.7\u00a0ms takes ${significant(1000 * cost, 2)}\u00a0ms` : "";
   if (pace >= 0.9) return `real time${stepping ? `: ${stepping}` : ""}`;
   const reason = !stepping ? "" : cost > 0.6 * FRAME ? `: ${stepping}, and this page steps for 11\u00a0ms of each` : `: ${stepping}; drawing takes the rest`;
   return `${significant(pace, 2)} × real time${reason}`;
