@@ -78,7 +78,7 @@ export async function checkCloth(page, name, pictures) {
   await dragStep(page, 2.2e-5);
   await settled(page);
   const slow = await text(page, "#sentence");
-  expect(/grows by 0?\.?\d+.* % a step: it becomes visible after some [\d,]+ steps/.test(slow), `${name}: ${slow}`);
+  expect(/grows by [\d.]+\s% a step: it becomes visible after some [\d,]+ steps/.test(slow), `${name}: ${slow}`);
 }
 
 /// What the readout says a frame costs is what the bars say, for the same integrator and step.

@@ -111,7 +111,7 @@ export function paintedView(page, id = "view") {
 
 export async function checkLayout(page, name) {
   const { share, colours } = await paintedView(page);
-  expect(share > 0.03 && colours > 16, `${name}: the mesh covers ${(100 * share).toFixed(0)} % of its picture in ${colours} colours`);
+  expect(share > 0.015 && colours > 16, `${name}: the mesh covers ${(100 * share).toFixed(0)} % of its picture in ${colours} colours`);
   const [wide, words] = await page.evaluate(() => [document.documentElement.scrollWidth - innerWidth, document.querySelector("main").innerText]);
   expect(wide <= 0, `${name}: the page is no wider than the window`);
   expect(!/undefined|NaN|Infinity|null/.test(words), `${name}: every text has its value`);
