@@ -4,7 +4,7 @@
 import { chosen, frameCost, writeAdvice } from "./advice.js";
 import { Analyst } from "./analyst.js";
 import { STEP, drawBands, drawRinging, setScale, standing } from "./charts.js";
-import { EXPLICIT, SYMPLECTIC, loadLab } from "./engine.js";
+import { SYMPLECTIC, loadLab } from "./engine.js";
 import { addressOf, bytesOf } from "./files.js";
 import { Knobs, valuesOf } from "./knobs.js";
 import { Pair } from "./pair.js";
@@ -120,7 +120,9 @@ function take(result) {
 async function advise() {
   const mine = asked;
   byId("pick").textContent = "measuring …";
-  const result = await analyst.advise(task()).catch(() => null);
+  const result = await analyst.advise(task()).catch((error) => {
+    if (mine === asked) byId("pick").textContent = `not measured: ${error.message}`;
+  });
   if (mine !== asked || !result) return;
   plans = result;
   writeAdvice(plans);
@@ -153,6 +155,8 @@ async function open(next) {
     view.lookAgain();
     byId("verdict").hidden = true;
     found = result;
+    plans = [];  // of another scene
+    byId("use").disabled = true;
     setScale(found.limits[SYMPLECTIC]);
     settings.h = 0.9 * usable();
     take(result);
@@ -208,7 +212,6 @@ function choose(method) {
 }
 byId("h").addEventListener("input", () => {
   readStep();
-  if (settings.method === EXPLICIT) writeLimits();  // the window of α is that of h
   writeStep();
   forget();
 });

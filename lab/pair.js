@@ -30,7 +30,11 @@ export class Pair {
     byId("pair").hidden = !this.running;
     if (!this.running) return;
     this.view ??= new View(byId("pair-view"), 2);
-    this.view.show(mesh);
+    if (this.drawn !== mesh) {
+      this.drawn = mesh;
+      this.view.show({ ...mesh, centre: mesh.middle });  // here it does not hang
+      this.view.lookAgain(mesh.flat);
+    }
     this.view.each((model) => model.setPins(pinned, mesh.positions));
     this.h = [BELOW * certified, ABOVE * refuted];
     const growth = this.lab.growth(SYMPLECTIC, found.mode, this.h[1]);

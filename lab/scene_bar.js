@@ -87,6 +87,7 @@ export class SceneBar {
     for (const radio of document.getElementsByName("scene")) radio.checked = radio.value === id;
     byId("file-name").textContent = id === "file" ? name : "Your mesh …";
     document.querySelector(".file").classList.toggle("chosen", id === "file");
+    byId("invite").hidden = id === "file";
     byId("axes").hidden = byId("options").hidden = Boolean(side);
     OPTIONS.forEach((name, bit) => (byId(name).checked = Boolean(options & (1 << bit))));
     byId("up").value = String(up);

@@ -8,20 +8,23 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { MeshModel } from "./mesh_model.js";
 
 const START = [0.91, -1.96, 0.76];  // the camera, where the scene's size is one
+const ABOVE = [0.75, -1.6, 1.45];   // … and of a scene that lies flat
 
 /// Where the scene is drawn: about its middle, or where it will hang if it lies flat.
 export function framing({ low, high }, pinned, positions) {
   const extent = high.map((h, d) => h - low[d]);
   const diagonal = Math.hypot(...extent);
-  const centre = high.map((h, d) => (h + low[d]) / 2);
+  const middle = high.map((h, d) => (h + low[d]) / 2);
+  const centre = [...middle];
   const size = diagonal / Math.SQRT2;
-  if (extent[2] < 0.01 * diagonal && pinned.length > 0) {
+  const flat = extent[2] < 0.01 * diagonal;
+  if (flat && pinned.length > 0) {
     for (const d of [0, 1]) centre[d] = pinned.reduce((sum, i) => sum + positions[3 * i + d], 0) / pinned.length;
     centre[0] -= 0.04 * size;
     centre[1] -= 0.1 * size;
     centre[2] -= 0.42 * size;
   }
-  return { centre, size };
+  return { centre, middle, size, flat };
 }
 
 export class View {
@@ -49,9 +52,9 @@ export class View {
   }
 
   /// The camera as at the start.
-  lookAgain() {
+  lookAgain(fromAbove = false) {
     this.controls.target.set(0, 0, 0);
-    this.camera.position.set(...START);
+    this.camera.position.set(...(fromAbove ? ABOVE : START));
     this.controls.update();
   }
 
