@@ -63,6 +63,7 @@ const run = new Run({
   blownUp(steps, swing) {
     byId("reason").textContent = blownWords(settings, limits(), steps, swing);
     byId("verdict").hidden = false;
+    byId("pace").textContent = "stopped";
   },
 });
 function startAgain() {
@@ -245,7 +246,7 @@ function tick(now) {
   if (!run.blown) {
     const { taken, slowed } = run.advance(elapsed);
     const cost = frameCost(plans, settings, run.cost);
-    byId("pace").textContent = paceWords({ slowed, taken, pace: run.pace, cost });
+    if (!run.blown) byId("pace").textContent = paceWords({ slowed, taken, pace: run.pace, cost });
     if (run.measured) byId("growth-words").textContent = `Every step multiplies it by ${run.measured.toFixed(3)}; the limiting vibration’s multiplier says ${growth().toFixed(3)}.`;
   }
   const swings = run.ringing > mesh.edge / 300;  // its colours say more than the springs at rest

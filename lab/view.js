@@ -54,7 +54,7 @@ export class View {
   /// The camera as at the start.
   lookAgain(fromAbove = false) {
     this.controls.target.set(0, 0, 0);
-    this.camera.position.set(...(fromAbove ? ABOVE : START));
+    this.camera.position.set(...(fromAbove ? ABOVE : START)).multiplyScalar(this.panes.length > 1 ? 0.85 : 1);
     this.controls.update();
   }
 
