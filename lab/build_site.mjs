@@ -5,7 +5,7 @@
 // Bundles the page into the folder `site`, and into one file `site`.html, in which whatever the page
 // would ask a server for stands compressed.
 
-import { mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { mkdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { dirname, resolve } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { gzipSync } from "node:zlib";
@@ -34,7 +34,6 @@ const needed = {  // what files.js asks for
   "skirt.obj": readFileSync(`${here}/../examples/data/skirt.obj`),
 };
 
-rmSync(site, { recursive: true, force: true });
 mkdirSync(site, { recursive: true });
 for (const [name, text] of Object.entries({ "index.html": page, "lab.css": style, "lab.js": script, "draw.js": draw, "three-LICENSE.txt": licence, ...needed })) writeFileSync(`${site}/${name}`, text);
 
