@@ -9,18 +9,38 @@
 #include <string>
 
 #include "common/main.hpp"
-#include "drape/motion.hpp"
-#include "drape/obstacle.hpp"
+#include "common/progress.hpp"
 #include "drape/record.hpp"
+#include "drape/saved_state.hpp"
+#include "drape/stepping.hpp"
 
 namespace {
 
 using drape::Cloth;
 using drape::Options;
 using drape::Plan;
+using drape::SavedState;
 using drape::State;
 
-constexpr int diverged = 3;  // exit code
+constexpr int diverged = 3;     // exit code
+constexpr double silence = 10;  // s, the longest
+
+/// The chosen integrator behind one call.
+drape::Advance make_motion(const Options& options, const drape::Scene& scene) {
+    const taut::ExplicitOptions damped{1, options.own_damping()};
+    if (options.integrator == "symplectic") {
+        return drape::plain_or_guarded<taut::SymplecticEuler<Cloth>>(options, scene,
+                                                                     drape::AsItIs(), damped);
+    }
+    if (options.integrator == "verlet") {
+        return drape::plain_or_guarded<taut::VelocityVerlet<Cloth>>(options, scene, drape::AsItIs(),
+                                                                    damped);
+    }
+    if (options.integrator == "explicit") {
+        return drape::by_stepper(scene, std::make_shared<taut::ExplicitEuler<Cloth>>(scene.cloth));
+    }
+    return make_implicit_motion(options, scene);
+}
 
 /// What became of a run.
 struct Outcome {
@@ -36,32 +56,39 @@ double energy_allowance(const Cloth& cloth, const State& state) {
     return 100 * mass * cloth.gravity().norm() * drape::extent(state);
 }
 
-/// Frames until the end or the first that went wrong.
+/// Frames until the end or the first that went wrong. `run` is where they begin, and then where
+/// they ended.
 Outcome run_frames(const Options& options, const Cloth& cloth, const Plan& plan,
-                   const drape::Obstacle& obstacle, drape::Record& record, State& state) {
+                   const drape::Obstacle& obstacle, drape::Record& record, SavedState& run) {
     const auto advance = make_motion(options, {cloth, obstacle, plan});
-    const double start_energy = cloth.energy(state);
-    const double allowance = energy_allowance(cloth, state);
+    const double allowance = energy_allowance(cloth, cloth.initial_state());
+    const auto say = example::say_on_stderr("drape");
+    example::Progress progress(silence, options.quiet ? example::Progress::Say() : say);
+    State& state = run.state;
+    const auto first = options.resume ? run.frame + 1 : 0;
     Outcome outcome;
-    for (int frame = 0; frame <= plan.frames; ++frame) {
+    for (taut::Index frame = first; frame <= plan.frames; ++frame) {
+        progress.at("frame " + std::to_string(frame) + " of " + std::to_string(plan.frames));
         if (frame > 0) {
             outcome.trouble = advance(state);
             if (!outcome.trouble.empty()) break;
         }
         const double kinetic = cloth.kinetic_energy(state);
         const double potential = cloth.potential_energy(state);
-        const double risen = kinetic + potential - start_energy;
+        const double risen = kinetic + potential - run.start_energy;
         if (!(risen <= allowance)) {  // or it is NaN
             record.add_energy(state.time, kinetic, potential);
             char text[96];
-            std::snprintf(text, sizeof text, "the energy rose from %.3g J to %.3g J", start_energy,
-                          kinetic + potential);
+            std::snprintf(text, sizeof text, "the energy rose from %.3g J to %.3g J",
+                          run.start_energy, kinetic + potential);
             outcome.trouble = text;
             break;
         }
         outcome.risen = std::max(outcome.risen, risen);
         outcome.kinetic = std::max(outcome.kinetic, kinetic);
         record.add(cloth, state, kinetic, potential);
+        run.frame = frame;
+        save(options.state_path(), cloth, run);
         if (!options.quiet && frame % std::max(1, plan.frames / 10) == 0) {
             std::fprintf(stderr, "%7.3f of %.3f s, energy %.4g J\n", state.time, options.duration,
                          kinetic + potential);
@@ -72,7 +99,8 @@ Outcome run_frames(const Options& options, const Cloth& cloth, const Plan& plan,
 
 void print_start(const Options& options, const example::Scene& scene, const Plan& plan,
                  const drape::Obstacle& obstacle) {
-    std::printf("%s, law %s\n", example::describe(scene).c_str(), options.law.c_str());
+    std::printf("%s, law %s\n%s\n", example::describe(scene).c_str(), options.law.c_str(),
+                example::describe_space(scene).c_str());
     if (obstacle) std::printf("%s\n", obstacle.description().c_str());
     std::printf("%s%s steps of %s%.4e s, %lld for each of %d frames of %.4g s\n",
                 options.integrator.c_str(), options.guard ? ", guarded" : "",
@@ -90,17 +118,36 @@ const char* cure(const Options& options) {
     return ", which makes one linearised solve of it; --integrator newton solves the step itself";
 }
 
+/// Where a run begins: at rest, or where the one before it ended.
+SavedState begin(const Options& options, const Cloth& cloth) {
+    if (options.resume) return drape::restore(options.state_path(), cloth);
+    SavedState run{0, 0, cloth.initial_state()};
+    run.start_energy = cloth.energy(run.state);
+    return run;
+}
+
 int simulate(const Options& options) {
     const auto scene = example::make_scene(options.scene);
     const Cloth cloth = make_cloth(options, scene);
-    State state = cloth.initial_state();
+    SavedState run = begin(options, cloth);
+    State& state = run.state;
     const Plan plan = make_plan(options, cloth);
-    const drape::Obstacle obstacle(options, cloth, state);
-    drape::Record record(options, cloth, scene.faces, plan.frames);
+    if (options.resume && run.frame >= plan.frames) {
+        throw std::runtime_error("--resume: " + options.output + " has all of its " +
+                                 std::to_string(plan.frames) +
+                                 " frames; a larger --duration asks for more");
+    }
+    const drape::Obstacle obstacle(options, cloth, cloth.initial_state());
+    const auto first = options.resume ? static_cast<int>(run.frame) + 1 : 0;
+    drape::Record record(options, scene, first, plan.frames);
     print_start(options, scene, plan, obstacle);
+    if (options.resume)
+        std::printf("goes on after frame %lld, %.4g s\n", static_cast<long long>(run.frame),
+                    state.time);
 
+    const double begun = state.time;
     const auto start = std::chrono::steady_clock::now();
-    const Outcome outcome = run_frames(options, cloth, plan, obstacle, record, state);
+    const Outcome outcome = run_frames(options, cloth, plan, obstacle, record, run);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     record.close();
     if (!outcome.trouble.empty()) {
@@ -113,7 +160,7 @@ int simulate(const Options& options) {
     std::printf(
         "%.4g s simulated in %.3g s; highest energy %.3e J above the start, largest kinetic energy "
         "%.3e J\n",
-        state.time, elapsed.count(), outcome.risen, outcome.kinetic);
+        state.time - begun, elapsed.count(), outcome.risen, outcome.kinetic);
     std::printf("%s/frame_*.%s, %s\n", options.output.c_str(), options.format.c_str(),
                 record.energy_path().c_str());
     if (!options.cache.empty()) {
@@ -132,7 +179,9 @@ int run(int argc, char** argv) {
         "Exit code 3: the state diverged.\n\n"
         "  drape hanging_cloth --cache cloth.pc2\n"
         "  drape hanging_cloth --free --collide sphere --law buckling --integrator implicit\n"
-        "  drape shirt.obj --pin 0-20 --integrator bdf2 --guard\n"};
+        "  drape shirt.obj --pin-top 2% --integrator bdf2 --guard\n"
+        "  drape shirt.obj --pin-top 2% --duration 5 --resume\n"};
+    example::add_version(app, "drape");
     options.add_to(app);
     CLI11_PARSE(app, argc, argv)
     options.check();

@@ -214,18 +214,20 @@ int run(int argc, char** argv) {
     double duration = 2;
     CLI::App app{
         "Compares predicted and simulated stability of a scene. Exit code 2: they differ."};
+    example::add_version(app, "prediction");
     options.add_to(app);
     app.add_option("--duration", duration, "simulated time of the moving cloth, s")
+        ->transform(example::time_quantity())
         ->check(example::positive())
         ->capture_default_str();
     CLI11_PARSE(app, argc, argv)
-    if (!options.given()) throw std::runtime_error("name a mesh or --scene (see --help)");
     if (options.d0 > 0 || options.alpha > 0) {
         throw std::runtime_error("--d0, --alpha: this program chooses the damping itself");
     }
     auto scene = example::make_scene(options);
     const Plan plan = make_plan(scene.system, duration);
-    std::printf("%s\n", example::describe(scene).c_str());
+    std::printf("%s\n%s\n", example::describe(scene).c_str(),
+                example::describe_space(scene).c_str());
     const bool linear = try_linearised(plan);
     const bool moving = try_moving(scene.system, plan.moving_step, duration);
     return linear && moving ? 0 : 2;

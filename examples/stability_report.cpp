@@ -16,6 +16,7 @@
 #include "common/output_text.hpp"
 #include "common/page.hpp"
 #include "common/page_data.hpp"
+#include "common/progress.hpp"
 #include "common/report.hpp"
 #include "common/scene.hpp"
 
@@ -23,6 +24,7 @@ namespace {
 
 using example::Findings;
 using example::naming;
+using example::Progress;
 using example::Remedies;
 using taut::Method;
 
@@ -47,7 +49,9 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void analyse(const taut::Stability<double>& stability, const Options& options, Findings& found) {
+void analyse(const taut::Stability<double>& stability, const Options& options, Progress& progress,
+             Findings& found) {
+    progress.at(options.proof ? "narrowing the limits by factorisations" : "bounding the limits");
     found.degrees_of_freedom = stability.size();
     found.spectrum = stability.stiffness_spectrum(options.zero_modes);
     const double tightness = options.proof ? proof_tightness : 0;
@@ -60,13 +64,20 @@ void analyse(const taut::Stability<double>& stability, const Options& options, F
             options.want_step > 0 ? options.want_step : found.symplectic_euler.certified;
         if (h > 0 && std::isfinite(h)) found.proof = stability.certify(Method::symplectic_euler, h);
     }
-    if (options.blame > 0 || !options.html.empty()) found.limiting_mode = stability.limiting_mode();
+    if (options.blame > 0 || !options.html.empty()) {
+        progress.at("finding the limiting vibration");
+        found.limiting_mode = stability.limiting_mode();
+    }
     found.springs_to_blame = stability.limiting_springs(options.blame, found.limiting_mode);
     found.particles_to_blame = stability.limiting_particles(options.blame, found.limiting_mode);
+    const auto verdict = [&](double h) {
+        return example::judge(stability, found.symplectic_euler, h);
+    };
+    if (options.step > 0) found.verdict = verdict(options.step);
     if (options.want_step > 0) {
+        progress.at("looking for what makes the wanted step safe");
         const double h = options.want_step;
-        found.remedies = Remedies{h,
-                                  stability.certify(Method::symplectic_euler, h).proved,
+        found.remedies = Remedies{verdict(h),
                                   stability.max_stiffness_scale(Method::symplectic_euler, h),
                                   stability.min_mass_scale(Method::symplectic_euler, h),
                                   {}};
@@ -80,28 +91,33 @@ void analyse(const taut::Stability<double>& stability, const Options& options, F
         stability.rayleigh_window(Method::explicit_euler, found.window_step, options.scene.d0);
 }
 
-Findings report_on_scene(const Options& options) {
+Findings report_on_scene(const Options& options, Progress& progress) {
     Findings found;
     const auto start = std::chrono::steady_clock::now();
+    progress.at("reading the scene");
     const auto scene = example::make_scene(options.scene);
     const auto state = scene.system.initial_state();
     found.setup = seconds_since(start);
     found.name = example::describe(scene);
+    found.space = example::describe_space(scene);
     found.particles = scene.system.size();
     found.springs = scene.system.spring_count();
     const auto analysis = std::chrono::steady_clock::now();
     const taut::Stability<double> stability(scene.system, state);
-    analyse(stability, options, found);
+    analyse(stability, options, progress, found);
+    progress.at("bounding the limits at any pose");
     const double tightness = options.proof || options.any_pose ? proof_tightness : 0;
     found.any_pose = taut::any_pose_limit(scene.system, tightness);
     found.energy = example::prove_energy(scene.system, tightness);
     found.graph_inertia = stability.max_step(Method::graph_inertia);
     if (found.remedies) {
+        progress.at("looking for masses and inertia that make the wanted step safe");
         found.remedies->added_mass = taut::added_mass(scene.system, state, options.want_step);
         found.inertia = example::tell_inertia(scene.system, options.want_step);
     }
     found.analysis = seconds_since(analysis);
     if (!options.html.empty()) {
+        progress.at("stepping the mesh for the page");
         const auto& mode = found.limiting_mode;
         found.page = example::page_data(stability, found, mode, scene.system.rayleigh());
         example::add_mesh(found.page, scene, stability, mode);
@@ -131,7 +147,7 @@ taut::LinearSystem<double> read_system(const Options& options) {
                   [&] { return System(massive.mass(), damping, undamped.stiffness()); });
 }
 
-Findings report_on_matrices(const Options& options) {
+Findings report_on_matrices(const Options& options, Progress& progress) {
     Findings found;
     const auto start = std::chrono::steady_clock::now();
     const auto system = read_system(options);
@@ -139,7 +155,7 @@ Findings report_on_matrices(const Options& options) {
     found.name = options.stiffness_matrix;
     const auto analysis = std::chrono::steady_clock::now();
     const taut::Stability<double> stability(system);
-    analyse(stability, options, found);
+    analyse(stability, options, progress, found);
     found.analysis = seconds_since(analysis);
     if (!options.html.empty()) {
         std::optional<taut::RayleighDamping> undamped;
@@ -155,6 +171,7 @@ int run(int argc, char** argv) {
         "Largest time step of each integrator that is proved at this pose, at any pose, or for "
         "the\n"
         "energy, and the feasible damping."};
+    example::add_version(app, "stability_report");
     options.scene.add_to(app);
     auto* K = app.add_option("--stiffness-matrix", options.stiffness_matrix,
                              "K in Matrix Market form, N/m, instead of a scene")
@@ -166,7 +183,10 @@ int run(int argc, char** argv) {
         ->needs(K);
     K->needs(M);
     M->needs(K);
-    app.add_option("--step", options.step, "h of the damping window, s (default: half the limit)")
+    app.add_option("--step", options.step,
+                   "say what holds at step H, s, or as 1/240 or 0.5ms: whether it is safe, and "
+                   "its damping window (default: the window of half the limit)")
+        ->transform(example::time_quantity())
         ->check(example::positive());
     app.add_flag("--zero-modes", options.zero_modes, "count rigid motions and mechanisms");
     app.add_flag("--proof", options.proof, "narrow the limits to 1e-6 by proved factorisations");
@@ -175,7 +195,9 @@ int run(int argc, char** argv) {
     app.add_option("--blame", options.blame, "name the N springs and particles that limit the step")
         ->check(CLI::Range(0, 1'000'000));
     app.add_option("--want-step", options.want_step,
-                   "say what would make step H, s, safe, and what graph inertia would cost")
+                   "say what would make step H, s, or as 1/240, safe, and what graph inertia "
+                   "would cost")
+        ->transform(example::time_quantity())
         ->check(example::positive());
     app.add_option("--json", options.json,
                    "write the findings as JSON (- is stdout, without table)")
@@ -183,18 +205,25 @@ int run(int argc, char** argv) {
     app.add_option("--html", options.html,
                    "write the findings as one page to look at (- is stdout, without table)")
         ->check(example::not_empty());
-    for (const char* other : {"MESH", "--scene", "--size", "--d0", "--alpha", "--pin", "--stretch",
-                              "--bend", "--mass", "--any-pose"}) {
+    for (const char* other : {"MESH",       "--scene",        "--size",
+                              "--d0",       "--alpha",        "--pin",
+                              "--stretch",  "--bend",         "--mass",
+                              "--any-pose", "--up",           "--flip",
+                              "--gravity",  "--scale",        "--units",
+                              "--weld",     "--mass-by-area", "--stiffness-by-length",
+                              "--pin-box",  "--pin-top",      "--free"}) {
         K->excludes(app.get_option(other));
     }
     app.footer(
         "Questions it answers\n"
         "  How large may my step be?          stability_report cloth.obj --pin 0,10\n"
+        "  My mesh is in cm, z up, seamed?    stability_report cloth.obj --units cm --up z --weld "
+        "0\n"
         "  To the last digit, proved?         stability_report cloth.obj --proof\n"
         "  At any pose? For its energy?       stability_report cloth.obj --any-pose\n"
         "  Which springs limit the step?      stability_report cloth.obj --blame 5\n"
-        "  What makes 1/240 s safe?           stability_report cloth.obj --want-step 0.004167\n"
-        "  Which damping suits my step?       stability_report cloth.obj --step 1e-4 --d0 0.5\n"
+        "  What makes 1/240 s safe?           stability_report cloth.obj --want-step 1/240\n"
+        "  Which damping suits my step?       stability_report cloth.obj --step 0.1ms --d0 0.5\n"
         "  How many mechanisms does it have?  stability_report cloth.obj --zero-modes\n"
         "  Can I look at it?                  stability_report cloth.obj --html report.html\n"
         "  And my own matrices?               stability_report --stiffness-matrix K.mtx "
@@ -210,8 +239,13 @@ int run(int argc, char** argv) {
                                 {"--damping-matrix", options.damping_matrix, false},
                                 {"--json", options.json, true},
                                 {"--html", options.html, true}});
-    const Findings found =
-        options.stiffness_matrix.empty() ? report_on_scene(options) : report_on_matrices(options);
+    const Findings found = [&] {
+        const bool watched = example::stderr_is_a_terminal();
+        Progress progress(1,
+                          watched ? example::say_on_stderr("stability_report") : Progress::Say());
+        return options.stiffness_matrix.empty() ? report_on_scene(options, progress)
+                                                : report_on_matrices(options, progress);
+    }();
     if (options.json != "-" && options.html != "-") example::print_table(found, options.scene.d0);
     if (!options.json.empty())
         example::write_text(example::to_json(found, options.scene.d0).dump(2), "--json",

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 // The words and numbers of text files. What is no number as a whole is none: a reader that takes
 // the start of a word for its meaning reads another file than the one that was written.
@@ -41,6 +42,38 @@ inline bool read_number(std::string_view word, long long& value) {
     const char* end = word.data() + word.size();
     const auto read = std::from_chars(word.data(), end, value);
     return read.ec == std::errc() && read.ptr == end;
+}
+
+/// What a word behind a number is worth.
+struct Unit {
+    std::string_view name;
+    double worth;
+};
+
+/// Reads a number as people write it: 0.5, 1/240, and either with a unit behind it, as 0.5ms.
+/// False where the whole is no finite number.
+inline bool read_quantity(std::string_view text, const std::vector<Unit>& units, double& value) {
+    const auto trim = [](std::string_view part) {
+        part.remove_prefix(std::min(part.find_first_not_of(' '), part.size()));
+        return part.substr(0, part.find_last_not_of(' ') + 1);
+    };
+    text = trim(text);
+    const std::size_t end = text.find_last_of("0123456789.") + 1;  // 0 without any
+    const std::string_view name = trim(text.substr(end));
+    double worth = 1;
+    if (!name.empty()) {
+        const auto unit = std::find_if(units.begin(), units.end(),
+                                       [&](const Unit& one) { return one.name == name; });
+        if (unit == units.end()) return false;
+        worth = unit->worth;
+    }
+    const std::string_view number = text.substr(0, end);
+    const std::size_t slash = number.find('/');
+    double below = 1;
+    if (!read_number(trim(number.substr(0, slash)), value)) return false;
+    if (slash != number.npos && !read_number(trim(number.substr(slash + 1)), below)) return false;
+    value = value / below * worth;
+    return std::isfinite(value);
 }
 
 /// A piece of a file for a message: its start, without bytes that a terminal would obey.

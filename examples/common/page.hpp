@@ -5,7 +5,7 @@
 #include <report_page.hpp>  // made by examples/report/embed.cmake
 #include <string>
 
-#include "report.hpp"
+#include "findings_json.hpp"
 
 namespace example {
 
@@ -13,8 +13,8 @@ namespace example {
 inline std::string page(const Findings& found, double d0) {
     Json data;
     data["name"] = found.name;
+    data["space"] = found.space;
     data["findings"] = to_json(found, d0);
-    if (found.any_pose) data["findings"]["any_pose"] = limit_json(*found.any_pose);
     data["causes"] = {{"explicit_euler", describe(found.explicit_euler.cause)},
                       {"symplectic_euler", describe(found.symplectic_euler.cause)},
                       {"implicit_euler", describe(found.implicit_euler.cause)}};

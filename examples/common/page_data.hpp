@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "near_limit.hpp"
-#include "report.hpp"
+#include "findings.hpp"
 #include "scene.hpp"
 
 // What the HTML page draws beside the findings: multipliers, the damping window, the mesh with its

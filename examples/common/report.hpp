@@ -5,209 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
-#include <taut/taut.hpp>
-#include <vector>
 
-// What stability_report found, as a table and as JSON.
+#include "findings.hpp"
+
+// What stability_report found, as a table.
 
 namespace example {
-
-using taut::Method;
-using Json = nlohmann::ordered_json;
-
-/// What would make a wanted step safe.
-struct Remedies {
-    double step = 0;  // s
-    bool safe_already = false;
-    double stiffness_scale = 0;
-    double mass_scale = 0;
-    std::optional<taut::AddedMass> added_mass;
-};
-
-/// The step up to which no step raises the energy, and what this asks for and costs [T34].
-struct EnergyProof {
-    taut::EnergyLimit<double> limit;
-    taut::GraphDampingRange alpha;  ///< s, at the certified step; empty where there is no such step
-    double rotation = 0;  ///< 1/s²; times α the rate at which it slows rotation, over all axes
-};
-
-template <class System>
-EnergyProof prove_energy(const System& system, double tightness) {
-    EnergyProof proof;
-    proof.limit = taut::energy_limit(system, tightness);
-    const double h = proof.limit.certified;
-    if (!(h > 0) || !std::isfinite(h)) return proof;
-    proof.alpha = proof.limit.alpha(h);
-    // Σ k l² over the moment of inertia about the centre of mass.
-    const auto x = system.initial_state().x;
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-    double mass = 0, inertia = 0, pull = 0;
-    for (taut::Index i = 0; i < system.size(); ++i) {
-        centre += system.mass(i) * x.col(i);
-        mass += system.mass(i);
-    }
-    centre /= mass;
-    for (taut::Index i = 0; i < system.size(); ++i)
-        inertia += system.mass(i) * (x.col(i) - centre).squaredNorm();
-    const auto& springs = system.springs();
-    for (taut::Index s = 0; s < springs.size(); ++s) {
-        const auto at = static_cast<std::size_t>(s);
-        const double l = (x.col(springs.b[at]) - x.col(springs.a[at])).norm();
-        pull += springs.parameters[at].stiffness * l * l;
-    }
-    if (inertia > 0) proof.rotation = pull / inertia;
-    return proof;
-}
-
-/// What graph inertia would make of the wanted step [T33].
-struct InertiaTold {
-    bool possible = false;  ///< some shares make the step safe
-    taut::Index implicit_springs = 0;
-    taut::Index touched = 0;  ///< free particles at their ends
-    taut::InertiaPrice price;
-};
-
-template <class System>
-InertiaTold tell_inertia(const System& system, double h) {
-    const taut::GraphShares shares =
-        taut::graph_shares(system, h, taut::GraphInertiaOptions{}.margin);
-    InertiaTold told;
-    told.possible = shares.status == taut::Status::ok;
-    told.implicit_springs = shares.implicit_springs();
-    told.touched = taut::touched_particles(system, shares);
-    const taut::Index modes = told.implicit_springs > 0 ? 10 : 0;
-    told.price = taut::inertia_price(system, system.initial_state(), shares, modes);
-    return told;
-}
-
-struct Findings {
-    std::string name;
-    taut::Index degrees_of_freedom = 0;
-    std::optional<taut::Index> particles;
-    std::optional<taut::Index> springs;
-    taut::StiffnessSpectrum spectrum;
-    taut::StepLimit<double> explicit_euler;
-    taut::StepLimit<double> symplectic_euler;
-    taut::StepLimit<double> implicit_euler;
-    /// At any pose, so at this one too; bare matrices have no springs to share.
-    std::optional<taut::StepLimit<double>> graph_inertia;
-    std::optional<taut::StepLimit<double>> any_pose;
-    std::optional<EnergyProof> energy;
-    std::optional<taut::Certificate> proof;
-    taut::LimitingMode limiting_mode;  // where it was asked for
-    std::vector<taut::SpringShare> springs_to_blame;
-    std::vector<taut::ParticleShare> particles_to_blame;
-    std::optional<Remedies> remedies;
-    std::optional<InertiaTold> inertia;  // at the wanted step
-    double window_step = 0;              // s
-    taut::AlphaWindow window;
-    double setup = 0;     // s
-    double analysis = 0;  // s
-    Json page;            // what only the HTML page shows; null without --html
-};
-
-/// null: none is safe, or none is known to fail. "unbounded": every step is safe.
-inline Json certified_json(const taut::StepLimit<double>& limit) {
-    if (limit.unbounded()) return "unbounded";
-    return limit.certified > 0 ? Json(limit.certified) : Json(nullptr);
-}
-
-inline Json limit_json(const taut::StepLimit<double>& limit) {
-    return {{"certified", certified_json(limit)},
-            {"refuted", std::isfinite(limit.refuted) ? Json(limit.refuted) : Json(nullptr)},
-            {"cause", name(limit.cause)},
-            {"growth_rate", limit.growth_rate},
-            {"certified_up_to",
-             limit.certified_up_to > 0 ? Json(limit.certified_up_to) : Json(nullptr)},
-            {"admitted_growth", limit.admitted_growth},
-            {"estimate", limit.estimate > 0 ? Json(limit.estimate) : Json(nullptr)}};
-}
-
-template <class T>
-inline Json optional_json(const std::optional<T>& value) {
-    return value ? Json(*value) : Json(nullptr);
-}
-
-/// null: not known, or no damping is.
-inline Json energy_json(const std::optional<EnergyProof>& energy) {
-    const bool known = energy && !energy->alpha.empty();
-    Json json = energy ? limit_json(energy->limit) : Json{{"certified", nullptr}};
-    json["alpha_lower"] = known ? Json(energy->alpha.lower) : Json(nullptr);
-    json["alpha_upper"] = known ? Json(energy->alpha.upper) : Json(nullptr);
-    return json;
-}
-
-/// null: no shares make the wanted step safe, or there are no springs.
-inline Json inertia_json(const std::optional<InertiaTold>& told) {
-    if (!told || !told->possible) return nullptr;
-    Json changes = Json::array();
-    for (const auto& mode : told->price.modes) changes.push_back(mode.change());
-    return {{"implicit_springs", told->implicit_springs},
-            {"touched_particles", told->touched},
-            {"added_inertia", told->price.added},
-            {"frequency_changes", changes}};
-}
-
-inline Json to_json(const Findings& found, double d0) {
-    const auto bracket = [](const taut::EigenvalueBracket& k) {
-        return Json{{"lower", k.lower}, {"upper", k.upper}};
-    };
-    const auto& window = found.window;
-    const bool empty = window.empty != taut::EmptyWindow::none;
-    Json json;
-    json["degrees_of_freedom"] = found.degrees_of_freedom;
-    json["particles"] = optional_json(found.particles);
-    json["springs"] = optional_json(found.springs);
-    json["zero_modes"] = optional_json(found.spectrum.zero_modes);
-    json["k_min"] = bracket(found.spectrum.k_min);
-    json["k_max"] = bracket(found.spectrum.k_max);
-    json["explicit_euler"] = limit_json(found.explicit_euler);
-    json["symplectic_euler"] = limit_json(found.symplectic_euler);
-    json["implicit_euler"] = limit_json(found.implicit_euler);
-    json["graph_inertia"] =
-        found.graph_inertia ? limit_json(*found.graph_inertia) : Json{{"certified", nullptr}};
-    json["any_pose"] = {
-        {"certified", found.any_pose ? certified_json(*found.any_pose) : Json(nullptr)}};
-    json["energy"] = energy_json(found.energy);
-    json["rayleigh_window"] = {{"method", name(Method::explicit_euler)},
-                               {"h", found.window_step},
-                               {"d0", d0},
-                               {"lower", empty ? Json(nullptr) : Json(window.lower)},
-                               {"upper", empty                         ? Json(nullptr)
-                                         : std::isfinite(window.upper) ? Json(window.upper)
-                                                                       : Json("unbounded")},
-                               {"empty", empty},
-                               {"includes_zero", window.includes_zero}};
-    for (const auto& spring : found.springs_to_blame) {
-        json["limiting_springs"].push_back(
-            {{"index", spring.index}, {"a", spring.a}, {"b", spring.b}, {"share", spring.share}});
-    }
-    for (const auto& particle : found.particles_to_blame) {
-        json["limiting_particles"].push_back(
-            {{"index", particle.index}, {"share", particle.share}});
-    }
-    if (found.proof) {
-        json["proof"] = {{"method", name(found.proof->method)},
-                         {"h", found.proof->step},
-                         {"proved", found.proof->proved}};
-    }
-    if (found.remedies) {
-        const auto& remedies = *found.remedies;
-        json["want_step"] = {{"h", remedies.step},
-                             {"safe_already", remedies.safe_already},
-                             {"stiffness_scale", remedies.stiffness_scale},
-                             {"mass_scale", remedies.mass_scale},
-                             {"added_mass", remedies.added_mass && remedies.added_mass->reached
-                                                ? Json(remedies.added_mass->total)
-                                                : Json(nullptr)}};
-        json["want_step"]["graph_inertia"] = inertia_json(found.inertia);
-    }
-    json["seconds"] = {{"setup", found.setup}, {"analysis", found.analysis}};
-    return json;
-}
 
 inline std::string step_text(double h, const char* if_zero, const char* if_infinite) {
     if (h == 0) return if_zero;
@@ -274,8 +78,22 @@ inline void print_note(const char* label, const taut::StepLimit<double>& limit) 
     }
 }
 
+/// Whether the vibration takes in so much of the net that no spring of it stands out.
+inline bool is_even(const Findings& found) {
+    const auto& springs = found.springs_to_blame;
+    if (springs.empty() || !found.springs) return false;
+    return springs.front().share < std::max(0.01, 3.0 / static_cast<double>(*found.springs));
+}
+
 inline void print_blame(const Findings& found) {
     std::printf("The limiting vibration\n");
+    if (is_even(found)) {
+        std::printf(
+            "  spread evenly: the whole net sets the limit; no spring holds more than %.2g %% of "
+            "its energy\n",
+            100 * found.springs_to_blame.front().share);
+        return;
+    }
     for (const auto& spring : found.springs_to_blame) {
         std::printf(
             "  spring %-8lld between particles %lld and %lld: %.2f %% of its elastic energy\n",
@@ -288,18 +106,28 @@ inline void print_blame(const Findings& found) {
     }
 }
 
+/// The rest of a sentence that names the step.
+inline std::string describe(const Verdict& verdict) {
+    if (verdict.standing == Verdict::Standing::certified) return "proved safe as the scene is";
+    if (verdict.standing == Verdict::Standing::undecided) return "neither proved nor refuted";
+    char text[96];
+    std::snprintf(text, sizeof text,
+                  "refuted: the limiting vibration grows %.4g-fold with every step",
+                  verdict.growth);
+    return text;
+}
+
 inline void print_remedies(const Remedies& remedies) {
-    std::printf("For symplectic Euler at h = %.4e s in this pose", remedies.step);
-    if (remedies.safe_already) {
-        std::printf(": proved safe as the scene is\n");
-        return;
-    }
+    std::printf("For symplectic Euler at h = %.4e s in this pose: %s\n", remedies.verdict.step,
+                describe(remedies.verdict).c_str());
+    if (remedies.verdict.standing == Verdict::Standing::certified) return;
     if (!(remedies.stiffness_scale > 0) || !std::isfinite(remedies.mass_scale)) {
-        std::printf(": no scale of stiffness or masses is proved to make it safe\n");
+        std::printf("  no scale of stiffness or masses is proved to make it safe\n");
         return;
     }
-    std::printf(", any one of\n  all stiffness times %.4g, or all masses times %.4g\n",
-                remedies.stiffness_scale, remedies.mass_scale);
+    std::printf(
+        "  any one of these makes it safe:\n  all stiffness times %.4g, or all masses times %.4g\n",
+        remedies.stiffness_scale, remedies.mass_scale);
     if (!remedies.added_mass || !remedies.added_mass->reached) return;
     const auto& added = *remedies.added_mass;
     const auto heavier =
@@ -315,7 +143,7 @@ inline void print_remedies(const Remedies& remedies) {
 
 /// The price of making springs implicit.
 inline void print_inertia(const InertiaTold& told, const Findings& found) {
-    std::printf("For graph inertia at h = %.4e s at any pose, ", found.remedies->step);
+    std::printf("For graph inertia at h = %.4e s at any pose, ", found.remedies->verdict.step);
     if (!told.possible) {
         std::printf("no shares are proved to make it safe\n");
         return;
@@ -336,8 +164,10 @@ inline void print_inertia(const InertiaTold& told, const Findings& found) {
 }
 
 inline void print_table(const Findings& found, double d0) {
-    std::printf("%s, %lld degrees of freedom\n\n", found.name.c_str(),
+    std::printf("%s, %lld degrees of freedom\n", found.name.c_str(),
                 static_cast<long long>(found.degrees_of_freedom));
+    if (!found.space.empty()) std::printf("%s\n", found.space.c_str());
+    std::printf("\n");
     std::printf("Largest stable time step\n  %-22s %-14s %-14s %7s  %s\n", "", "certified",
                 "refuted", "ratio", "set by");
     std::printf(" at this pose (linear)\n");
@@ -376,6 +206,10 @@ inline void print_table(const Findings& found, double d0) {
         std::printf("no alpha is proved stable: %s\n", describe(found.window.empty));
     } else {
         std::printf("stable for alpha in (%.4e, %.4e) s\n", found.window.lower, found.window.upper);
+    }
+    if (found.verdict) {
+        std::printf("Symplectic Euler at h = %.4e s in this pose: %s\n", found.verdict->step,
+                    describe(*found.verdict).c_str());
     }
     if (found.proof) {
         std::printf("%s at h = %.9e s: %s\n", name(found.proof->method), found.proof->step,

@@ -2,11 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <charconv>
-#include <cmath>
-#include <cstdlib>
-#include <optional>
+#include <cstdio>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -16,106 +12,39 @@
 
 #include "mesh_file.hpp"
 #include "naming.hpp"
-
-// The scene of a program: a mesh file or a built-in cloth, as its command line describes it.
+#include "pins.hpp"
+#include "scene_options.hpp"
 
 namespace example {
 
 using System = taut::SpringSystem<double, 3>;
 
+/// The scene of a program.
 struct Scene {
     std::string name;
     System system;
-    std::vector<std::vector<taut::Index>> faces;  // corners are particles; of two: a line
-    taut::Index unused_vertices = 0;
-    taut::Index stretch_springs = 0;  // they come first, the others bend
+    std::vector<std::vector<Index>> faces;  // corners are particles; of two: a line
+    Index stretch_springs = 0;              // they come first, the others bend
+    // Of a mesh file: what its frames are written by.
+    taut::Points<double, 3> vertices;       // as they were read
+    std::vector<Index> particle_of_vertex;  // −1: no face or line uses it
+    double unit = 1;                        // m
+    std::string remarks;                    // on vertices welded or left out
+
+    /// The mesh's vertices, in its own units, where the particles are: 3 × V. Of a built-in scene
+    /// the particles.
+    taut::Points<double, 3> drawn(const taut::Points<double, 3>& particles) const {
+        if (particle_of_vertex.empty()) return particles;
+        taut::Points<double, 3> x = vertices;
+        for (Index v = 0; v < x.cols(); ++v) {
+            const Index particle = particle_of_vertex[static_cast<std::size_t>(v)];
+            if (particle >= 0) x.col(v) = particles.col(particle) / unit;
+        }
+        return x;
+    }
 };
 
-/// CLI11's own range checks print 309 digits.
-inline CLI::Validator positive() {
-    return {[](std::string& text) {
-                const double value = std::strtod(text.c_str(), nullptr);
-                return value > 0 && std::isfinite(value) ? "" : text + " is not finite and > 0";
-            },
-            "> 0"};
-}
-inline CLI::Validator non_negative() {
-    return {[](std::string& text) {
-                const double value = std::strtod(text.c_str(), nullptr);
-                return value >= 0 && std::isfinite(value) ? "" : text + " is not finite and >= 0";
-            },
-            ">= 0"};
-}
-/// Of names: an empty one would be taken for an option that is not given.
-inline CLI::Validator not_empty() {
-    return {[](std::string& text) { return text.empty() ? "it is empty" : ""; }, ""};
-}
-
-struct SceneOptions {
-    std::string mesh;
-    std::string built_in;
-    std::optional<int> size;  // none: 64
-    double stretch = 1000;    // N/m
-    double bend = 100;        // N/m
-    double mass = 0.3;        // kg
-    std::string pins;
-    bool free = false;
-    double d0 = 0;     // 1/s
-    double alpha = 0;  // s
-
-    /// Declares the options on `app`.
-    void add_to(CLI::App& app) {
-        auto* file = app.add_option("MESH", mesh, "an OBJ mesh, in metres (or: hanging_cloth)")
-                         ->check(not_empty());
-        app.add_option("--scene", built_in, "a built-in scene instead of a mesh: hanging_cloth")
-            ->check(CLI::IsMember({"hanging_cloth"}))
-            ->excludes(file);
-        app.add_option("--size", size, "particles along a side of the built-in scene")
-            ->check(CLI::Range(2, 2000))
-            ->default_str("64");
-        app.add_option("--stretch", stretch, "stiffness along edges and quad diagonals, N/m")
-            ->check(non_negative())
-            ->capture_default_str();
-        app.add_option("--bend", bend, "stiffness across edges, N/m")
-            ->check(non_negative())
-            ->capture_default_str();
-        app.add_option("--mass", mass, "of all particles together, kg")
-            ->check(positive())
-            ->capture_default_str();
-        app.add_option("--pin", pins, "vertices to pin, from 0: 3,7,10-20 (default: none)");
-        app.add_flag("--free", free, "the built-in scene without its pinned corners");
-        app.add_option("--d0", d0, "mass-proportional Rayleigh damping, 1/s")
-            ->check(non_negative())
-            ->capture_default_str();
-        app.add_option("--alpha", alpha, "stiffness-proportional Rayleigh damping, s")
-            ->check(non_negative())
-            ->capture_default_str();
-    }
-    bool given() const { return !mesh.empty() || !built_in.empty(); }
-};
-
-/// "3,7,10-20" as numbers. Throws naming --pin and the part that is wrong.
-inline std::vector<taut::Index> parse_pins(const std::string& list) {
-    std::vector<taut::Index> pins;
-    std::stringstream parts(list);
-    for (std::string part; std::getline(parts, part, ',');) {
-        taut::Index first = -1;
-        taut::Index last = -1;
-        const char* end = part.data() + part.size();
-        auto read = std::from_chars(part.data(), end, first);
-        last = first;
-        if (read.ec == std::errc() && read.ptr != end && *read.ptr == '-') {
-            read = std::from_chars(read.ptr + 1, end, last);
-        }
-        if (read.ec != std::errc() || read.ptr != end || first < 0 || last < first ||
-            last - first > 10'000'000) {
-            throw std::runtime_error("--pin: \"" + part +
-                                     "\" is not a vertex number or a range like 10-20");
-        }
-        for (taut::Index pin = first; pin <= last; ++pin) pins.push_back(pin);
-    }
-    return pins;
-}
+namespace detail {
 
 inline Scene hanging_cloth_scene(const SceneOptions& options) {
     taut::ClothOptions cloth;
@@ -123,63 +52,97 @@ inline Scene hanging_cloth_scene(const SceneOptions& options) {
     cloth.stretch = options.stretch;
     cloth.bend = options.bend;
     cloth.mass = options.mass;
+    cloth.gravity = options.gravity;
     cloth.pin_corners = !options.free;
     Scene scene;
     scene.name = "hanging_cloth " + std::to_string(cloth.rows);
     scene.system = taut::hanging_cloth<double>(cloth);
-    const taut::Index bending = cloth.bend > 0 ? 2 * cloth.rows * (cloth.rows - 2) : 0;
+    const Index bending = cloth.bend > 0 ? 2 * cloth.rows * (cloth.rows - 2) : 0;
     scene.stretch_springs = scene.system.spring_count() - bending;
-    for (taut::Index r = 0; r + 1 < cloth.rows; ++r) {
-        for (taut::Index c = 0; c + 1 < cloth.columns; ++c) {
-            const taut::Index i = r * cloth.columns + c;
+    for (Index r = 0; r + 1 < cloth.rows; ++r) {
+        for (Index c = 0; c + 1 < cloth.columns; ++c) {
+            const Index i = r * cloth.columns + c;
             scene.faces.push_back({i, i + 1, i + cloth.columns + 1, i + cloth.columns});
         }
     }
     return scene;
 }
 
-/// Builds the scene. Throws with a message for the user.
-inline Scene make_scene(const SceneOptions& options) {
-    const bool built_in = !options.built_in.empty() || options.mesh == "hanging_cloth";
-    if (!built_in && options.size) {
-        throw std::runtime_error("--size: " + options.mesh + " is a mesh, whose size is its own");
-    }
-    if (!built_in && options.free) {
-        throw std::runtime_error("--free: " + options.mesh + " is a mesh; only --pin pins it");
-    }
-    const auto pins = parse_pins(options.pins);
+/// The unit vector that points up in a scene.
+inline Eigen::Vector3d up_of(const SceneOptions& options) {
+    const std::string axis = !options.up.empty() ? options.up : options.is_built_in() ? "z" : "y";
+    return (options.flip ? -1 : 1) * Eigen::Vector3d::Unit(axis[0] - 'x');
+}
+
+inline Scene mesh_scene(const SceneOptions& options) {
+    MeshFile file = read_obj(options.mesh);
     Scene scene;
-    std::vector<taut::Index> particle;
-    if (built_in) {
-        scene = hanging_cloth_scene(options);
+    scene.name = options.mesh;
+    scene.unit = options.unit();
+    const taut::Points<double, 3> x = scene.unit * file.vertices;
+    taut::WeldedMesh welded;
+    if (options.weld) {
+        welded =
+            naming(options.mesh, [&] { return taut::weld_vertices(x, file.faces, *options.weld); });
+        scene.faces = std::move(welded.faces);
     } else {
-        MeshFile file = read_obj(options.mesh);
-        auto mesh = naming(options.mesh, [&] {
-            return taut::springs_from_mesh<double>(file.vertices, file.faces,
-                                                   {options.stretch, options.bend, options.mass});
-        });
-        scene = {options.mesh, std::move(mesh.system), std::move(file.faces), mesh.unused_vertices,
-                 mesh.stretch_springs};
-        particle = std::move(mesh.particle_of_vertex);
-        for (auto& face : scene.faces) {
-            for (auto& corner : face) corner = particle[corner];
-        }
-        scene.system.set_gravity({0, -9.81, 0});
+        scene.faces = std::move(file.faces);
     }
-    const auto vertices =
-        built_in ? scene.system.size() : static_cast<taut::Index>(particle.size());
-    for (const taut::Index pin : pins) {
-        if (pin >= vertices) {
-            throw std::runtime_error("--pin: vertex " + std::to_string(pin) + " does not exist; " +
-                                     scene.name + " has " + std::to_string(vertices) +
+    taut::MeshOptions springs{options.stretch, options.bend, options.mass};
+    springs.mass_by_area = options.mass_by_area;
+    springs.stiffness_by_length = options.stiffness_by_length;
+    auto mesh = naming(options.mesh,
+                       [&] { return taut::springs_from_mesh<double>(x, scene.faces, springs); });
+    scene.system = std::move(mesh.system);
+    scene.system.set_gravity(-options.gravity * up_of(options));
+    scene.stretch_springs = mesh.stretch_springs;
+    scene.vertices = std::move(file.vertices);
+    auto& particle = scene.particle_of_vertex = std::move(mesh.particle_of_vertex);
+    for (auto& face : scene.faces)
+        for (auto& corner : face) corner = particle[corner];
+    for (std::size_t v = 0; v < welded.vertex.size(); ++v) particle[v] = particle[welded.vertex[v]];
+    const auto remark = [&](Index count, const char* words) {
+        if (count > 0) scene.remarks += "; " + std::to_string(count) + words;
+    };
+    remark(welded.welded, " vertices are welded to others");
+    remark(mesh.unused_vertices - welded.welded,
+           " vertices that no face or line uses are left out");
+    return scene;
+}
+
+inline void pin(const SceneOptions& options, Scene& scene) {
+    const bool built_in = scene.particle_of_vertex.empty();
+    const auto& particle = scene.particle_of_vertex;
+    const taut::Points<double, 3> x = built_in ? scene.system.initial_state().x : scene.vertices;
+    const auto is_used = [&](Index v) { return built_in || particle[v] >= 0; };
+    const auto pin_all = [&](const std::vector<Index>& vertices) {
+        for (const Index v : vertices) scene.system.pin(built_in ? v : particle[v]);
+    };
+    const auto listed = parse_pins(options.pins);
+    for (const Index v : listed) {
+        if (v >= x.cols()) {
+            throw std::runtime_error("--pin: vertex " + std::to_string(v) + " does not exist; " +
+                                     scene.name + " has " + std::to_string(x.cols()) +
                                      " vertices, numbered from 0");
         }
-        if (!built_in && particle[pin] < 0) {
-            throw std::runtime_error("--pin: vertex " + std::to_string(pin) +
+        if (!is_used(v)) {
+            throw std::runtime_error("--pin: vertex " + std::to_string(v) +
                                      " is used by no face or line");
         }
-        scene.system.pin(built_in ? pin : particle[pin]);
     }
+    pin_all(listed);
+    if (!options.pin_box.empty()) pin_all(vertices_in_box(x, options.pin_box, is_used));
+    if (options.pin_top) pin_all(highest_vertices(x, up_of(options), *options.pin_top, is_used));
+}
+
+}  // namespace detail
+
+/// Builds the scene. Throws with a message for the user.
+inline Scene make_scene(const SceneOptions& options) {
+    options.check();
+    Scene scene =
+        options.is_built_in() ? detail::hanging_cloth_scene(options) : detail::mesh_scene(options);
+    detail::pin(options, scene);
     scene.system.set_rayleigh({options.d0, options.alpha});
     return scene;
 }
@@ -188,12 +151,24 @@ inline Scene make_scene(const SceneOptions& options) {
 inline std::string describe(const Scene& scene) {
     std::ostringstream text;
     text << scene.name << ": " << scene.system.size() << " particles ("
-         << scene.system.pinned_count() << " pinned), " << scene.system.spring_count()
-         << " springs";
-    if (scene.unused_vertices > 0) {
-        text << "; " << scene.unused_vertices << " vertices that no face or line uses are left out";
-    }
+         << scene.system.pinned_count() << " pinned), " << scene.system.spring_count() << " springs"
+         << scene.remarks;
     return text.str();
+}
+
+/// One line about its size and which way is down: where a wrong unit or axis shows.
+inline std::string describe_space(const Scene& scene) {
+    const auto x = scene.system.initial_state().x;
+    const Eigen::Vector3d size = x.rowwise().maxCoeff() - x.rowwise().minCoeff();
+    const Eigen::Vector3d g = scene.system.gravity();
+    char text[160];
+    std::snprintf(text, sizeof text, "%.3g x %.3g x %.3g m, ", size[0], size[1], size[2]);
+    std::string line = text;
+    Eigen::Index axis = 0;
+    if (g.cwiseAbs().maxCoeff(&axis) == 0) return line + "no gravity";
+    std::snprintf(text, sizeof text, "up is %c%c, gravity %.4g m/s^2", g[axis] > 0 ? '-' : '+',
+                  "xyz"[axis], g.norm());
+    return line + text;
 }
 
 }  // namespace example

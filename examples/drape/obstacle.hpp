@@ -14,7 +14,15 @@ public:
     Obstacle(const Options& options, const Cloth& cloth, const State& state);
 
     /// Puts particles out of it; nothing without --collide.
-    void resolve(const Cloth& cloth, State& state) const;
+    /// @param responding  the cloth, or a stepper that changes velocities by its own inertia
+    template <class Responding>
+    void resolve(Responding& responding, State& state) const {
+        if (const auto* plane = std::get_if<Plane>(&shape_)) {
+            resolve_contacts(responding, *plane, state, contact_);
+        } else if (const auto* sphere = std::get_if<Sphere>(&shape_)) {
+            resolve_contacts(responding, *sphere, state, contact_);
+        }
+    }
     const std::string& description() const { return description_; }
     explicit operator bool() const { return !std::holds_alternative<std::monostate>(shape_); }
 
@@ -51,14 +59,6 @@ inline Obstacle::Obstacle(const Options& options, const Cloth& cloth, const Stat
                       centre[0], centre[1], centre[2]);
     }
     description_ = text;
-}
-
-inline void Obstacle::resolve(const Cloth& cloth, State& state) const {
-    if (const auto* plane = std::get_if<Plane>(&shape_)) {
-        resolve_contacts(cloth, *plane, state, contact_);
-    } else if (const auto* sphere = std::get_if<Sphere>(&shape_)) {
-        resolve_contacts(cloth, *sphere, state, contact_);
-    }
 }
 
 }  // namespace drape

@@ -15,6 +15,8 @@ struct Options {
     std::string law = "hookean";
     std::optional<double> bending;  // k_b, N·m²
     std::string integrator = "symplectic";
+    std::string solver = "cholesky";
+    std::optional<double> tolerance;  // of conjugate gradients
     bool guard = false;
     std::optional<double> look_ahead;  // share of the step; the recipe's, if open
     double step = 0;                   // s; 0: the integrator's own
@@ -29,12 +31,18 @@ struct Options {
     std::string format = "obj";
     std::string cache;  // path of a PC2 file
     bool springs = false;
+    bool resume = false;
     bool quiet = false;
 
     /// Whether every step is stable.
     bool implicit() const {
         return integrator != "symplectic" && integrator != "verlet" && integrator != "explicit";
     }
+    /// Whether its steps solve a linear system that --solver may choose for.
+    bool solves() const {
+        return integrator == "implicit" || integrator == "newton" || integrator == "bdf2";
+    }
+    std::string state_path() const { return output + "/state.bin"; }
     /// Whether its steps have damping of their own, which the recipe asks for.
     bool damps() const { return integrator == "symplectic" || integrator == "verlet"; }
     taut::StepDamping own_damping() const {
@@ -77,6 +85,16 @@ inline void Options::add_motion(CLI::App& app) {
         ->check(CLI::IsMember({"symplectic", "verlet", "explicit", "graph_inertia", "implicit",
                                "newton", "bdf2", "projective"}))
         ->capture_default_str();
+    auto* chosen =
+        app.add_option("--solver", solver,
+                       "of implicit, newton and bdf2: cholesky, Eigen's; conjugate_gradient, for "
+                       "large cloths; cholmod, where this program was built with SuiteSparse")
+            ->check(CLI::IsMember({"cholesky", "conjugate_gradient", "cholmod"}))
+            ->capture_default_str();
+    app.add_option("--tolerance", tolerance,
+                   "relative residual at which conjugate gradients stop (default: 0.001)")
+        ->check(CLI::Range(1e-15, 0.5))
+        ->needs(chosen);
     app.add_flag("--guard", guard,
                  "watch the energy of every frame, and take back one that gains any");
     app.add_option(
@@ -85,6 +103,7 @@ inline void Options::add_motion(CLI::App& app) {
            "--guard the guard's; explicit 0.95; graph_inertia: the largest that leaves half of "
            "the springs explicit and slows the lowest vibrations by 5 % at most; implicit and "
            "bdf2: 1/60 s; newton and projective: a frame; with --collide at most 1/240 s)")
+        ->transform(example::time_quantity())
         ->check(example::positive());
     app.add_option("--look-ahead", look_ahead,
                    "share of the step by which symplectic and verlet steps let springs look ahead: "
@@ -92,6 +111,7 @@ inline void Options::add_motion(CLI::App& app) {
                    "0: none)")
         ->check(example::non_negative());
     app.add_option("--duration", duration, "simulated time, s")
+        ->transform(example::time_quantity())
         ->check(example::positive())
         ->capture_default_str();
     app.add_option("--frame-rate", frame_rate, "frames written per simulated second")
@@ -135,11 +155,14 @@ inline void Options::add_output(CLI::App& app) {
         ->check(example::not_empty());
     app.add_flag("--springs", springs,
                  "frame_*.vtk too, with the tension and strain of every spring, for ParaView");
+    app.add_flag("--resume", resume,
+                 "go on from where the run before this one ended in the folder of --output, up to "
+                 "--duration");
     app.add_flag("--quiet", quiet, "no progress line");
 }
 
 inline void Options::check() const {
-    if (!scene.given()) throw std::runtime_error("name a mesh or --scene (see --help)");
+    scene.check();
     if (bending && law != "buckling") {
         throw std::runtime_error("--bending: it belongs to --law buckling, not to " + law);
     }
@@ -159,10 +182,19 @@ inline void Options::check() const {
         throw std::runtime_error("--integrator graph_inertia: springs of --law " + law +
                                  " turn slack or buckle, which feeds it with energy");
     }
-    if (integrator == "graph_inertia" && (guard || !collide.empty())) {
-        throw std::runtime_error(
-            "--integrator graph_inertia: --guard and --collide are not offered with it");
+    if (solver != "cholesky" && !solves()) {
+        throw std::runtime_error("--solver: implicit, newton and bdf2 take it, not " + integrator);
     }
+    if (tolerance && solver != "conjugate_gradient") {
+        throw std::runtime_error("--tolerance: conjugate_gradient takes it, not " + solver);
+    }
+#ifndef DRAPE_CHOLMOD
+    if (solver == "cholmod") {
+        throw std::runtime_error(
+            "--solver cholmod: this program was built without SuiteSparse (-D "
+            "TAUT_SUITESPARSE=ON)");
+    }
+#endif
     if (integrator == "explicit" && scene.d0 == 0 && scene.alpha == 0) {
         throw std::runtime_error("--integrator explicit: " +
                                  std::string(describe(taut::Cause::undamped)));

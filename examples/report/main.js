@@ -26,7 +26,7 @@ function writeHead() {
   const parts = [];
   if (mesh) parts.push(`${whole(findings.particles)} particles, ${mesh.pinned.length ? whole(mesh.pinned.length) : "none"} pinned`, `${whole(findings.springs)} springs`);
   parts.push(`${whole(findings.degrees_of_freedom)} degrees of freedom`);
-  fill("scene", parts.join(", "));
+  fill("scene", [parts.join(", "), data.space && data.space.replaceAll(" x ", " × ").replace("^2", "²")].filter(Boolean).join("; "));
   const fact = (name, limit) => {
     const { certified } = bracket(limit);
     const [value, unit] = certified === Infinity ? ["every step", ""] : certified > 0 ? seconds(certified).split("\u00a0") : ["none", ""];
@@ -64,9 +64,10 @@ function writeHead() {
 function remedy(want) {
   if (!want) return "";
   const asked = ` The step asked for, ${seconds(want.h)},`;
-  if (want.safe_already) return `${asked} is certified at this pose as the mesh is.${inertia(want)}`;
+  const refuted = want.standing === "refuted" ? ` is refuted: the limiting vibration grows ${significant(want.growth)}-fold with every step. It` : "";
+  if (want.standing === "certified") return `${asked} is certified at this pose as the mesh is.${inertia(want)}`;
   const added = want.added_mass === null ? "" : `, or ${significant(want.added_mass)} kg more on the particles that need it`;
-  return `${asked} is certified at this pose with all stiffness times ${significant(want.stiffness_scale)}, or all masses times ${significant(want.mass_scale)}${added}.${inertia(want)}`;
+  return `${asked}${refuted} is certified at this pose with all stiffness times ${significant(want.stiffness_scale)}, or all masses times ${significant(want.mass_scale)}${added}.${inertia(want)}`;
 }
 
 /// What graph inertia makes of it, at any pose, and its price.

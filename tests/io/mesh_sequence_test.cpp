@@ -35,6 +35,11 @@ TEMPLATE_TEST_CASE("mesh_sequence: files are numbered, and a frame is tried agai
     CHECK(frames.path(123456) == temporary_prefix() + "sequence_123456" + extension);
     CHECK(second.bytes() == first.bytes());
     CHECK_FALSE(third.bytes() == first.bytes());
+    // A run that was ended goes on.
+    TestType more(temporary_prefix() + "sequence_", {{0, 1, 2}}, {{2, 0}}, 2);
+    CHECK(more.frames() == 2);
+    REQUIRE(more.write(x));
+    CHECK(third.bytes() == first.bytes());
 }
 
 }  // namespace taut_test::mesh_sequence_test

@@ -25,8 +25,13 @@ class MeshSequence {
 public:
     /// @param prefix        of every path, folders in it must exist
     /// @param faces, edges  as the format's writer takes them
-    explicit MeshSequence(std::string prefix, MeshFaces faces, MeshEdges edges = {})
-        : prefix_(std::move(prefix)), faces_(std::move(faces)), edges_(std::move(edges)) {}
+    /// @param first         the frame to begin with, where a run goes on that was ended
+    explicit MeshSequence(std::string prefix, MeshFaces faces, MeshEdges edges = {},
+                          Index first = 0)
+        : prefix_(std::move(prefix)),
+          faces_(std::move(faces)),
+          edges_(std::move(edges)),
+          frames_(first) {}
 
     /// Writes the next frame, m; after a failure the same one again.
     template <class Scalar, int Dim>
@@ -35,7 +40,7 @@ public:
         if (report) ++frames_;
         return report;
     }
-    /// Frames written so far.
+    /// The next frame: those written so far, where the first was 0.
     Index frames() const { return frames_; }
     /// Of a frame, written or not.
     std::string path(Index frame) const {
@@ -48,7 +53,7 @@ private:
     std::string prefix_;
     MeshFaces faces_;
     MeshEdges edges_;
-    Index frames_ = 0;
+    Index frames_;
 };
 
 namespace io_detail {

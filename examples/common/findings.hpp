@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <taut/taut.hpp>
+#include <vector>
+
+// What stability_report finds.
+
+namespace example {
+
+using taut::Method;
+using Json = nlohmann::ordered_json;
+
+/// What is known of one step of symplectic Euler at this pose.
+struct Verdict {
+    enum class Standing { certified, refuted, undecided };
+
+    double step = 0;  // s
+    Standing standing = Standing::undecided;
+    double growth = 1;  ///< of the limiting vibration with every step, where it is refuted
+};
+
+/// @param limit  of symplectic Euler at this pose
+inline Verdict judge(const taut::Stability<double>& stability, const taut::StepLimit<double>& limit,
+                     double h) {
+    using Standing = Verdict::Standing;
+    if (h <= limit.certified) return {h, Standing::certified};
+    if (h < limit.refuted) {
+        const bool proved = stability.certify(Method::symplectic_euler, h).proved;
+        return {h, proved ? Standing::certified : Standing::undecided};
+    }
+    const auto mode = stability.limiting_mode();
+    return {h, Standing::refuted,
+            taut::spectral_radius(Method::symplectic_euler, mode.k, mode.d, h)};
+}
+
+inline const char* name(Verdict::Standing standing) {
+    switch (standing) {
+        case Verdict::Standing::certified: return "certified";
+        case Verdict::Standing::refuted: return "refuted";
+        case Verdict::Standing::undecided: return "undecided";
+    }
+    return "";
+}
+
+/// What would make a wanted step safe.
+struct Remedies {
+    Verdict verdict;
+    double stiffness_scale = 0;
+    double mass_scale = 0;
+    std::optional<taut::AddedMass> added_mass;
+};
+
+/// The step up to which no step raises the energy, and what this asks for and costs [T34].
+struct EnergyProof {
+    taut::EnergyLimit<double> limit;
+    taut::GraphDampingRange alpha;  ///< s, at the certified step; empty where there is no such step
+    double rotation = 0;  ///< 1/s²; times α the rate at which it slows rotation, over all axes
+};
+
+template <class System>
+EnergyProof prove_energy(const System& system, double tightness) {
+    EnergyProof proof;
+    proof.limit = taut::energy_limit(system, tightness);
+    const double h = proof.limit.certified;
+    if (!(h > 0) || !std::isfinite(h)) return proof;
+    proof.alpha = proof.limit.alpha(h);
+    // Σ k l² over the moment of inertia about the centre of mass.
+    const auto x = system.initial_state().x;
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    double mass = 0, inertia = 0, pull = 0;
+    for (taut::Index i = 0; i < system.size(); ++i) {
+        centre += system.mass(i) * x.col(i);
+        mass += system.mass(i);
+    }
+    centre /= mass;
+    for (taut::Index i = 0; i < system.size(); ++i)
+        inertia += system.mass(i) * (x.col(i) - centre).squaredNorm();
+    const auto& springs = system.springs();
+    for (taut::Index s = 0; s < springs.size(); ++s) {
+        const auto at = static_cast<std::size_t>(s);
+        const double l = (x.col(springs.b[at]) - x.col(springs.a[at])).norm();
+        pull += springs.parameters[at].stiffness * l * l;
+    }
+    if (inertia > 0) proof.rotation = pull / inertia;
+    return proof;
+}
+
+/// What graph inertia would make of the wanted step [T33].
+struct InertiaTold {
+    bool possible = false;  ///< some shares make the step safe
+    taut::Index implicit_springs = 0;
+    taut::Index touched = 0;  ///< free particles at their ends
+    taut::InertiaPrice price;
+};
+
+template <class System>
+InertiaTold tell_inertia(const System& system, double h) {
+    const taut::GraphShares shares =
+        taut::graph_shares(system, h, taut::GraphInertiaOptions{}.margin);
+    InertiaTold told;
+    told.possible = shares.status == taut::Status::ok;
+    told.implicit_springs = shares.implicit_springs();
+    told.touched = taut::touched_particles(system, shares);
+    const taut::Index modes = told.implicit_springs > 0 ? 10 : 0;
+    told.price = taut::inertia_price(system, system.initial_state(), shares, modes);
+    return told;
+}
+
+struct Findings {
+    std::string name;
+    std::string space;  // the scene's size and which way is down; empty for bare matrices
+    taut::Index degrees_of_freedom = 0;
+    std::optional<taut::Index> particles;
+    std::optional<taut::Index> springs;
+    taut::StiffnessSpectrum spectrum;
+    taut::StepLimit<double> explicit_euler;
+    taut::StepLimit<double> symplectic_euler;
+    taut::StepLimit<double> implicit_euler;
+    /// At any pose, so at this one too; bare matrices have no springs to share.
+    std::optional<taut::StepLimit<double>> graph_inertia;
+    std::optional<taut::StepLimit<double>> any_pose;
+    std::optional<EnergyProof> energy;
+    std::optional<taut::Certificate> proof;
+    taut::LimitingMode limiting_mode;  // where it was asked for
+    std::vector<taut::SpringShare> springs_to_blame;
+    std::vector<taut::ParticleShare> particles_to_blame;
+    std::optional<Verdict> verdict;  // on a step that was asked for
+    std::optional<Remedies> remedies;
+    std::optional<InertiaTold> inertia;  // at the wanted step
+    double window_step = 0;              // s
+    taut::AlphaWindow window;
+    double setup = 0;     // s
+    double analysis = 0;  // s
+    Json page;            // what only the HTML page shows; null without --html
+};
+
+}  // namespace example

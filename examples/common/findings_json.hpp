@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+#include "findings.hpp"
+
+// What stability_report found, as JSON.
+
+namespace example {
+
+/// null: none is safe, or none is known to fail. "unbounded": every step is safe.
+inline Json certified_json(const taut::StepLimit<double>& limit) {
+    if (limit.unbounded()) return "unbounded";
+    return limit.certified > 0 ? Json(limit.certified) : Json(nullptr);
+}
+
+inline Json limit_json(const taut::StepLimit<double>& limit) {
+    return {{"certified", certified_json(limit)},
+            {"refuted", std::isfinite(limit.refuted) ? Json(limit.refuted) : Json(nullptr)},
+            {"cause", name(limit.cause)},
+            {"growth_rate", limit.growth_rate},
+            {"certified_up_to",
+             limit.certified_up_to > 0 ? Json(limit.certified_up_to) : Json(nullptr)},
+            {"admitted_growth", limit.admitted_growth},
+            {"estimate", limit.estimate > 0 ? Json(limit.estimate) : Json(nullptr)}};
+}
+
+template <class T>
+inline Json optional_json(const std::optional<T>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+/// null: not known, or no damping is.
+inline Json energy_json(const std::optional<EnergyProof>& energy) {
+    const bool known = energy && !energy->alpha.empty();
+    Json json = energy ? limit_json(energy->limit) : Json{{"certified", nullptr}};
+    json["alpha_lower"] = known ? Json(energy->alpha.lower) : Json(nullptr);
+    json["alpha_upper"] = known ? Json(energy->alpha.upper) : Json(nullptr);
+    return json;
+}
+
+/// null: no shares make the wanted step safe, or there are no springs.
+inline Json inertia_json(const std::optional<InertiaTold>& told) {
+    if (!told || !told->possible) return nullptr;
+    Json changes = Json::array();
+    for (const auto& mode : told->price.modes) changes.push_back(mode.change());
+    return {{"implicit_springs", told->implicit_springs},
+            {"touched_particles", told->touched},
+            {"added_inertia", told->price.added},
+            {"frequency_changes", changes}};
+}
+
+inline Json verdict_json(const Verdict& verdict) {
+    return {{"h", verdict.step},
+            {"standing", name(verdict.standing)},
+            {"growth", verdict.standing == Verdict::Standing::refuted ? Json(verdict.growth)
+                                                                      : Json(nullptr)}};
+}
+
+inline Json to_json(const Findings& found, double d0) {
+    const auto bracket = [](const taut::EigenvalueBracket& k) {
+        return Json{{"lower", k.lower}, {"upper", k.upper}};
+    };
+    const auto& window = found.window;
+    const bool empty = window.empty != taut::EmptyWindow::none;
+    Json json;
+    json["degrees_of_freedom"] = found.degrees_of_freedom;
+    json["particles"] = optional_json(found.particles);
+    json["springs"] = optional_json(found.springs);
+    json["zero_modes"] = optional_json(found.spectrum.zero_modes);
+    json["k_min"] = bracket(found.spectrum.k_min);
+    json["k_max"] = bracket(found.spectrum.k_max);
+    json["explicit_euler"] = limit_json(found.explicit_euler);
+    json["symplectic_euler"] = limit_json(found.symplectic_euler);
+    json["implicit_euler"] = limit_json(found.implicit_euler);
+    json["graph_inertia"] =
+        found.graph_inertia ? limit_json(*found.graph_inertia) : Json{{"certified", nullptr}};
+    json["any_pose"] = found.any_pose ? limit_json(*found.any_pose)
+                                      : Json{{"certified", nullptr}, {"refuted", nullptr}};
+    json["energy"] = energy_json(found.energy);
+    json["rayleigh_window"] = {{"method", name(Method::explicit_euler)},
+                               {"h", found.window_step},
+                               {"d0", d0},
+                               {"lower", empty ? Json(nullptr) : Json(window.lower)},
+                               {"upper", empty                         ? Json(nullptr)
+                                         : std::isfinite(window.upper) ? Json(window.upper)
+                                                                       : Json("unbounded")},
+                               {"empty", empty},
+                               {"includes_zero", window.includes_zero}};
+    if (found.verdict) json["step"] = verdict_json(*found.verdict);
+    for (const auto& spring : found.springs_to_blame) {
+        json["limiting_springs"].push_back(
+            {{"index", spring.index}, {"a", spring.a}, {"b", spring.b}, {"share", spring.share}});
+    }
+    for (const auto& particle : found.particles_to_blame) {
+        json["limiting_particles"].push_back(
+            {{"index", particle.index}, {"share", particle.share}});
+    }
+    if (found.proof) {
+        json["proof"] = {{"method", name(found.proof->method)},
+                         {"h", found.proof->step},
+                         {"proved", found.proof->proved}};
+    }
+    if (found.remedies) {
+        const auto& remedies = *found.remedies;
+        json["want_step"] = verdict_json(remedies.verdict);
+        json["want_step"]["stiffness_scale"] = remedies.stiffness_scale;
+        json["want_step"]["mass_scale"] = remedies.mass_scale;
+        json["want_step"]["added_mass"] = remedies.added_mass && remedies.added_mass->reached
+                                              ? Json(remedies.added_mass->total)
+                                              : Json(nullptr);
+        json["want_step"]["graph_inertia"] = inertia_json(found.inertia);
+    }
+    json["seconds"] = {{"setup", found.setup}, {"analysis", found.analysis}};
+    return json;
+}
+
+}  // namespace example

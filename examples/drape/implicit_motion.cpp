@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+
+// The steppers that solve linear systems, compiled beside those that do not.
+
+#include "any_solver.hpp"
+#include "stepping.hpp"
+
+namespace drape {
+
+Advance make_implicit_motion(const Options& options, const Scene& scene) {
+    const auto choose = [&](auto& stepper) {
+        stepper.configure(
+            [&](AnySolver& solver) { solver.choose(options.solver, options.tolerance); });
+    };
+    if (options.integrator == "projective") {
+        return plain_or_guarded<taut::ProjectiveDynamics<Cloth>>(options, scene, AsItIs());
+    }
+    if (options.integrator == "graph_inertia") {
+        return plain_or_guarded<taut::GraphInertia<Cloth>>(options, scene, AsItIs());
+    }
+    if (options.integrator == "bdf2") {
+        return plain_or_guarded<taut::Bdf2<Cloth, AnySolver>>(options, scene, choose);
+    }
+    using Implicit = taut::ImplicitEuler<Cloth, AnySolver>;
+    typename Implicit::Options newton;
+    if (options.integrator == "newton") newton.newton_iterations = 100;
+    return plain_or_guarded<Implicit>(options, scene, choose, newton);
+}
+
+}  // namespace drape

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "cloth.hpp"
+
+namespace drape {
+
+/// How a frame is cut: `steps` of h each, contacts resolved after each.
+struct Plan {
+    int frames = 0;
+    double frame = 0;       // s
+    taut::Index steps = 1;  // at least, with a guard
+    double h = 0;           // s, at most
+};
+
+/// A particle that falls at 3 m/s enters an obstacle by 12 mm within this time, s.
+constexpr double between_contacts = 1.0 / 240;
+
+/// Of the any-pose limit, which does not count the steps' own damping [T23].
+inline double share_of_limit(const Options& options) {
+    if (!options.damps()) return 0.95;
+    return taut::share_of_limit(taut::recipe.safety, options.own_damping());
+}
+
+/// The step that --step leaves open, s. Throws when there is none.
+inline double default_step(const Options& options, const Cloth& cloth, double frame) {
+    // One linearised solve is wrong about springs that turn taut in a long step.
+    const bool linearised = options.integrator == "implicit" || options.integrator == "bdf2";
+    const double usual = linearised ? 1.0 / 60 : frame;
+    const double contact = options.collide.empty() ? frame : between_contacts;
+    const double longest = std::min({frame, usual, contact});
+    if (options.integrator == "graph_inertia") {
+        taut::Goal goal;
+        goal.frame = longest;
+        const auto plans =
+            taut::feasible_plans(cloth, goal, {taut::Candidate{taut::Method::graph_inertia}});
+        if (!plans.empty()) return plans.back().candidate.h;
+    } else if (options.implicit()) {
+        return longest;
+    }
+    const auto limit = taut::any_pose_limit(cloth);
+    if (limit.unbounded()) return longest;
+    if (!(limit.certified > 0)) {
+        throw std::runtime_error("no step is certified: " + std::string(describe(limit.cause)));
+    }
+    return std::min(longest, share_of_limit(options) * limit.certified);
+}
+
+/// Throws naming the options that ask for too much.
+inline Plan make_plan(const Options& options, const Cloth& cloth) {
+    Plan plan;
+    const double frames = std::round(options.duration * options.frame_rate);
+    if (frames > 99999) {
+        throw std::runtime_error("--duration, --frame-rate: more than 99999 frames");
+    }
+    plan.frames = std::max(1, static_cast<int>(frames));
+    plan.frame = options.duration / plan.frames;
+    const double wanted =
+        options.step > 0 ? options.step : default_step(options, cloth, plan.frame);
+    if (!(plan.frame / wanted <= 1e9)) {
+        throw std::runtime_error("--step: more than 1e9 steps for each frame");
+    }
+    const auto steps = std::max<taut::Index>(
+        1, static_cast<taut::Index>(std::ceil(plan.frame / wanted * (1 - 1e-12))));
+    plan.steps = steps;
+    plan.h = plan.frame / static_cast<double>(steps);
+    return plan;
+}
+
+}  // namespace drape

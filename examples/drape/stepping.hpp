@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "motion.hpp"
+
+// Steppers and guards behind the one call of a motion.
+
+namespace drape {
+
+inline std::string name_particle(taut::Status status, taut::Index particle) {
+    std::string text = describe(status);
+    if (particle >= 0) text += ", particle " + std::to_string(particle);
+    return text;
+}
+
+template <class Report>
+std::string name_trouble(const Report& report) {
+    if (report) return {};
+    std::string text = name_particle(report.status, report.where);
+    if (report.spring >= 0) text += ", spring " + std::to_string(report.spring);
+    return text + "; given up after " + std::to_string(report.retries) + " retries";
+}
+
+/// What contacts change velocities through: a stepper with inertia of its own, or the cloth.
+template <class Stepper>
+auto& who_responds(Stepper& stepper, const Cloth& cloth) {
+    if constexpr (Stepper::method == taut::Method::graph_inertia) {
+        return stepper;
+    } else {
+        return cloth;
+    }
+}
+
+template <class Stepper>
+Advance by_stepper(const Scene& scene, std::shared_ptr<Stepper> stepper) {
+    const Plan plan = scene.plan;
+    const bool contacts = bool(scene.obstacle);
+    return [plan, contacts, stepper, &cloth = scene.cloth,
+            &obstacle = scene.obstacle](State& state) -> std::string {
+        const taut::Index at_once = contacts ? 1 : plan.steps;
+        for (taut::Index done = 0; done < plan.steps; done += at_once) {
+            const taut::Report report = stepper->step(state, plan.h, at_once);
+            if (!report) return name_particle(report.status, report.where);
+            obstacle.resolve(who_responds(*stepper, cloth), state);
+        }
+        return {};
+    };
+}
+
+template <class Guard>
+Advance by_guard(const Scene& scene, std::shared_ptr<Guard> guard) {
+    return [guard, frame = scene.plan.frame, &cloth = scene.cloth,
+            &obstacle = scene.obstacle](State& state) {
+        if (!obstacle) return name_trouble(guard->advance(state, frame));
+        return name_trouble(guard->advance(state, frame, [&](State& s) {
+            obstacle.resolve(who_responds(guard->stepper(), cloth), s);
+        }));
+    };
+}
+
+/// @param prepare    prepare(stepper), before the first step
+/// @param arguments  further ones of the stepper's constructor
+template <class Stepper, class Prepare, class... Arguments>
+Advance plain_or_guarded(const Options& chosen, const Scene& scene, const Prepare& prepare,
+                         const Arguments&... arguments) {
+    if (!chosen.guard) {
+        auto stepper = std::make_shared<Stepper>(scene.cloth, arguments...);
+        prepare(*stepper);
+        return by_stepper(scene, std::move(stepper));
+    }
+    using Guard = taut::Guarded<Stepper>;
+    typename Guard::Options options;
+    options.damping = chosen.own_damping();
+    options.max_step = scene.plan.h;
+    options.max_substeps = std::numeric_limits<taut::Index>::max() / 64;
+    auto guard = std::make_shared<Guard>(scene.cloth, options, arguments...);
+    prepare(guard->stepper());
+    return by_guard(scene, std::move(guard));
+}
+
+struct AsItIs {
+    template <class Stepper>
+    void operator()(Stepper&) const {}
+};
+
+}  // namespace drape
