@@ -187,4 +187,10 @@ export async function checkLarge(page, name) {
   expect(size === 50_000 && limits.certified > 0 && words.size > 0, `${name}: ${size} vertices have their limits after ${((Date.now() - begin) / 1000).toFixed(2)} s, certified ${limits.certified.toExponential(3)} s; meanwhile: ${[...words].join(", ")}`);
   const { share } = await paintedView(page);
   expect(share > 0.03, `${name}: it covers ${(100 * share).toFixed(0)} % of its picture`);
+  await page.locator("#stiffness").focus();
+  await page.keyboard.press("ArrowRight");
+  await page.waitForFunction(() => window.labState().stale || !window.labState().busy);
+  const between = await text(page, "#standing");
+  await page.waitForFunction(() => !window.labState().stale && !window.labState().busy);
+  expect(between === "not known" && /certified/.test(await text(page, "#standing")), `${name}: while a knob’s limits are being found the step is “${between}”, then “${await text(page, "#standing")}”`);
 }

@@ -30,6 +30,8 @@ let scene = null;
 let mesh = null;   // as it is drawn
 let found = null;  // of the analysis
 let plans = [];
+let stale = false;  // what was found is of other knobs or pins
+let staleTimer = 0;
 
 const limits = () => found.limits[settings.method];
 const growth = () => lab.growth(settings.method, found.mode, settings.h);
@@ -44,8 +46,14 @@ function readStep() {
   settings.h = between(STEP.least, STEP.most, byId("h").value / byId("h").max);
 }
 function writeStep() {
-  const where = standing(settings.h, limits());
   byId("h-value").textContent = seconds(settings.h, 3);
+  if (stale) {
+    byId("standing").textContent = "not known";
+    byId("standing").className = "open";
+    byId("sentence").textContent = "The limits for these knobs and pins are not known yet; those drawn are the ones from before.";
+    return;
+  }
+  const where = standing(settings.h, limits());
   byId("standing").textContent = STANDING[where];
   byId("standing").className = where;
   const window = lab.window(settings.method, settings.h, settings.drag, found.mode);
@@ -92,18 +100,29 @@ const task = () => ({ scene, pins: lab.pinned(), knobs: knobs.values() });
 async function analyse() {
   const mine = ++asked;
   clearTimeout(adviceTimer);
+  clearTimeout(staleTimer);
+  const doubt = () => {
+    stale = true;
+    writeStep();
+  };
+  staleTimer = setTimeout(doubt, 250);  // at once, it would flicker with every move of a knob
   bar.working(true);
   try {
     const result = await analyst.analyse(task(), (done, words) => bar.progress(done, words));
     if (mine === asked && result) take(result);
   } catch (error) {
-    if (mine === asked) bar.complain(error.cancelled ? "Cancelled: the limits are those from before." : error.message);
+    if (mine === asked) {
+      bar.complain(error.cancelled ? "Cancelled: the limits are not known." : error.message);
+      doubt();
+    }
   }
   if (mine === asked) bar.working(false);
 }
 
 function take(result) {
   found = result;
+  clearTimeout(staleTimer);
+  stale = false;
   setScale(found.limits[SYMPLECTIC]);
   setStep(settings.h);
   writeLimits();
@@ -163,7 +182,10 @@ async function open(next) {
     take(result);
     return true;
   } catch (error) {
-    if (mine === asked) bar.complain(error.cancelled ? "Cancelled: the scene is the one from before." : error.message);
+    if (mine === asked) {
+      bar.complain(error.cancelled ? "Cancelled: the scene is the one from before." : error.message);
+      if (scene) analyse();  // its knobs may have moved since it was
+    }
     return false;
   } finally {
     if (mine === asked) bar.working(false);
@@ -266,7 +288,7 @@ requestAnimationFrame(tick);
 /// What the page's test reads.
 window.labState = () => ({
   blown: run.blown, steps: run.steps, time: lab.time(), ringing: run.ringing, reach: run.reach(), cost: run.cost,
-  settings: { ...settings }, limits: limits(), slider: { ...STEP }, plans, advice: chosen(plans),
+  settings: { ...settings }, limits: limits(), stale, slider: { ...STEP }, plans, advice: chosen(plans),
   scene: scene.name, busy: bar.busy, size: lab.size(), preset: knobs.preset, ...lab.shape(), pinned: lab.pinned(),
   camera: view.camera.position.toArray(), drawn: view.farthest(), pair: { taken: pair.taken, reach: pair.reach, h: pair.h, kick: found.mode.size },
 });
