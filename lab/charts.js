@@ -7,6 +7,12 @@
 /* global decades, drawing, hatching, label, line, logarithmic, metres, path, seconds, svg, axes */
 
 export const STEP = { least: 2e-5, most: 5e-2 };  // s, the slider's ends
+
+/// Ends between which the limits of a scene can be seen.
+export function setScale({ anyPose, certified }) {
+  const lowest = Math.min(...[anyPose, certified].filter((h) => h > 0 && h < Infinity), 1e-3);
+  STEP.least = Math.min(2e-5, 2 * 10 ** Math.floor(Math.log10(lowest / 10)));
+}
 const FRAME = 1 / 60;
 const THUMB = 8;  // px, half the thumb's width: how far its middle stays from the ends
 
@@ -18,11 +24,11 @@ export function standing(h, limits) {
 }
 
 export function drawBands(bands, scale, limits) {
-  const height = 62;
+  const height = 54;
   const { root, width } = drawing(bands, height, "Certified, undecided and refuted steps");
   const x = logarithmic(STEP.least, STEP.most, THUMB, width - THUMB);
   const at = (h) => (h <= STEP.least ? 0 : h >= STEP.most ? width : x(h));
-  const top = 17, tall = 34;
+  const top = 15, tall = 32;
   const hatch = hatching(root);
   const a = at(Math.min(limits.anyPose, limits.certified));
   const b = at(limits.certified);
@@ -33,7 +39,7 @@ export function drawBands(bands, scale, limits) {
   rect(a, b, { class: "posed" });
   rect(b, c, { fill: hatch });
   rect(c, width, { class: "refuted" });
-  const middle = top + 21.5;
+  const middle = top + 20.5;
   if (a >= width) label(root, 14, middle, "every step certified", "start", "in");
   else if (a > 110) label(root, a - 36, middle, seconds(limits.anyPose, 3), "end", "in");
   if (c <= 0) label(root, 14, middle, "every step refuted", "start", "in");
@@ -48,13 +54,13 @@ export function drawBands(bands, scale, limits) {
   label(root, x(FRAME), 6, "a frame, 1/60\u00a0s", "middle");
 }
 
-const LOWEST = 1e-9;  // m, the chart's floor
-
 /// @param samples  {ringing, predicted (NaN: nothing), state} for each frame shown, the newest last
 export function drawRinging(box, samples, most, edge) {
   const { root, width, height } = drawing(box, 250, "How far particles swing from step to step, over the last frames");
   const frame = { left: 64, right: width - 14, top: 32, bottom: height - 28 };
-  const y = logarithmic(LOWEST, 1, frame.bottom, frame.top);
+  const lowest = 10 ** Math.floor(Math.log10(edge) - 7);
+  const highest = 10 ** Math.ceil(Math.log10(edge) + 1);
+  const y = logarithmic(lowest, highest, frame.bottom, frame.top);
   const x = (i) => frame.right - ((samples.length - 1 - i) / (most - 1)) * (frame.right - frame.left);
   axes(root, frame,
     { scale: (v) => v, ticks: [], text: String, title: "" },
@@ -62,8 +68,8 @@ export function drawRinging(box, samples, most, edge) {
   label(root, frame.right, frame.bottom + 18, "now", "end");
   label(root, frame.left, frame.bottom + 18, `${most} frames ago`);
   line(root, frame.left, y(edge), frame.right, y(edge), "mark dash");
-  label(root, frame.left + 8, y(edge) - 6, `spacing of the particles, ${metres(edge, 2)}`);
-  const height_ = (v) => y(Math.min(1, Math.max(LOWEST, v)));
+  label(root, frame.left + 8, y(edge) - 6, `an edge, ${metres(edge, 2)}`);
+  const height_ = (v) => y(Math.min(highest, Math.max(lowest, v)));
   for (let start = 0; start + 1 < samples.length;) {  // one line for each stretch of one standing
     let end = start + 1;
     while (end + 1 < samples.length && samples[end].state === samples[start].state) ++end;
@@ -72,7 +78,7 @@ export function drawRinging(box, samples, most, edge) {
     svg("path", { d: path(points), class: bad ? "line-refuted" : "line-certified", "stroke-linejoin": "round" }, root);
     start = end;
   }
-  const predicted = samples.map((s, i) => [x(i), s.predicted]).filter(([, v]) => v > LOWEST && v < 1).map(([i, v]) => [i, y(v)]);
+  const predicted = samples.map((s, i) => [x(i), s.predicted]).filter(([, v]) => v > lowest && v < highest).map(([i, v]) => [i, y(v)]);
   if (predicted.length > 1) {
     svg("path", { d: path(predicted), class: "mark dash", fill: "none" }, root);
     const [i, v] = predicted[Math.floor(predicted.length / 2)];

@@ -1,24 +1,27 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
-// node check_same.mjs lab.wasm positions
-// The WebAssembly takes the same hundred steps as the native program `positions`, by each method,
-// and must end within 1e-6 m of it.
+// node check_same.mjs lab.wasm native mesh.obj
+// The WebAssembly takes the same hundred steps as the native program, by each method, and must end
+// within 1e-6 m of it; and it finds the same limits of a mesh, within a millionth of each.
 
 import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
-import { METHODS, loadLab } from "./engine.js";
+import { ANALYSED, METHODS, loadLab } from "./engine.js";
 
-const [wasm, program] = process.argv.slice(2);
-const native = execFileSync(program, { encoding: "utf8" }).trim().split("\n").map(Number);
+const [wasm, program, mesh] = process.argv.slice(2);
+const native = (...words) => execFileSync(program, words, { encoding: "utf8" }).trim().split("\n").map((v) => (v === "inf" ? Infinity : Number(v)));
 const lab = await loadLab(readFileSync(wasm));
+
+const positions = native();
 let worst = 0;
 METHODS.forEach((name, method) => {
-  lab.start(16, 1000, 0.3, 2e-4, 0.5);
+  lab.open({ side: 16 });
+  lab.knobs({ stiffness: 1000, mass: 0.3, alpha: 2e-4, drag: 0.5 });
   if (lab.step(method, 2e-4, 100) !== 0) throw new Error(`${name}: a step failed`);
   const x = lab.positions();
-  if (native.length !== METHODS.length * x.length) throw new Error(`${native.length} numbers of the native program, ${x.length} of a method here`);
-  const theirs = native.slice(method * x.length, (method + 1) * x.length);
+  if (positions.length !== METHODS.length * x.length) throw new Error(`${positions.length} numbers of the native program, ${x.length} of a method here`);
+  const theirs = positions.slice(method * x.length, (method + 1) * x.length);
   const off = Math.max(...theirs.map((v, i) => Math.abs(v - x[i])));
   const moved = Math.max(...theirs.map((v, i) => (i % 3 === 2 ? Math.abs(v) : 0)));
   console.log(`${name.padEnd(17)} fallen ${moved.toExponential(2)} m, native and WebAssembly differ by ${off.toExponential(2)} m`);
@@ -26,3 +29,16 @@ METHODS.forEach((name, method) => {
   worst = Math.max(worst, Number.isFinite(off) ? off : Infinity);
 });
 if (!(worst < 1e-6)) throw new Error(`differs by ${worst} m; at most 1e-6 is allowed`);
+
+lab.open({ text: readFileSync(mesh), scale: 1, up: 1 });
+lab.knobs({ stiffness: 1000, mass: 0.3, alpha: 1e-4, drag: 0.4 });
+for (const [, act] of lab.parts) act();
+const { limits, mode } = lab.found();
+const ours = [...ANALYSED.flatMap((method) => [limits[method].anyPose, limits[method].certified, limits[method].refuted]), mode.k, mode.d, mode.kMax];
+const theirs = native(mesh);
+if (ours.length !== theirs.length) throw new Error(`${theirs.length} numbers of the native program, ${ours.length} here`);
+const apart = (a, b) => (a === b ? 0 : Math.abs(a - b) / Math.abs(b));
+const most = Math.max(...ours.map((v, i) => apart(v, theirs[i])));
+console.log(`${mesh}: certified ${theirs[4].toExponential(4)} s, refuted ${theirs[5].toExponential(4)} s; native and WebAssembly differ by ${most.toExponential(1)} of each limit`);
+if (!(theirs[3] > 0 && theirs[4] > theirs[3] && theirs[5] > theirs[4])) throw new Error("the limits of symplectic Euler are not in order");
+if (!(most < 1e-6)) throw new Error(`limits differ by ${most} of themselves; at most 1e-6 is allowed`);

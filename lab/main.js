@@ -1,273 +1,296 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
-import { STEP, drawBands, drawRinging, standing } from "./charts.js";
-import { loadLab } from "./engine.js";
-import { ClothView } from "./view.js";
+import { chosen, frameCost, writeAdvice } from "./advice.js";
+import { Analyst } from "./analyst.js";
+import { STEP, drawBands, drawRinging, setScale, standing } from "./charts.js";
+import { SYMPLECTIC, loadLab } from "./engine.js";
+import { addressOf, bytesOf } from "./files.js";
+import { Knobs, valuesOf } from "./knobs.js";
+import { Pair } from "./pair.js";
+import { Run, SAMPLES } from "./run.js";
+import { SceneBar } from "./scene_bar.js";
+import { original, shipped } from "./scenes.js";
+import { framing, View } from "./view.js";
+import { STANDING, blamedWords, blownWords, paceWords, sceneWords, sentence } from "./words.js";
 
-/* global seconds, metres, withPrefix, significant */
-
-const SIDE = 24;
-const EDGE = 1 / (SIDE - 1);  // m, between neighbours
-const FRAME = 1 / 60;         // s
-const BUDGET = 11;            // ms of stepping a frame, so that the page stays in hand
-const SLOW = 1.12;            // an unstable vibration grows by at most this in a frame
-const SAMPLES = 300;          // frames in the chart
-const NAMES = ["Explicit Euler", "Symplectic Euler", "Velocity Verlet", "Implicit Euler", "BDF2", "Graph inertia"];
-const GRAVITY = 9.81;         // m/s²
-const EXPLICIT = 0, IMPLICIT = 3, INERTIA = 5;
+/* global seconds */
 
 const byId = (id) => document.getElementById(id);
-const whole = (n) => n.toLocaleString("en-US");
 const between = (low, high, share) => low * (high / low) ** share;
 const share = (low, high, value) => Math.log(value / low) / Math.log(high / low);
 
-const lab = await loadLab(await (await fetch("lab.wasm")).arrayBuffer());
-const view = new ClothView(byId("view"), SIDE);
+const module = await WebAssembly.compile(await bytesOf("lab.wasm"));
+const lab = await loadLab(module);
+const analyst = new Analyst(await addressOf("worker.js"), module);
+const view = new View(byId("view"), 1);
+const pair = new Pair(lab);
+const settings = { method: SYMPLECTIC, h: STEP.least };
+let scene = null;
+let mesh = null;   // as it is drawn
+let found = null;  // of the analysis
+let plans = [];
+let stale = false;  // what was found is of other knobs or pins
+let staleTimer = 0;
 
-// ---- what the reader sets ----
+const limits = () => found.limits[settings.method];
+const growth = () => lab.growth(settings.method, found.mode, settings.h);
 
-const KNOBS = {
-  stiffness: { of: (v) => between(100, 10000, v), at: (v) => share(100, 10000, v), first: 1000, text: (v) => `${significant(v, 3)}\u00a0N/m` },
-  mass: { of: (v) => between(0.03, 3, v), at: (v) => share(0.03, 3, v), first: 0.3, text: (v) => `${withPrefix(1000 * v, "g", 3)}` },
-  alpha: { of: (v) => (v === 0 ? 0 : between(1e-6, 1e-2, v)), at: (v) => share(1e-6, 1e-2, v), first: 1e-4, text: (v) => (v === 0 ? "none" : seconds(v, 3)) },
-  drag: { of: (v) => 3 * v, at: (v) => v / 3, first: 0.4, text: (v) => (v === 0 ? "none" : `${significant(v, 2)}\u00a0/s`) },
-};
-const settings = { method: 1, h: 0 };
-let limits = null;
+// ---- the step ----
 
-function readKnobs() {
-  for (const [id, knob] of Object.entries(KNOBS)) {
-    const input = byId(id);
-    settings[id] = knob.of(input.value / input.max);
-    document.querySelector(`output[for="${id}"]`).textContent = knob.text(settings[id]);
-  }
-}
 function setStep(h) {
-  const input = byId("h");
-  input.value = Math.round(input.max * share(STEP.least, STEP.most, h));
+  byId("h").value = Math.round(byId("h").max * share(STEP.least, STEP.most, h));
   readStep();
 }
 function readStep() {
   settings.h = between(STEP.least, STEP.most, byId("h").value / byId("h").max);
 }
-
-// ---- words ----
-
-function sentence() {
-  const { method, h } = settings;
-  const where = standing(h, limits);
-  const grows = lab.growth(method, h);
-  if (method === EXPLICIT && where !== "certified" && where !== "posed") {
-    const { alphaLower, alphaUpper } = limits;
-    if (settings.alpha === 0 && settings.drag === 0) return `Explicit Euler: ${limits.cause}.`;
-    if (!(alphaUpper > 0)) return `At this step no damping α makes explicit Euler stable: take a smaller step, or symplectic or implicit Euler.`;
-    return `Explicit Euler needs damping: at this step, α between ${seconds(Math.max(0, alphaLower), 3)} and ${seconds(alphaUpper, 3)} is proved at the starting pose; it is ${settings.alpha > 0 ? seconds(settings.alpha, 3) : "none"}.`;
-  }
-  if (method === IMPLICIT) return `Implicit Euler’s linearised step is certified at every h, at any pose; what a large step costs is motion, which it damps. A frame in one step is 16.7\u00a0ms.`;
-  if (method === INERTIA) return `Graph inertia is certified at every h, linearised, at any pose: springs that would not bear the step become implicit. What a large step costs is inertia, which slows folds and rotation. A frame in one step is 16.7\u00a0ms.`;
-  if (where === "certified") return `Proved at any pose, linearised: about no pose that the cloth takes does a small vibration grow. Its energy may rise all the same; Taut’s recipe, a share of this limit with damping, keeps it down: measured, not proved. A frame of 1/60\u00a0s is ${whole(Math.ceil(FRAME / h))} such steps.`;
-  if (where === "posed") return method === EXPLICIT ? "Proved at the pose in which the cloth starts, for small motions. Explicit Euler has no limit that holds at every pose." : `Proved at the pose in which the cloth starts, for small motions, up to ${seconds(limits.certified, 3)}; not proved for all poses to come.`;
-  if (where === "open") return `Between what is proved, up to ${seconds(limits.certified, 3)}, and what is refuted, from ${seconds(limits.refuted, 3)} on.`;
-  return `${significant(h / limits.refuted, 3)} times the refuted step: the limiting vibration grows ${significant(grows, 4)}-fold with every step.`;
-}
-const STANDING = { certified: "certified at any pose", posed: "certified at the starting pose", open: "not decided", refuted: "refuted" };
-
 function writeStep() {
-  const where = standing(settings.h, limits);
   byId("h-value").textContent = seconds(settings.h, 3);
+  if (stale) {
+    byId("standing").textContent = "not known";
+    byId("standing").className = "open";
+    byId("sentence").textContent = "The limits for these knobs and pins are not known yet; those drawn are the ones from before.";
+    return;
+  }
+  const where = standing(settings.h, limits());
   byId("standing").textContent = STANDING[where];
   byId("standing").className = where;
-  byId("sentence").textContent = sentence();
+  const window = lab.window(settings.method, settings.h, settings.drag, found.mode);
+  byId("sentence").textContent = sentence(settings, limits(), window, growth());
 }
-
-// ---- the limits, and what is recommended ----
-
-function analyse() {
-  limits = lab.analyse(settings.method, settings.h);
-  drawBands(byId("bands"), byId("scale"), limits);
+function writeLimits() {
+  drawBands(byId("bands"), byId("scale"), limits());
   writeStep();
-  forgetGrowth();
 }
 
-let advice = null;
-let adviceTimer = 0;
-function planName(plan) {
-  return NAMES[plan.method] + (plan.method === IMPLICIT ? (plan.gradients ? ", conjugate gradients" : ", sparse Cholesky") : "");
-}
-function recommend() {
-  const { plans } = lab.recommend(0.02);
-  const [best, second] = plans;
-  advice = best;
-  const steps = (plan) => (plan.substeps === 1 ? "one step a frame" : `${whole(plan.substeps)} steps a frame`);
-  byId("pick").textContent = `${NAMES[best.method]}, ${steps(best)}`;
-  const reasons = { [IMPLICIT]: "Every step is stable, so it takes the whole frame at once", [INERTIA]: "It makes only those springs implicit that hold the step down" };
-  byId("why").textContent = (reasons[best.method] || "Its step by the recipe is large enough") +
-    `, and that is the cheapest: ${NAMES[second.method] === NAMES[best.method] ? planName(second) : NAMES[second.method]} would cost ${significant(second.cost / best.cost, 2)} times as much. Measured in this browser.`;
-  byId("bars").replaceChildren(...plans.flatMap((plan) => {
-    const row = document.createElement("div");
-    row.append(...[planName(plan), `${significant(1000 * plan.cost, 2)}\u00a0ms a frame`].map((text) => Object.assign(document.createElement("span"), { textContent: text })));
-    const bar = document.createElement("i");
-    bar.style.width = `${(100 * plan.cost) / plans[plans.length - 1].cost}%`;
-    if (plan === best) bar.className = "best";
-    return [row, bar];
-  }));
-}
-function recommendSoon() {
-  clearTimeout(adviceTimer);
-  adviceTimer = setTimeout(recommend, 500);
-}
+// ---- motion ----
 
-// ---- running ----
-
-let blown = false;
-let owed = 0;      // s of simulated time that the clock is ahead
-let steps = 0;     // since the last reset
-let changedAt = 0;  // steps when something was last set
-let beyond = 0;    // frames in a row in which the swing was no motion of a cloth
-let samples = [];
-let anchor = null;  // where the growth that is predicted begins: {ringing, step}
-let rising = 0;
-let grown = false;  // past small amplitudes, for which alone a multiplier speaks
-let last = performance.now();
-let pace = 1;
-let frames = 0;
-
-function forgetGrowth() {
-  changedAt = steps;
-  beyond = 0;
-  anchor = null;
-  rising = 0;
-  grown = false;
-  for (const sample of samples) sample.predicted = NaN;
+const run = new Run({
+  lab, settings, limits, growth,
+  blownUp(steps, swing) {
+    byId("reason").textContent = blownWords(settings, limits(), steps, swing);
+    byId("verdict").hidden = false;
+    byId("pace").textContent = "stopped";
+  },
+});
+function startAgain() {
+  run.reset();
+  byId("verdict").hidden = true;
+  byId("growth-words").textContent = "";
+}
+function forget() {
+  run.forget();
   byId("growth-words").textContent = "";
 }
 
-function reset() {
-  lab.start(SIDE, settings.stiffness, settings.mass, settings.alpha, settings.drag);
-  blown = false;
-  owed = steps = beyond = 0;
-  samples = [];
-  byId("verdict").hidden = true;
-  forgetGrowth();
-}
+// ---- analysis ----
 
-function blowUp() {
-  blown = true;
-  const { method, h } = settings;
-  const ratio = limits.refuted < Infinity && limits.refuted > 0 ? `, ${significant(h / limits.refuted, 3)} times the refuted step` : "";
-  const ringing = samples.length ? samples[samples.length - 1].ringing : Infinity;
-  const swing = ringing < 1 ? metres(ringing, 2) : "metres";
-  const cure = limits.anyPose > 0 ? `at any pose, linearised, up to ${seconds(limits.anyPose, 3)}` : limits.certified > 0 ? `at the starting pose, up to ${seconds(limits.certified, 3)}` : "no step, with this damping";
-  byId("reason").textContent = `${NAMES[method]} at h = ${seconds(h, 3)}${ratio}: after ${whole(steps - changedAt)} steps particles swing by ${swing} from one step to the next. Certified: ${cure}; with implicit Euler, linearised, every step.`;
-  byId("verdict").hidden = false;
-}
+const knobs = new Knobs(() => {
+  Object.assign(settings, knobs.values());
+  lab.knobs(settings);
+  forget();
+  analyse();
+});
+let asked = 0;
+let adviceTimer = 0;
+const task = () => ({ scene, pins: lab.pinned(), knobs: knobs.values() });
 
-/// Steps what the clock asks for, or as much as fits: an instability is slowed down to be seen.
-function advance(elapsed) {
-  const { method, h } = settings;
-  const growth = lab.growth(method, h);
-  const most = growth > 1.0001 ? Math.max(1, Math.floor(Math.log(SLOW) / Math.log(growth))) : Infinity;
-  owed = Math.min(owed + elapsed, Math.max(2 * FRAME, h));
-  let wanted = Math.floor(owed / h);
-  const slowed = wanted > most;
-  wanted = Math.min(wanted, most);
-  const begin = performance.now();
-  let taken = 0;
-  let chunk = Math.min(wanted, 8);
-  while (taken < wanted && !blown) {
-    if (lab.step(method, h, chunk) !== 0) blowUp();
-    taken += chunk;
-    steps += chunk;
-    if (performance.now() - begin > BUDGET) break;
-    chunk = Math.min(wanted - taken, 2 * chunk);
-  }
-  if (taken < Math.floor(owed / h)) owed = 0;
-  else owed -= taken * h;
-  pace += 0.1 * ((taken * h) / Math.max(elapsed, 1e-3) - pace);
-  byId("pace").textContent = slowed ? `slow motion: ${taken === 1 ? "one step" : `${taken} steps`} a frame` : pace < 0.9 ? `${significant(pace, 2)} × real time: as fast as this machine steps` : "real time";
-  return taken;
-}
-
-function observe(taken) {
-  if (taken === 0) return;
-  const { method, h } = settings;
-  const ringing = lab.ringing().reduce((a, b) => Math.max(a, b), 0);
-  const growth = lab.growth(method, h);
-  const before = samples[samples.length - 1];
-  const sample = { ringing, predicted: NaN, steps, state: standing(h, limits) };
-  samples.push(sample);
-  if (samples.length > SAMPLES) samples.shift();
-
-  const foreseen = growth ** taken;
-  grown = grown || ringing > EDGE / 30;
-  if (growth > 1.0005 && before) {
-    rising = ringing > before.ringing * Math.sqrt(foreseen) && !grown ? rising + 1 : 0;
-    if (!anchor && rising >= 4) anchor = { ringing, steps };
-    if (anchor) sample.predicted = anchor.ringing * growth ** (steps - anchor.steps);
-    if (anchor && !grown && steps > anchor.steps) {
-      const measured = (ringing / anchor.ringing) ** (1 / (steps - anchor.steps));
-      byId("growth-words").textContent = `Every step multiplies it by ${measured.toFixed(3)}; the limiting vibration’s multiplier says ${growth.toFixed(3)}.`;
+/// Limits of the scene as it is set now, from the worker; the last one asked for counts.
+async function analyse() {
+  const mine = ++asked;
+  clearTimeout(adviceTimer);
+  clearTimeout(staleTimer);
+  const doubt = () => {
+    stale = true;
+    writeStep();
+  };
+  staleTimer = setTimeout(doubt, 250);  // at once, it would flicker with every move of a knob
+  bar.working(true);
+  try {
+    const result = await analyst.analyse(task(), (done, words) => bar.progress(done, words));
+    if (mine === asked && result) take(result);
+  } catch (error) {
+    if (mine === asked) {
+      bar.complain(error.cancelled ? "Cancelled: the limits are not known." : error.message);
+      doubt();
     }
   }
-  const x = lab.drawnPositions();
-  const far = x.reduce((a, b) => Math.max(a, Math.abs(b)), 0);
-  // Slow motion swings by h²g/4 and a little more; springs that go taut by more, for a moment.
-  beyond = ringing > EDGE / 20 + 2 * GRAVITY * h * h ? beyond + 1 : 0;
-  if (!blown && (beyond > 40 || far > 3)) blowUp();
+  if (mine === asked) bar.working(false);
 }
 
-function tick(now) {
-  const elapsed = Math.min(0.1, (now - last) / 1000);
-  last = now;
-  if (!blown) observe(advance(elapsed));
-  view.draw(lab.drawnPositions(), lab.ringing(), EDGE);
-  if (++frames % 3 === 0) drawRinging(byId("chart"), samples, SAMPLES, EDGE);
-  requestAnimationFrame(tick);
+function take(result) {
+  found = result;
+  clearTimeout(staleTimer);
+  stale = false;
+  setScale(found.limits[SYMPLECTIC]);
+  setStep(settings.h);
+  writeLimits();
+  forget();
+  const pinned = lab.pinned();
+  view.each((model) => {
+    model.setPins(pinned, mesh.positions);
+    model.setBlamed(found.blamed, found.shares);
+  });
+  pair.show(mesh, found, pinned);
+  byId("blamed").textContent = blamedWords(found.shares, lab.springs());
+  adviceTimer = setTimeout(advise, 500);
 }
+
+async function advise() {
+  const mine = asked;
+  byId("pick").textContent = "measuring …";
+  const result = await analyst.advise(task()).catch((error) => {
+    if (mine === asked) byId("pick").textContent = `not measured: ${error.message}`;
+  });
+  if (mine !== asked || !result) return;
+  plans = result;
+  writeAdvice(plans);
+}
+
+// ---- scenes ----
+
+/// Shows a scene once the worker has read and analysed it; until then, and if it cannot, the one
+/// before stays. @returns whether it is shown
+async function open(next) {
+  const mine = ++asked;
+  clearTimeout(adviceTimer);
+  bar.working(true);
+  bar.complain("");
+  try {
+    const progress = (done, words) => bar.progress(done, words);
+    const read = await analyst.open(next, progress);
+    if (mine !== asked || !read) return false;
+    const values = valuesOf(next.preset, read.shape);
+    const result = await analyst.analyse({ scene: next, pins: read.pinned, knobs: values }, progress);
+    if (mine !== asked || !result) return false;
+    lab.open(next);
+    lab.pinOnly(read.pinned);
+    scene = next;
+    bar.show(scene, read.words);
+    knobs.take(scene.preset, read.shape);
+    Object.assign(settings, knobs.values());
+    lab.knobs(settings);
+    layOut();
+    view.lookAgain();
+    byId("verdict").hidden = true;
+    found = result;
+    plans = [];  // of another scene
+    byId("use").disabled = true;
+    setScale(found.limits[SYMPLECTIC]);
+    settings.h = 0.9 * usable();
+    take(result);
+    return true;
+  } catch (error) {
+    if (mine === asked) {
+      bar.complain(error.cancelled ? "Cancelled: the scene is the one from before." : error.message);
+      if (scene) analyse();  // its knobs may have moved since it was
+    }
+    return false;
+  } finally {
+    if (mine === asked) bar.working(false);
+  }
+}
+/// A step to begin with: of the method, or else of symplectic Euler.
+function usable() {
+  const of = ({ anyPose, certified }) => [anyPose, certified].find((h) => h > 0 && h < Infinity);
+  return of(limits()) ?? of(found.limits[SYMPLECTIC]) ?? 1e-3;
+}
+
+/// The scene as it was laid out, drawn anew with the pins that it has.
+function layOut() {
+  const shape = lab.shape();
+  startAgain();
+  const positions = lab.drawnPositions().slice();
+  mesh = { positions, triangles: lab.triangles(), threads: lab.threads(), edge: shape.edge, ...framing(shape, lab.pinned(), positions) };
+  view.show(mesh);
+  view.each((model) => model.setPins(lab.pinned(), positions));
+  byId("scene").textContent = sceneWords(scene.name, lab.size(), lab.springs(), shape);
+}
+function pinsChanged() {
+  startAgain();
+  byId("scene").textContent = sceneWords(scene.name, lab.size(), lab.springs(), lab.shape());
+  view.each((model) => model.setPins(lab.pinned(), mesh.positions));
+  analyse();
+}
+
+const bar = new SceneBar({
+  open,
+  cancel: () => analyst.cancel(),
+  pinTop: () => (lab.pinTop(), pinsChanged()),
+  unpin: () => (lab.unpinAll(), pinsChanged()),
+});
+view.onClick((x, y) => {
+  const particle = view.particleAt(x, y);
+  if (particle < 0) return;
+  lab.pin(particle, lab.pinned().includes(particle) ? 0 : 1);
+  pinsChanged();
+});
 
 // ---- events ----
 
-function changed() {
-  readKnobs();
-  lab.change(settings.stiffness, settings.mass, settings.alpha, settings.drag);
-  analyse();
-  recommendSoon();
+function choose(method) {
+  settings.method = method;
+  document.querySelector(`input[name="method"][value="${method}"]`).checked = true;
 }
-for (const id of Object.keys(KNOBS)) byId(id).addEventListener("input", changed);
 byId("h").addEventListener("input", () => {
   readStep();
-  if (settings.method === EXPLICIT) analyse();  // the window of α is that of h
   writeStep();
-  forgetGrowth();
+  forget();
 });
-byId("methods").addEventListener("change", (event) => {
-  settings.method = Number(event.target.value);
-  analyse();
+byId("methods").addEventListener("change", ({ target }) => {
+  choose(Number(target.value));
+  writeLimits();
+  forget();
 });
-byId("reset").addEventListener("click", reset);
-byId("again").addEventListener("click", reset);
+byId("again").addEventListener("click", startAgain);
+byId("start-again").addEventListener("click", startAgain);
 byId("use").addEventListener("click", () => {
-  if (!advice) return;
-  document.querySelector(`input[name="method"][value="${advice.method}"]`).checked = true;
-  settings.method = advice.method;
-  setStep(advice.h);
-  analyse();
+  const { best } = chosen(plans);
+  choose(best.method);
+  setStep(best.h);
+  writeLimits();
+  forget();
 });
-addEventListener("resize", () => drawBands(byId("bands"), byId("scale"), limits));
+byId("reset").addEventListener("click", async () => {
+  choose(SYMPLECTIC);
+  byId("blame").checked = true;
+  if (await open(original(scene))) byId("reset-words").textContent = "Knobs, integrator, step, pins and camera are as at the start.";
+});
+addEventListener("input", () => (byId("reset-words").textContent = ""));
+addEventListener("resize", () => found && drawBands(byId("bands"), byId("scale"), limits()));
 
-for (const [id, knob] of Object.entries(KNOBS)) byId(id).value = Math.round(byId(id).max * knob.at(knob.first));
-readKnobs();
-reset();
-limits = lab.analyse(settings.method, STEP.least);
-setStep(0.9 * limits.anyPose);
-analyse();
-byId("scene").textContent = `A cloth of ${whole(lab.size())} particles and ${whole(lab.springs())} springs, 1\u00a0m wide, hung by two corners. Drag it to look around it, drag h past the limit to break it.`;
-recommendSoon();
+let last = performance.now();
+let frames = 0;
+function tick(now) {
+  const elapsed = Math.min(0.1, (now - last) / 1000);
+  last = now;
+  if (!run.blown) {
+    const { taken, slowed } = run.advance(elapsed);
+    const cost = frameCost(plans, settings, run.cost);
+    if (!run.blown) byId("pace").textContent = paceWords({ slowed, taken, pace: run.pace, cost });
+    if (run.measured) byId("growth-words").textContent = `Every step multiplies it by ${run.measured.toFixed(3)}; the limiting vibration’s multiplier says ${growth().toFixed(3)}.`;
+  }
+  const swings = run.ringing > mesh.edge / 300;  // its colours say more than the springs at rest
+  view.each((model) => {
+    model.showBlamed(byId("blame").checked && !swings);
+    model.draw(lab.drawnPositions(), lab.ringing(), mesh.edge);
+  });
+  view.render();
+  pair.tick();
+  if (++frames % 3 === 0) drawRinging(byId("chart"), run.samples, SAMPLES, mesh.edge);
+  requestAnimationFrame(tick);
+}
+
+await open(await shipped("cloth"));
 requestAnimationFrame(tick);
 
 /// What the page's test reads.
-window.labState = () => {
-  const x = Array.from(lab.positions());
-  return { blown, steps, time: lab.time(), settings: { ...settings }, limits, ringing: samples.length ? samples[samples.length - 1].ringing : 0, far: Math.max(...x.map(Math.abs)), x };
-};
+window.labState = () => ({
+  blown: run.blown, steps: run.steps, time: lab.time(), ringing: run.ringing, reach: run.reach(), cost: run.cost,
+  settings: { ...settings }, limits: limits(), stale, slider: { ...STEP }, plans, advice: chosen(plans),
+  scene: scene.name, busy: bar.busy, size: lab.size(), preset: knobs.preset, ...lab.shape(), pinned: lab.pinned(),
+  camera: view.camera.position.toArray(), drawn: view.farthest(), pair: { taken: pair.taken, reach: pair.reach, h: pair.h, kick: found.mode.size },
+});
+window.labView = view;
+

@@ -1,108 +1,89 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
-// The cloth on a canvas, by three.js.
+// A canvas with one picture of a mesh, or two beside each other under one camera.
 
 import * as THREE from "three";
-import { OrbitControls } from "./three/OrbitControls.js";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { MeshModel } from "./mesh_model.js";
 
-const RAMP = {  // as in the pages of stability_report
-  light: [[0, 214, 217, 219], [0.2, 168, 201, 205], [0.42, 96, 158, 166], [0.6, 226, 184, 84], [0.78, 210, 92, 48], [1, 128, 26, 24]],
-  dark: [[0, 122, 129, 137], [0.2, 102, 142, 150], [0.42, 86, 168, 170], [0.6, 232, 190, 94], [0.78, 226, 104, 62], [1, 176, 44, 44]],
-};
-const dark = matchMedia("(prefers-color-scheme: dark)");
+const START = [0.91, -1.96, 0.76];  // the camera, where the scene's size is one
+const ABOVE = [0.75, -1.6, 1.45];   // … and of a scene that lies flat
 
-/// 256 colours as linear RGB, three numbers each.
-function colourTable() {
-  const ramp = dark.matches ? RAMP.dark : RAMP.light;
-  const table = new Float32Array(3 * 256);
-  for (let i = 0; i < 256; ++i) {
-    const at = i / 255;
-    const next = Math.max(1, ramp.findIndex(([start]) => start >= at));
-    const [a, b] = [ramp[next - 1], ramp[next]];
-    const t = (at - a[0]) / (b[0] - a[0]);
-    const colour = new THREE.Color().setRGB(...[1, 2, 3].map((c) => (a[c] + t * (b[c] - a[c])) / 255), THREE.SRGBColorSpace);
-    colour.toArray(table, 3 * i);
+/// Where the scene is drawn: about its middle, or where it will hang if it lies flat.
+export function framing({ low, high }, pinned, positions) {
+  const extent = high.map((h, d) => h - low[d]);
+  const diagonal = Math.hypot(...extent);
+  const middle = high.map((h, d) => (h + low[d]) / 2);
+  const centre = [...middle];
+  const size = diagonal / Math.SQRT2;
+  const flat = extent[2] < 0.01 * diagonal;
+  if (flat && pinned.length > 0) {
+    for (const d of [0, 1]) centre[d] = pinned.reduce((sum, i) => sum + positions[3 * i + d], 0) / pinned.length;
+    centre[0] -= 0.04 * size;
+    centre[1] -= 0.1 * size;
+    centre[2] -= 0.42 * size;
   }
-  return table;
+  return { centre, middle, size, flat };
 }
 
-export class ClothView {
-  constructor(canvas, side) {
+export class View {
+  /// @param panes  1 or 2
+  constructor(canvas, panes) {
     this.canvas = canvas;
-    this.side = side;
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
-    this.scene = new THREE.Scene();
-    this.camera = new THREE.PerspectiveCamera(32, 1, 0.05, 50);
+    this.camera = new THREE.PerspectiveCamera(32, 1, 0.02, 20);
     this.camera.up.set(0, 0, 1);
-    this.camera.position.set(1.6, -2.55, 0.75);
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.target.set(0.46, -0.1, -0.42);
     this.controls.enablePan = false;
     canvas.style.touchAction = "pan-y";  // a finger must be able to scroll past the cloth
-    this.controls.minDistance = 1.2;
+    this.controls.minDistance = 1.2;  // outside of the sphere that whatever flies off is held in
     this.controls.maxDistance = 6;
-
-    const sun = new THREE.DirectionalLight(0xffffff, 2.1);
-    sun.position.set(0.9, -1.6, 2.2);
-    const fill = new THREE.DirectionalLight(0xffffff, 0.6);
-    fill.position.set(-2, 1, 0.4);
-    this.scene.add(sun, fill, new THREE.AmbientLight(0xffffff, 1.15));
-
-    const count = side * side;
-    this.position = new THREE.BufferAttribute(new Float32Array(3 * count), 3).setUsage(THREE.DynamicDrawUsage);
-    this.colour = new THREE.BufferAttribute(new Float32Array(3 * count), 3).setUsage(THREE.DynamicDrawUsage);
-    const cloth = new THREE.BufferGeometry();
-    cloth.setAttribute("position", this.position);
-    cloth.setAttribute("color", this.colour);
-    const triangles = [];
-    const threads = [];
-    for (let r = 0; r < side; ++r) {
-      for (let c = 0; c < side; ++c) {
-        const i = r * side + c;
-        if (c + 1 < side) threads.push(i, i + 1);
-        if (r + 1 < side) threads.push(i, i + side);
-        if (c + 1 < side && r + 1 < side) triangles.push(i, i + 1, i + side + 1, i, i + side + 1, i + side);
-      }
-    }
-    cloth.setIndex(triangles);
-    this.geometry = cloth;
-    const weave = new THREE.BufferGeometry();
-    weave.setAttribute("position", this.position);
-    weave.setIndex(threads);
-    const material = new THREE.MeshStandardMaterial({ vertexColors: true, side: THREE.DoubleSide, roughness: 0.85, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
-    this.threads = new THREE.LineBasicMaterial({ transparent: true });
-    this.pins = new THREE.MeshBasicMaterial();
-    this.pinned = [0, side - 1].map(() => new THREE.Mesh(new THREE.SphereGeometry(0.014, 20, 14), this.pins));
-    const meshes = [new THREE.Mesh(cloth, material), new THREE.LineSegments(weave, this.threads)];
-    for (const mesh of meshes) mesh.frustumCulled = false;  // its bounds change with every frame
-    this.scene.add(...meshes, ...this.pinned);
-    const paint = () => {
-      this.table = colourTable();
-      this.threads.color.set(dark.matches ? 0x0e1114 : 0x1c1f24);
-      this.threads.opacity = dark.matches ? 0.3 : 0.2;
-      this.pins.color.set(dark.matches ? 0xe9e6e0 : 0x1c1f24);
-    };
-    paint();
-    dark.addEventListener("change", paint);
+    this.panes = Array.from({ length: panes }, () => {
+      const scene = new THREE.Scene();
+      const sun = new THREE.DirectionalLight(0xffffff, 2.1);
+      sun.position.set(0.9, -1.6, 2.2);
+      const fill = new THREE.DirectionalLight(0xffffff, 0.6);
+      fill.position.set(-2, 1, 0.4);
+      scene.add(sun, fill, new THREE.AmbientLight(0xffffff, 1.15));
+      return { scene, model: null };
+    });
+    this.lookAgain();
   }
 
-  /// @param positions  3 × n, m   @param ringing  n, m   @param full  m, the ramp's far end
-  draw(positions, ringing, full) {
-    this.position.array.set(positions);
-    this.position.needsUpdate = true;
-    const span = Math.log(1e4);  // the ramp's four decades
-    for (let i = 0; i < ringing.length; ++i) {
-      const level = ringing[i] > 0 ? 1 + Math.log(ringing[i] / full) / span : 0;
-      const at = 3 * Math.round(255 * Math.min(1, Math.max(0, level)));
-      for (let c = 0; c < 3; ++c) this.colour.array[3 * i + c] = this.table[at + c];
+  /// The camera as at the start.
+  lookAgain(fromAbove = false) {
+    this.controls.target.set(0, 0, 0);
+    this.camera.position.set(...(fromAbove ? ABOVE : START)).multiplyScalar(this.panes.length > 1 ? 0.85 : 1);
+    this.controls.update();
+  }
+
+  /// @param mesh  as MeshModel takes it
+  show(mesh) {
+    for (const pane of this.panes) {
+      if (pane.model) {
+        pane.scene.remove(pane.model.group);
+        pane.model.dispose();
+      }
+      pane.model = new MeshModel(mesh);
+      pane.scene.add(pane.model.group);
     }
-    this.colour.needsUpdate = true;
-    this.geometry.computeVertexNormals();
-    this.pinned.forEach((pin, i) => pin.position.fromArray(positions, 3 * i * (this.side - 1)));
+  }
+  each(act) {
+    for (const { model } of this.panes) act(model);
+  }
+
+  render() {
     this.fit();
     this.controls.update();
-    this.renderer.render(this.scene, this.camera);
+    const { width, height } = this.renderer.getSize(new THREE.Vector2());
+    const each = width / this.panes.length;
+    this.renderer.setScissorTest(this.panes.length > 1);
+    this.panes.forEach(({ scene }, i) => {
+      this.renderer.setViewport(i * each, 0, each, height);
+      this.renderer.setScissor(i * each, 0, each, height);
+      this.renderer.render(scene, this.camera);
+    });
   }
 
   fit() {
@@ -112,8 +93,57 @@ export class ClothView {
     if (size.x === width && size.y === height && this.renderer.getPixelRatio() === ratio) return;
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / height;
-    this.camera.fov = width > height ? 32 : 38;  // a narrow picture would cut the cloth off
+    const aspect = width / this.panes.length / height;
+    this.camera.aspect = aspect;
+    this.camera.fov = aspect > 1 ? 32 : Math.min(60, 38 / Math.max(0.6, aspect));  // a narrow picture would cut the cloth off
     this.camera.updateProjectionMatrix();
+  }
+
+  /// The particle drawn nearest to a point of the window, in front; −1 where none is near.
+  /// @param x, y  px
+  particleAt(x, y) {
+    const near = 14;  // px
+    const box = this.canvas.getBoundingClientRect();
+    const { model } = this.panes[0];
+    const at = new THREE.Vector3();
+    let best = -1;
+    let least = Infinity;
+    for (let i = 0; i < model.position.count; ++i) {
+      at.fromBufferAttribute(model.position, i);
+      const depth = at.distanceTo(this.camera.position);
+      at.project(this.camera);
+      const off = Math.hypot(box.left + ((at.x + 1) / 2) * box.width - x, box.top + ((1 - at.y) / 2) * box.height - y);
+      // Ten pixels count as much as a tenth of the scene in depth: the nearer layer wins.
+      if (off < near && off + 100 * depth < least) {
+        least = off + 100 * depth;
+        best = i;
+      }
+    }
+    return best;
+  }
+
+  /// How far from the middle something is drawn, where the scene's size is one.
+  farthest() {
+    const at = this.panes[0].model.position.array;
+    let most = 0;
+    for (let i = 0; i < at.length; i += 3) most = Math.max(most, Math.hypot(at[i], at[i + 1], at[i + 2]));
+    return most;
+  }
+
+  /// Where a particle is drawn in the window, px.
+  pointOf(i) {
+    const box = this.canvas.getBoundingClientRect();
+    const at = new THREE.Vector3().fromBufferAttribute(this.panes[0].model.position, i).project(this.camera);
+    return [box.left + ((at.x + 1) / 2) * box.width, box.top + ((1 - at.y) / 2) * box.height];
+  }
+
+  /// Calls `act` where the pointer is pressed and let go without having been dragged.
+  onClick(act) {
+    let from = null;
+    this.canvas.addEventListener("pointerdown", ({ clientX, clientY, isPrimary }) => (from = isPrimary ? [clientX, clientY] : null));
+    this.canvas.addEventListener("pointerup", ({ clientX, clientY }) => {
+      if (from && Math.hypot(clientX - from[0], clientY - from[1]) < 4) act(clientX, clientY);
+      from = null;
+    });
   }
 }

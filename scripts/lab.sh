@@ -2,18 +2,30 @@
 # SPDX-FileCopyrightText: 2026 Taut contributors
 # SPDX-License-Identifier: MIT
 
-# Builds the stability lab into build/lab/site and serves it on this machine alone.
-#   scripts/lab.sh [port]    builds what has changed and serves, on port 8000 unless told
-#   scripts/lab.sh --build   builds only
-#   scripts/lab.sh --test    builds, compares with a native program, and clicks through the page
+# Builds the stability lab: a folder of static files that any web server can host, and beside it the
+# same as one HTML file that a browser opens by itself.
+#   scripts/lab.sh [port]         builds what has changed and serves, on port 8000 unless told
+#   scripts/lab.sh --build [DIR]  builds only: DIR and DIR.html, build/lab/site unless told
+#   scripts/lab.sh --test         builds, compares with a native program, and clicks through the page
 set -eu
+from=$(pwd)
 cd "$(dirname "$0")/.."
 
 port=8000
 task=serve
+site=build/lab/site
 case "${1-}" in
     '') ;;
-    --build) task=build ;;
+    --build)
+        task=build
+        case "${2-}" in
+            '') ;;
+            -*) echo "lab: '$2' is no folder" >&2; exit 1 ;;
+            /*) site=$2 ;;
+            *) site=$from/$2 ;;
+        esac
+        site=${site%/}
+        ;;
     --test) task=test ;;
     *[!0-9]*) echo "lab: '$1' is neither a port nor --build nor --test" >&2; exit 1 ;;
     *) port=$1 ;;
@@ -24,11 +36,11 @@ need() {  # command, Debian's package
     command -v "$1" >/dev/null || missing="$missing $2"
 }
 need em++ emscripten
+need node nodejs
 need npm npm
 [ "$task" = build ] || need python3 python3
 if [ "$task" = test ]; then
     need g++ g++
-    need node nodejs
     need chromium chromium
 fi
 eigen=${EIGEN3_INCLUDE_DIR:-/usr/include/eigen3}
@@ -40,45 +52,62 @@ if [ -n "$missing" ]; then
     exit 1
 fi
 
-site=build/lab/site
-packages=build/lab/packages
-mkdir -p "$site/three" "$packages"
+work=build/lab
+packages=$work/packages
+mkdir -p "$packages" "$work/wasm" "$work/native"
 
-# newer FILE: whether anything that it is made from is newer than it, or it is not there.
+# newer FILE WHERE…: whether anything in these folders and files is newer than it, or it is not there.
 newer() {
-    [ ! -f "$1" ] || [ -n "$(find include lab/*.cpp lab/*.hpp scripts/lab.sh -newer "$1" -print -quit)" ]
+    file=$1
+    shift
+    [ ! -f "$file" ] || [ -n "$(find "$@" -newer "$file" -print -quit)" ]
 }
 flags="-std=c++17 -fno-exceptions -fno-rtti -DNDEBUG -Iinclude -isystem $eigen"
 flags="$flags -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror"
+headers="include examples/common lab/lab.hpp lab/scene.hpp scripts/lab.sh"
+parts="scene motion pair limits advice"
+
+# compile COMPILER FOLDER OPTION…: the parts that have changed, to objects in the folder.
+compile() {
+    compiler=$1
+    objects=$2
+    shift 2
+    for part in $parts; do
+        # shellcheck disable=SC2086  # lists of words
+        if newer "$objects/$part.o" $headers "lab/$part.cpp"; then
+            "$compiler" $flags "$@" -c "lab/$part.cpp" -o "$objects/$part.o"
+        fi
+    done
+}
 
 if ! cmp -s lab/package-lock.json "$packages/package-lock.json"; then
-    echo "lab: npm installs three and playwright-core, as pinned in lab/, into $packages"
+    echo "lab: npm installs three, esbuild and playwright-core, as pinned in lab/, into $packages"
     cp lab/package.json "$packages"
     (cd "$packages" && cp ../../../lab/package-lock.json wanted.json && mv wanted.json package-lock.json &&
         npm ci --silent --no-audit --no-fund) || { rm -f "$packages/package-lock.json"; exit 1; }
 fi
-if newer "$site/lab.wasm"; then
-    echo "lab: compiling the library to WebAssembly, a minute"
-    # shellcheck disable=SC2086  # a list of words
-    em++ $flags -O3 -msimd128 lab/lab.cpp --no-entry -s ALLOW_MEMORY_GROWTH=1 -o "$site/lab.wasm"
+# shellcheck disable=SC2086  # a list of words
+if newer "$work/lab.wasm" $headers lab/*.cpp; then
+    echo "lab: compiling the library to WebAssembly, two minutes"
+    compile em++ "$work/wasm" -O3 -msimd128
+    em++ -O3 "$work"/wasm/*.o --no-entry -s ALLOW_MEMORY_GROWTH=1 -s MAXIMUM_MEMORY=4GB -o "$work/lab.wasm"
 fi
-three=$packages/node_modules/three
-cp "$three/build/three.module.js" "$three/build/three.core.js" "$three/LICENSE" \
-    "$three/examples/jsm/controls/OrbitControls.js" "$site/three"
-cp lab/index.html lab/lab.css lab/*.js examples/report/style.css examples/report/draw.js "$site"
+node lab/build_site.mjs "$work/lab.wasm" "$packages" "$site"
 
 case $task in
+    build) echo "lab: $site, to be put on any web server, and $site.html, one file that a browser opens" ;;
     serve)
         echo "lab: http://127.0.0.1:$port/ until you press Ctrl-C"
         exec python3 -m http.server --bind 127.0.0.1 --directory "$site" "$port"
         ;;
     test)
-        if newer build/lab/positions; then
-            echo "lab: compiling the same natively"
-            # shellcheck disable=SC2086  # a list of words
-            g++ $flags -O1 lab/lab.cpp lab/positions.cpp -o build/lab/positions
+        # shellcheck disable=SC2086  # a list of words
+        if newer "$work/native/lab" $headers lab/*.cpp; then
+            echo "lab: compiling the same natively, two minutes"
+            compile g++ "$work/native" -O1
+            g++ $flags -O1 lab/native.cpp "$work"/native/*.o -o "$work/native/lab"
         fi
-        node lab/check_same.mjs "$site/lab.wasm" build/lab/positions
-        node lab/check_page.mjs "$site" "$packages" build/lab
+        node lab/check_same.mjs "$work/lab.wasm" "$work/native/lab" examples/data/skirt.obj
+        node lab/check_page.mjs "$site" "$packages" "$work"
         ;;
 esac

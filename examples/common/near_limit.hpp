@@ -3,21 +3,18 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/stability/stability.hpp>
 #include <utility>
 #include <vector>
 
+#include "kick.hpp"
 #include "scene.hpp"
 
 // A scene kicked along its limiting mode and stepped just below and just above the limit.
 
 namespace example {
-
-inline constexpr double below_limit = 0.99;  // of the certified step
-inline constexpr double above_limit = 1.01;  // of the refuted step
 
 struct KickedRun {
     /// The limiting mode turns over at every step: shown at each, it would flicker.
@@ -76,27 +73,17 @@ struct RunsNearLimit {
 inline RunsNearLimit run_near_limit(const System& system, double edge,
                                     const taut::StepLimit<double>& limit,
                                     const taut::LimitingMode& mode) {
-    constexpr double kick_of_edge = 1e-4;
-    const double h = above_limit * limit.refuted;
-    const auto mu = taut::multipliers(taut::Method::symplectic_euler, mode.k, mode.d, h);
-    const auto larger = std::abs(mu[0]) >= std::abs(mu[1]) ? mu[0] : mu[1];
-    // As many steps as it takes the kick to grow to an edge's length, three times over: the rest
-    // shows what comes of it.
-    const double wanted = -3 * std::log(kick_of_edge) / std::log(std::abs(larger));
-    const taut::Index most_steps = wanted > 10 && wanted < 600 ? std::lround(wanted) : 600;
+    const Kick kick = kick_along(system, edge, limit, mode);
     const auto rest = system.initial_state().x;
-    taut::Points<double, 3> shape = taut::Points<double, 3>::Zero(3, system.size());
-    for (taut::Index i = 0, free = 0; i < system.size(); ++i) {
-        if (!system.is_pinned(i)) shape.col(i) = mode.shape.segment<3>(3 * free++);
-    }
-    shape *= kick_of_edge * edge / shape.colwise().norm().maxCoeff();
     const double far = 0.25 * (rest.rowwise().maxCoeff() - rest.rowwise().minCoeff()).norm();
     RunsNearLimit runs;
-    runs.kick = kick_of_edge * edge;
-    runs.speed = ((larger - 1.0) / (h * larger)).real();  // x⁺ = μx, so that it grows at once
-    runs.above = kicked_run(system, shape, runs.speed, h, most_steps, far);
+    runs.kick = kick.size;
+    runs.speed = kick.speed;
+    runs.above =
+        kicked_run(system, kick.shape, kick.speed, above_limit * limit.refuted, kick.steps, far);
     const auto steps = static_cast<taut::Index>(runs.above.reach.size()) - 1;
-    runs.below = kicked_run(system, shape, runs.speed, below_limit * limit.certified, steps, far);
+    runs.below =
+        kicked_run(system, kick.shape, kick.speed, below_limit * limit.certified, steps, far);
     return runs;
 }
 

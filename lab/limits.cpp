@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <taut/method/visit.hpp>
+#include <taut/stability/any_pose.hpp>
+#include <taut/stability/stability.hpp>
+#include <vector>
+
+#include "../examples/common/kick.hpp"
+#include "lab.hpp"
+#include "scene.hpp"
+
+namespace {
+
+using taut::Method;
+
+struct Limits {
+    taut::StepLimit<double> any_pose;
+    std::optional<taut::Stability<double>> stability;
+    std::array<std::optional<taut::StepLimit<double>>, 6> at_pose;  // by method
+    LabMode mode{};
+    taut::Points<double, 3> kick;
+    std::vector<int> blamed;
+    std::vector<double> shares;
+};
+
+Limits found;
+LabLimits answer{};
+std::array<double, 2> window{};
+
+/// The limit at any pose, linearised; explicit Euler has none, implicit steps no need of one.
+double any_pose(Method method) {
+    using taut::method::AnyPose;
+    const AnyPose safe =
+        taut::method::visit(method, [](auto descriptor) { return decltype(descriptor)::any_pose; });
+    if (safe == AnyPose::limited) return found.any_pose.certified;
+    return safe == AnyPose::every_step ? std::numeric_limits<double>::infinity() : 0;
+}
+
+const taut::StepLimit<double>& at_pose(int method) {
+    auto& limit = found.at_pose[std::size_t(method)];
+    if (!limit) limit = found.stability->max_step(static_cast<Method>(method));
+    return *limit;
+}
+
+/// Of a large mesh a rougher shape must do: the fine one takes ten times as long, and differs by
+/// less than can be seen.
+taut::LimitingMode limiting_mode() {
+    constexpr taut::Index large = 15'000;  // particles
+    const auto& cloth = lab::scene().cloth;
+    if (cloth.size() <= large) return found.stability->limiting_mode();
+    taut::LanczosOptions options;
+    options.tolerance = 3e-3;
+    const auto pair =
+        taut::largest_ritz_pair(found.stability->pencil(), taut::matrices::K_plus, options);
+    const auto rayleigh = cloth.rayleigh();
+    const double d = rayleigh.mass_proportional + rayleigh.stiffness_proportional * pair.value;
+    return {pair.value, d, pair.vector};
+}
+
+void take_kick(const taut::LimitingMode& mode) {
+    const auto& limit = at_pose(static_cast<int>(Method::symplectic_euler));
+    const bool bounded = limit.certified > 0 && std::isfinite(limit.refuted);
+    if (!bounded || mode.shape.size() == 0) return;
+    const auto kick = example::kick_along(lab::scene().cloth, lab::scene().edge, limit, mode);
+    found.kick = kick.shape;
+    found.mode.kick = kick.size;
+    found.mode.speed = kick.speed;
+    found.mode.steps = static_cast<double>(kick.steps);
+}
+
+void take_blamed(const taut::LimitingMode& mode) {
+    constexpr double least = 1e-3;  // of what the foremost holds
+    found.blamed.clear();
+    found.shares.clear();
+    if (mode.shape.size() == 0) return;
+    auto shares = found.stability->pencil().spring_shares(mode.shape);
+    std::sort(shares.begin(), shares.end(),
+              [](const auto& p, const auto& q) { return p.share > q.share; });
+    for (const auto& spring : shares) {
+        if (!(spring.share >= least * shares.front().share)) break;
+        found.blamed.insert(found.blamed.end(),
+                            {static_cast<int>(spring.a), static_cast<int>(spring.b)});
+        found.shares.push_back(spring.share);
+    }
+}
+
+}  // namespace
+
+void lab::forget_limits() { found = {}; }
+
+void lab_analyse_any_pose() { found.any_pose = taut::any_pose_limit(lab::scene().cloth); }
+
+void lab_analyse_pose() {
+    const auto& cloth = lab::scene().cloth;
+    // Pins change the size of what the search began at.
+    found.stability.emplace(cloth, cloth.initial_state());
+    found.at_pose = {};
+    for (const Method method :
+         {Method::explicit_euler, Method::symplectic_euler, Method::velocity_verlet,
+          Method::implicit_euler, Method::graph_inertia})
+        at_pose(static_cast<int>(method));
+}
+
+void lab_analyse_mode() {
+    const auto mode = limiting_mode();
+    const auto& pencil = found.stability->pencil();
+    found.mode = {};
+    found.kick.setZero(3, lab::scene().cloth.size());
+    if (found.stability->size() > 0) {
+        found.mode.k = mode.k;
+        found.mode.d = mode.d;
+        found.mode.k_max = std::max(0.0, pencil.upper_bound(taut::matrices::K_plus));
+        found.mode.compression = pencil.compression();
+        take_kick(mode);
+    }
+    take_blamed(mode);
+}
+
+const LabLimits* lab_limits(int method) {
+    const auto& limit = at_pose(method);
+    answer = {any_pose(static_cast<Method>(method)), limit.certified, limit.refuted};
+    return &answer;
+}
+const char* lab_cause(int method) { return taut::describe(at_pose(method).cause); }
+
+const LabMode* lab_mode() { return &found.mode; }
+const double* lab_kick() { return found.kick.data(); }
+const int* lab_blamed() { return found.blamed.data(); }
+int lab_blamed_count() { return static_cast<int>(found.shares.size()); }
+const double* lab_shares() { return found.shares.data(); }
+
+double lab_growth(int method, double k, double d, double h) {
+    return taut::spectral_radius(static_cast<Method>(method), k, d, h);
+}
+
+const double* lab_window(int method, double h, double drag, double k_max, double compression) {
+    window = {0, 0};
+    if (!std::isfinite(k_max) || !std::isfinite(compression)) return window.data();
+    const auto found_window =
+        taut::rayleigh_window(static_cast<Method>(method), h, drag, 0, k_max, compression);
+    if (found_window.empty == taut::EmptyWindow::none) {
+        window = {found_window.includes_zero ? -1 : found_window.lower, found_window.upper};
+    }
+    return window.data();
+}

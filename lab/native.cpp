@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+
+// What check_same.mjs compares the WebAssembly with, one number a line.
+//   lab            the positions after a hundred steps of each method
+//   lab MESH.obj   the limits of a mesh, y up, by method, and its limiting vibration
+
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "lab.hpp"
+
+namespace {
+
+int print_positions() {
+    for (int method = 0; method < 6; ++method) {
+        lab_open_cloth(16);
+        lab_knobs(1000, 0.3, 2e-4, 0.5);
+        if (lab_step(method, 2e-4, 100) != 0) return 1;
+        const double* x = lab_positions();
+        for (int i = 0; i < 3 * lab_size(); ++i) std::printf("%.17g\n", x[i]);
+    }
+    return 0;
+}
+
+int print_limits(const char* path) {
+    std::ifstream file(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    text.copy(lab_text(static_cast<int>(text.size())), text.size());
+    if (!lab_read() || !lab_open_mesh(1, 1, 0)) {
+        std::fprintf(stderr, "%s\n", lab_words());
+        return 1;
+    }
+    lab_knobs(1000, 0.3, 1e-4, 0.4);
+    lab_analyse_any_pose();
+    lab_analyse_pose();
+    lab_analyse_mode();
+    for (const int method : {0, 1, 2, 3, 5}) {
+        const LabLimits* limits = lab_limits(method);
+        std::printf("%.17g\n%.17g\n%.17g\n", limits->any_pose, limits->certified, limits->refuted);
+    }
+    const LabMode* mode = lab_mode();
+    std::printf("%.17g\n%.17g\n%.17g\n", mode->k, mode->d, mode->k_max);
+    return 0;
+}
+
+}  // namespace
+
+int main(int count, char** words) { return count > 1 ? print_limits(words[1]) : print_positions(); }

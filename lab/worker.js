@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+
+// What takes long, apart from the page: the analysis of a scene, and the timing of integrators. It
+// has its own lab.wasm; whoever is tired of waiting ends it and starts another.
+
+import { loadLab } from "./engine.js";
+
+const ROUNDS = 5;        // timings of each plan after a first one that warms up
+const SECONDS = 0.012;   // of each
+let lab = null;
+let opened = null;       // the key of the scene that is open
+let newest = 0;          // the last task that was asked for
+
+const tell = (id, more) => postMessage({ id, ...more });
+const pause = () => new Promise((go) => setTimeout(go));  // lets messages in
+
+/// Acts one after another, telling how far it is. @param parts  [words, act] of each
+async function through(id, parts) {
+  for (const [part, [words, act]] of parts.entries()) {
+    tell(id, { progress: part / parts.length, words });
+    await pause();
+    act();
+  }
+}
+
+async function open(id, { scene }) {
+  opened = null;
+  let words = [];
+  await through(id, [
+    ["reading the file", () => lab.read(scene)],
+    ["joining particles by springs", () => (words = lab.join(scene))],
+  ]);
+  if (scene.pins) lab.pinOnly(scene.pins);
+  opened = scene.key;
+  tell(id, { result: { shape: lab.shape(), pinned: lab.pinned(), words } });
+}
+
+function prepare({ scene, pins, knobs }) {
+  if (opened !== scene.key) lab.open(scene);
+  opened = scene.key;
+  lab.pinOnly(pins);
+  lab.knobs(knobs);
+}
+
+async function analyse(id, task) {
+  prepare(task);
+  await through(id, lab.parts);
+  tell(id, { result: lab.found() });
+}
+
+/// Rounds over all plans, so that a moment in which the machine is busy hits none of them alone.
+/// A plan five times as dear as the cheapest is timed once more, and not again.
+async function advise(id, task) {
+  prepare(task);
+  const plans = [...Array(lab.advise()).keys()];
+  for (let round = 0; round <= ROUNDS; ++round) {
+    const least = Math.min(...plans.map((i) => lab.plan(i).cost));
+    for (const i of plans) {
+      if (round > 1 && lab.plan(i).cost > 5 * least) continue;
+      lab.timePlan(i, SECONDS);
+      await pause();
+      if (id !== newest) return tell(id, { result: null });
+    }
+  }
+  const timed = plans.map((i) => lab.plan(i)).filter((plan) => plan.cost < Infinity);
+  tell(id, { result: timed.sort((a, b) => a.cost - b.cost) });
+}
+
+let last = Promise.resolve();
+onmessage = ({ data }) => {
+  const { id, task } = data;
+  newest = Math.max(newest, id);
+  last = last.then(async () => {
+    try {
+      if (task === "load") {
+        lab = await loadLab(data.module);
+        tell(id, { result: true });
+      } else if (id < newest) tell(id, { result: null });  // somebody wants another thing by now
+      else await { open, analyse, advise }[task](id, data);
+    } catch (error) {
+      opened = null;
+      tell(id, { error: error.message, refused: Boolean(error.refused) });
+    }
+  });
+};
