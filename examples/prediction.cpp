@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "common/main.hpp"
+#include "common/progress.hpp"
 #include "common/scene.hpp"
 
 namespace {
@@ -224,6 +225,12 @@ int run(int argc, char** argv) {
     if (options.d0 > 0 || options.alpha > 0) {
         throw std::runtime_error("--d0, --alpha: this program chooses the damping itself");
     }
+    if (options.gravity == 0)
+        throw std::runtime_error("--gravity: without any the moving cloth stands still");
+    const bool watched = example::stderr_is_a_terminal();
+    example::Progress progress(
+        2, watched ? example::say_on_stderr("prediction") : example::Progress::Say());
+    progress.at("stepping just below and just above the limits, then the moving cloth");
     auto scene = example::make_scene(options);
     const Plan plan = make_plan(scene.system, duration);
     std::printf("%s\n%s\n", example::describe(scene).c_str(),

@@ -70,6 +70,12 @@ void analyse(const taut::Stability<double>& stability, const Options& options, P
     }
     found.springs_to_blame = stability.limiting_springs(options.blame, found.limiting_mode);
     found.particles_to_blame = stability.limiting_particles(options.blame, found.limiting_mode);
+    if (options.blame > 0) {
+        double squares = 0;
+        for (const auto& one : stability.limiting_particles(stability.size(), found.limiting_mode))
+            squares += one.share * one.share;
+        found.participants = squares > 0 ? 1 / squares : 0;
+    }
     const auto verdict = [&](double h) {
         return example::judge(stability, found.symplectic_euler, h);
     };
@@ -201,9 +207,11 @@ int run(int argc, char** argv) {
         ->check(example::positive());
     app.add_option("--json", options.json,
                    "write the findings as JSON (- is stdout, without table)")
+        ->transform(example::standard_output())
         ->check(example::not_empty());
     app.add_option("--html", options.html,
                    "write the findings as one page to look at (- is stdout, without table)")
+        ->transform(example::standard_output())
         ->check(example::not_empty());
     for (const char* other : {"MESH",       "--scene",        "--size",
                               "--d0",       "--alpha",        "--pin",

@@ -23,7 +23,8 @@ struct Verdict {
 
     double step = 0;  // s
     Standing standing = Standing::undecided;
-    double growth = 1;  ///< of the limiting vibration with every step, where it is refuted
+    double growth = 1;  ///< where it is refuted, with every step, of the vibrations that are known;
+                        ///< not above 1 where none of these is what refutes
 };
 
 /// @param limit  of symplectic Euler at this pose
@@ -37,7 +38,8 @@ inline Verdict judge(const taut::Stability<double>& stability, const taut::StepL
     }
     const auto mode = stability.limiting_mode();
     return {h, Standing::refuted,
-            taut::spectral_radius(Method::symplectic_euler, mode.k, mode.d, h)};
+            std::max(taut::spectral_radius(Method::symplectic_euler, mode.k, mode.d, h),
+                     stability.spectral_radius(Method::symplectic_euler, h))};
 }
 
 inline const char* name(Verdict::Standing standing) {
@@ -131,6 +133,7 @@ struct Findings {
     taut::LimitingMode limiting_mode;  // where it was asked for
     std::vector<taut::SpringShare> springs_to_blame;
     std::vector<taut::ParticleShare> particles_to_blame;
+    double participants = 0;         // 1/Σ of the squared shares of all particles
     std::optional<Verdict> verdict;  // on a step that was asked for
     std::optional<Remedies> remedies;
     std::optional<InertiaTold> inertia;  // at the wanted step

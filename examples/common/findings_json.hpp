@@ -56,8 +56,7 @@ inline Json inertia_json(const std::optional<InertiaTold>& told) {
 inline Json verdict_json(const Verdict& verdict) {
     return {{"h", verdict.step},
             {"standing", name(verdict.standing)},
-            {"growth", verdict.standing == Verdict::Standing::refuted ? Json(verdict.growth)
-                                                                      : Json(nullptr)}};
+            {"growth", verdict.growth > 1 ? Json(verdict.growth) : Json(nullptr)}};
 }
 
 inline Json to_json(const Findings& found, double d0) {

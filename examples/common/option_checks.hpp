@@ -37,6 +37,15 @@ inline CLI::Validator not_empty() {
     return {[](std::string& text) { return text.empty() ? "it is empty" : ""; }, ""};
 }
 
+/// Of outputs: the device is "-", so that one place is one name.
+inline CLI::Validator standard_output() {
+    return {[](std::string& path) {
+                if (path == "/dev/stdout") path = "-";
+                return std::string();
+            },
+            ""};
+}
+
 /// To be given to CLI::Option::transform, ahead of the checks: they and the option see the number
 /// in the unit that is worth 1.
 inline CLI::Validator quantity(std::vector<Unit> units, const char* example) {
@@ -54,7 +63,7 @@ inline CLI::Validator quantity(std::vector<Unit> units, const char* example) {
 }
 /// s
 inline CLI::Validator time_quantity() {
-    return quantity({{"s", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"\u00b5s", 1e-6}},
+    return quantity({{"s", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"\u00b5s", 1e-6}, {"\u03bcs", 1e-6}},
                     "0.001, 1/240 or 0.5ms");
 }
 /// m
@@ -63,6 +72,9 @@ inline CLI::Validator length_quantity() {
 }
 /// Of a whole.
 inline CLI::Validator share_quantity() { return quantity({{"%", 1e-2}}, "0.02, 1/50 or 2%"); }
+
+/// In the option's own unit.
+inline CLI::Validator plain_quantity() { return quantity({}, "0.01 or 1/100"); }
 
 /// --version, of every program.
 inline void add_version(CLI::App& app, const char* program) {

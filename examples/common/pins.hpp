@@ -78,11 +78,15 @@ std::vector<Index> highest_vertices(const taut::Points<double, 3>& x, const Eige
     const Eigen::RowVectorXd height = up.transpose() * x;
     std::sort(order.begin(), order.end(), [&](Index a, Index b) { return height[a] > height[b]; });
     const auto count = std::max<std::size_t>(
-        1, static_cast<std::size_t>(std::floor(share * static_cast<double>(order.size()))));
+        1, static_cast<std::size_t>(std::floor(share * static_cast<double>(order.size()) + 1e-9)));
     const double range = height[order.front()] - height[order.back()];
     const double least = height[order[count - 1]] - 1e-9 * range;
     const auto end =
         std::find_if(order.begin(), order.end(), [&](Index v) { return height[v] < least; });
+    if (end == order.end() && count < order.size()) {
+        throw std::runtime_error(
+            "--pin-top: all vertices are as high as the highest; --up names another axis");
+    }
     order.erase(end, order.end());
     return order;
 }

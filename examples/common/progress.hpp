@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>
@@ -28,12 +29,13 @@ inline bool stderr_is_a_terminal() {
 #endif
 }
 
-/// Says what a program is at whenever it has been at it for a while.
+/// Says what a program is at whenever it has been silent for a while, ever more rarely.
 class Progress {
 public:
     using Say = std::function<void(const std::string&)>;
 
-    /// @param period  s, between two words   @param say  takes a line; empty: nothing is said
+    /// @param period  s, before the first word; doubles with each, up to tenfold   @param say takes
+    /// a line; empty: nothing is said
     Progress(double period, Say say) : period_(period), say_(std::move(say)) {
         if (say_) watcher_ = std::thread([this] { watch(); });
     }
@@ -59,12 +61,14 @@ private:
     void watch() {
         const auto start = std::chrono::steady_clock::now();
         std::unique_lock lock(mutex_);
-        while (!changed_.wait_for(lock, std::chrono::duration<double>(period_),
+        double period = period_;
+        while (!changed_.wait_for(lock, std::chrono::duration<double>(period),
                                   [this] { return ended_; })) {
+            period = std::min(2 * period, 10 * period_);
             if (task_.empty()) continue;
             const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-            char seconds[32];
-            std::snprintf(seconds, sizeof seconds, ", %.0f s", elapsed.count());
+            char seconds[48];
+            std::snprintf(seconds, sizeof seconds, ", %.0f s after the start", elapsed.count());
             say_(task_ + seconds);
         }
     }

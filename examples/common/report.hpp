@@ -78,22 +78,19 @@ inline void print_note(const char* label, const taut::StepLimit<double>& limit) 
     }
 }
 
-/// Whether the vibration takes in so much of the net that no spring of it stands out.
-inline bool is_even(const Findings& found) {
-    const auto& springs = found.springs_to_blame;
-    if (springs.empty() || !found.springs) return false;
-    return springs.front().share < std::max(0.01, 3.0 / static_cast<double>(*found.springs));
-}
-
 inline void print_blame(const Findings& found) {
     std::printf("The limiting vibration\n");
-    if (is_even(found)) {
+    const auto all = static_cast<double>(found.particles.value_or(found.degrees_of_freedom));
+    // A sine over a whole cloth has 0.44.
+    if (found.participants > 0.3 * all) {
         std::printf(
             "  spread evenly: the whole net sets the limit; no spring holds more than %.2g %% of "
             "its energy\n",
-            100 * found.springs_to_blame.front().share);
+            found.springs_to_blame.empty() ? 0 : 100 * found.springs_to_blame.front().share);
         return;
     }
+    std::printf("  about %.0f of %.0f particles take part\n", std::max(1.0, found.participants),
+                all);
     for (const auto& spring : found.springs_to_blame) {
         std::printf(
             "  spring %-8lld between particles %lld and %lld: %.2f %% of its elastic energy\n",
@@ -111,9 +108,16 @@ inline std::string describe(const Verdict& verdict) {
     if (verdict.standing == Verdict::Standing::certified) return "proved safe as the scene is";
     if (verdict.standing == Verdict::Standing::undecided) return "neither proved nor refuted";
     char text[96];
-    std::snprintf(text, sizeof text,
-                  "refuted: the limiting vibration grows %.4g-fold with every step",
-                  verdict.growth);
+    if (!(verdict.growth > 1)) return "refuted";
+    if (verdict.growth < 1.01) {
+        std::snprintf(text, sizeof text,
+                      "refuted: the limiting vibration grows by %.2g %% with every step",
+                      100 * (verdict.growth - 1));
+    } else {
+        std::snprintf(text, sizeof text,
+                      "refuted: the limiting vibration grows %.4g-fold with every step",
+                      verdict.growth);
+    }
     return text;
 }
 

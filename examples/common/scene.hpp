@@ -85,6 +85,8 @@ inline Scene mesh_scene(const SceneOptions& options) {
         welded =
             naming(options.mesh, [&] { return taut::weld_vertices(x, file.faces, *options.weld); });
         scene.faces = std::move(welded.faces);
+        if (scene.faces.empty())
+            throw std::runtime_error("--weld: no face of " + options.mesh + " is larger than that");
     } else {
         scene.faces = std::move(file.faces);
     }
@@ -104,9 +106,8 @@ inline Scene mesh_scene(const SceneOptions& options) {
     const auto remark = [&](Index count, const char* words) {
         if (count > 0) scene.remarks += "; " + std::to_string(count) + words;
     };
-    remark(welded.welded, " vertices are welded to others");
-    remark(mesh.unused_vertices - welded.welded,
-           " vertices that no face or line uses are left out");
+    remark(welded.welded, " welded to others");
+    remark(mesh.unused_vertices - welded.welded, " left out, which no face or line uses");
     return scene;
 }
 

@@ -68,20 +68,24 @@ inline void SceneOptions::add_to(CLI::App& app) {
 }
 
 inline void SceneOptions::add_space(CLI::App& app) {
-    app.add_option("--up", up, "the mesh's axis that points up: x, y or z (default: y)")
-        ->check(CLI::IsMember({"x", "y", "z"}));
-    app.add_flag("--flip", flip, "the mesh's axis points down");
-    app.add_option("--gravity", gravity, "acceleration, m/s^2, towards down")
+    app.add_option("--up", up,
+                   "the mesh's axis that points up: x, y or z (default: y; of "
+                   "hanging_cloth always z)")
+        ->check(CLI::IsMember({"x", "y", "z"}, CLI::ignore_case));
+    app.add_flag("--flip", flip, "the axis of --up points down");
+    app.add_option("--gravity", gravity, "acceleration downwards, m/s^2")
+        ->transform(plain_quantity())
         ->check(non_negative())
         ->capture_default_str();
     auto* metres = app.add_option("--scale", scale, "metres that a unit of the mesh stands for")
+                       ->transform(plain_quantity())
                        ->check(positive());
     app.add_option("--units", units, "unit of the mesh: m, cm, mm or in (default: m)")
-        ->check(CLI::IsMember({"m", "cm", "mm", "in"}))
+        ->check(CLI::IsMember({"m", "cm", "mm", "in"}, CLI::ignore_case))
         ->excludes(metres);
     app.add_option(
            "--weld", weld,
-           "make one of vertices no farther apart than this, m, or as 1mm; 0: at one place. "
+           "merge vertices that are no farther apart than this, m, or as 1mm; 0: at one place. "
            "A mesh repeats vertices along texture seams, which would come apart")
         ->transform(length_quantity())
         ->check(non_negative());
@@ -112,14 +116,17 @@ inline void SceneOptions::add_material(CLI::App& app) {
 }
 
 inline void SceneOptions::add_pins(CLI::App& app) {
-    app.add_option(
-        "--pin", pins,
-        "vertices to pin, from 0: 3,7,10-20 (default: none; hanging_cloth: two corners)");
+    app.add_option("--pin", pins,
+                   "vertices to pin, from 0: 3,7,10-20 (default: none; hanging_cloth: two corners)")
+        ->check(not_empty());
     app.add_option("--pin-box", pin_box,
                    "pin the vertices in a box: x y z of one corner and of the opposite one, in the "
                    "mesh's units")
         ->expected(6);
-    app.add_option("--pin-top", pin_top, "pin this share of the vertices, the highest: 0.02, or 2%")
+    app.add_option(
+           "--pin-top", pin_top,
+           "pin this share of the vertices, the highest: 0.02, or 2%; at least one, and all "
+           "that are as high as the lowest of them")
         ->transform(share_quantity())
         ->check(CLI::Range(0.0, 1.0));
     app.add_flag("--free", free, "the built-in scene without its pinned corners");

@@ -32,6 +32,7 @@ struct Options {
     std::string cache;  // path of a PC2 file
     bool springs = false;
     bool resume = false;
+    std::string settings;  // a line for each option that a run must not change when it goes on
     bool quiet = false;
 
     /// Whether every step is stable.
@@ -50,6 +51,8 @@ struct Options {
         return look_ahead ? taut::StepDamping{*look_ahead, 0} : taut::recipe.damping;
     }
     void add_to(CLI::App& app);
+    /// Fills in `settings` once the command line is read.
+    void keep_settings(const CLI::App& app);
     /// Throws naming the options that do not go together.
     void check() const;
 
@@ -95,8 +98,9 @@ inline void Options::add_motion(CLI::App& app) {
                    "relative residual at which conjugate gradients stop (default: 0.001)")
         ->check(CLI::Range(1e-15, 0.5))
         ->needs(chosen);
-    app.add_flag("--guard", guard,
-                 "watch the energy of every frame, and take back one that gains any");
+    app.add_flag(
+        "--guard", guard,
+        "watch the energy of every frame, and take one that gains any again in smaller steps");
     app.add_option(
            "--step", step,
            "largest time step, s (default: the recipe's share of the any-pose limit, with "
@@ -121,18 +125,21 @@ inline void Options::add_motion(CLI::App& app) {
 
 inline void Options::add_obstacle(CLI::App& app) {
     auto* obstacle = app.add_option("--collide", collide,
-                                    "sphere or plane: an obstacle below the scene, which --pin "
-                                    "and --free decide whether it meets")
+                                    "sphere or plane: an obstacle below the scene; what is pinned "
+                                    "may never reach it")
                          ->check(CLI::IsMember({"sphere", "plane"}));
     app.add_option("--radius", radius, "of the sphere, m (default: 0.2 of the scene's size)")
+        ->transform(example::length_quantity())
         ->check(example::positive())
         ->needs(obstacle);
     app.add_option("--gap", gap,
                    "from the scene's lowest point to the obstacle, m (default: 0.05 of its size)")
+        ->transform(example::length_quantity())
         ->check(example::non_negative())
         ->needs(obstacle);
     app.add_option("--thickness", thickness,
                    "kept between particles and obstacle, m (default: 0.002 of the scene's size)")
+        ->transform(example::length_quantity())
         ->check(example::non_negative())
         ->needs(obstacle);
     app.add_option("--friction", friction, "Coulomb's coefficient")
@@ -157,8 +164,20 @@ inline void Options::add_output(CLI::App& app) {
                  "frame_*.vtk too, with the tension and strain of every spring, for ParaView");
     app.add_flag("--resume", resume,
                  "go on from where the run before this one ended in the folder of --output, up to "
-                 "--duration");
+                 "--duration in all; other options must be as they were; bdf2 begins anew there");
     app.add_flag("--quiet", quiet, "no progress line");
+}
+
+inline void Options::keep_settings(const CLI::App& app) {
+    for (const CLI::Option* option : app.get_options()) {
+        const std::string name = option->get_name();
+        const bool may_change = name == "--duration" || name == "--output" || name == "--cache" ||
+                                name == "--resume" || name == "--quiet" || name == "--help";
+        if (may_change || option->count() == 0) continue;
+        settings += name;
+        for (const auto& value : option->results()) settings += ' ' + value;
+        settings += '\n';
+    }
 }
 
 inline void Options::check() const {
@@ -195,6 +214,9 @@ inline void Options::check() const {
             "TAUT_SUITESPARSE=ON)");
     }
 #endif
+    if (!collide.empty() && scene.gravity == 0) {
+        throw std::runtime_error("--collide: nothing falls on it with --gravity 0");
+    }
     if (integrator == "explicit" && scene.d0 == 0 && scene.alpha == 0) {
         throw std::runtime_error("--integrator explicit: " +
                                  std::string(describe(taut::Cause::undamped)));

@@ -70,7 +70,7 @@ inline Record::Frames Record::make_frames(const Options& options, const example:
                                           int first) {
     std::string prefix = options.output + "/frame_";
     if (options.format == "obj" && !options.scene.is_built_in())
-        return SourceSequence(std::move(prefix), options.scene.mesh, first);
+        return SourceSequence(options.output, options.scene.mesh, scene.vertices.cols(), first);
     taut::MeshFaces polygons;
     taut::MeshEdges lines;
     for (const auto& face : scene.faces) {

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -19,8 +21,29 @@ namespace drape {
 struct SavedState {
     taut::Index frame = 0;
     double start_energy = 0;  // J
+    double frame_length = 0;  // s
+    std::string settings;     // as of Options
     State state;
 };
+
+/// Throws naming the option by which a run differs from the one that it is to go on from.
+inline void require_same(const SavedState& saved, const Options& options, double frame_length) {
+    std::istringstream before(saved.settings), now(options.settings);
+    for (std::string was, is; was != is || before || now;) {
+        const bool more_before = static_cast<bool>(std::getline(before, was));
+        const bool more_now = static_cast<bool>(std::getline(now, is));
+        if (!more_before && !more_now) break;
+        if (more_before && more_now && was == is) continue;
+        throw std::runtime_error("--resume: the run before this one had \"" +
+                                 (more_before ? was : "no more options") + "\", not \"" +
+                                 (more_now ? is : "no more options") + "\"");
+    }
+    if (std::abs(saved.frame_length - frame_length) > 1e-9 * frame_length) {
+        throw std::runtime_error(
+            "--resume: --duration: frames would be of another length; a whole number of frames "
+            "keeps it");
+    }
+}
 
 namespace detail {
 
@@ -33,11 +56,13 @@ struct SavedHeader {
     std::int64_t frame = 0;
     double start_energy = 0;
     double time = 0;
+    double frame_length = 0;
+    std::uint64_t settings = 0;  // bytes of text that follow
 };
 
 inline std::array<char, 16> saved_mark() {
     std::array<char, 16> mark{};
-    std::memcpy(mark.data(), "taut drape 1\n", 13);
+    std::memcpy(mark.data(), "taut drape 2\n", 13);
     return mark;
 }
 
@@ -76,8 +101,11 @@ inline void save(const std::string& path, const Cloth& cloth, const SavedState& 
                                      detail::fingerprint(cloth),
                                      saved.frame,
                                      saved.start_energy,
-                                     saved.state.time};
+                                     saved.state.time,
+                                     saved.frame_length,
+                                     saved.settings.size()};
     detail::put(file, &header, 1);
+    detail::put(file, saved.settings.data(), static_cast<Eigen::Index>(saved.settings.size()));
     detail::put(file, saved.state.x.data(), saved.state.x.size());
     detail::put(file, saved.state.v.data(), saved.state.v.size());
     file.close();
@@ -100,7 +128,10 @@ inline SavedState restore(const std::string& path, const Cloth& cloth) {
     if (header.particles != static_cast<std::uint64_t>(cloth.size()) ||
         header.scene != detail::fingerprint(cloth))
         refuse("is of another scene: the particles are not laid out as they were");
-    SavedState saved{header.frame, header.start_energy, cloth.initial_state()};
+    if (header.settings > 1'000'000) refuse("is damaged");
+    SavedState saved{header.frame, header.start_energy, header.frame_length,
+                     std::string(header.settings, ' '), cloth.initial_state()};
+    detail::take(file, saved.settings.data(), static_cast<Eigen::Index>(header.settings));
     detail::take(file, saved.state.x.data(), saved.state.x.size());
     detail::take(file, saved.state.v.data(), saved.state.v.size());
     if (!file || !saved.state.x.allFinite() || !saved.state.v.allFinite())

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <taut/taut.hpp>
 #include <utility>
 
@@ -28,9 +30,20 @@ inline std::string moved_corner(std::string_view corner, long long vertices) {
     return text;
 }
 
-/// All that an OBJ file says but positions and normals: texture coordinates, groups, materials,
-/// faces and lines, in its order.
-inline std::string obj_without_positions(const std::string& path) {
+/// A material library's line, by a path that holds in another folder.
+inline std::string moved_library(std::string_view words, const std::filesystem::path& mesh,
+                                 const std::filesystem::path& folder) {
+    const std::filesystem::path library = example::next_word(words);
+    std::error_code failed;
+    const auto moved =
+        std::filesystem::proximate(mesh.parent_path() / library, folder, failed).generic_string();
+    return "mtllib " + (failed ? library.generic_string() : moved) + '\n';
+}
+
+/// What an OBJ file says of texture coordinates, groups, materials, faces and lines, in its order.
+/// @param folder    where the text is to be read   @param vertices  that the file must have
+inline std::string obj_without_positions(const std::string& path, const std::string& folder,
+                                         taut::Index expected) {
     std::ifstream file(path, std::ios::binary);
     std::ostringstream content;
     content << file.rdbuf();
@@ -43,8 +56,12 @@ inline std::string obj_without_positions(const std::string& path) {
         const std::string_view kind = example::next_word(words);
         if (kind == "v") ++vertices;
         if (kind.empty() || kind == "v" || kind == "vn") continue;
+        if (kind == "mtllib") {
+            rest += moved_library(words, path, folder);
+            continue;
+        }
         rest += kind;
-        if (kind == "f" || kind == "l") {
+        if (kind == "f" || kind == "l" || kind == "p") {
             for (auto word = example::next_word(words); !word.empty();
                  word = example::next_word(words)) {
                 rest += ' ' + moved_corner(word, vertices);
@@ -54,6 +71,11 @@ inline std::string obj_without_positions(const std::string& path) {
         }
         rest += '\n';
     }
+    if (vertices != expected) {
+        throw std::runtime_error(path +
+                                 ": is read twice, and was not the same; --format ply reads "
+                                 "it once");
+    }
     return rest;
 }
 
@@ -61,8 +83,11 @@ inline std::string obj_without_positions(const std::string& path) {
 class SourceSequence {
 public:
     /// @param first  the frame to begin with
-    SourceSequence(std::string prefix, const std::string& mesh, taut::Index first)
-        : names_(std::move(prefix), {}), rest_(obj_without_positions(mesh)), frames_(first) {}
+    SourceSequence(const std::string& folder, const std::string& mesh, taut::Index vertices,
+                   taut::Index first)
+        : names_(folder + "/frame_", {}),
+          rest_(obj_without_positions(mesh, folder, vertices)),
+          frames_(first) {}
 
     taut::FileReport write(const taut::Points<double, 3>& x) {
         const std::string path = names_.path(frames_);

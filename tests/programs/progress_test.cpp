@@ -29,7 +29,7 @@ TEST_CASE("progress: says what a program is at, and only when it lasts", "[progr
     }
     CHECK(said.front().rfind("first, ", 0) == 0);
     CHECK(said.back().rfind("second, ", 0) == 0);
-    CHECK(said.back().substr(said.back().size() - 2) == " s");
+    CHECK(said.back().find(" s after the start") != std::string::npos);
 
     said.clear();
     {

@@ -49,9 +49,10 @@ RitzPair softest(const Pencil& pencil) {
             start = std::move(u);
         }
     }
-    if (least.value <= least.error) {  // a mechanism: rounding hides what a search would find
+    // On a mechanism of springs rounding hides what a search would find.
+    if (least.value <= least.error && pencil.projected_semidefinite()) {
         start /= std::sqrt(pencil.quadratic(M, start).value);
-        return {least.value, 0, std::move(start), 0};
+        return {least.value, least.error, std::move(start), 0};
     }
     return largest_ritz_pair(pencil, -K_plus, options, start);
 }
