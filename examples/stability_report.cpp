@@ -84,6 +84,7 @@ void analyse(const taut::Stability<double>& stability, const Options& options, P
         progress.at("looking for what makes the wanted step safe");
         const double h = options.want_step;
         found.remedies = Remedies{verdict(h),
+                                  0,
                                   stability.max_stiffness_scale(Method::symplectic_euler, h),
                                   stability.min_mass_scale(Method::symplectic_euler, h),
                                   {}};
@@ -118,6 +119,11 @@ Findings report_on_scene(const Options& options, Progress& progress) {
     found.graph_inertia = stability.max_step(Method::graph_inertia);
     if (found.remedies) {
         progress.at("looking for masses and inertia that make the wanted step safe");
+        found.remedies->recipe_step =
+            found.any_pose->unbounded()
+                ? 0
+                : taut::share_of_limit(taut::recipe.safety, taut::recipe.damping) *
+                      found.any_pose->certified;
         found.remedies->added_mass = taut::added_mass(scene.system, state, options.want_step);
         found.inertia = example::tell_inertia(scene.system, options.want_step);
     }

@@ -54,6 +54,7 @@ inline const char* name(Verdict::Standing standing) {
 /// What would make a wanted step safe.
 struct Remedies {
     Verdict verdict;
+    double recipe_step = 0;  // s; 0: none
     double stiffness_scale = 0;
     double mass_scale = 0;
     std::optional<taut::AddedMass> added_mass;

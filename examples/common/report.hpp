@@ -58,6 +58,12 @@ inline void print_promises(const Findings& found) {
     std::printf(
         "  recipe:    %.4g of any pose, springs looking %.4g h ahead: measured, not proved\n",
         taut::recipe.safety, taut::recipe.damping.look_ahead);
+    const double step =
+        taut::share_of_limit(taut::recipe.safety, taut::recipe.damping) * found.any_pose->certified;
+    if (step > 0) {
+        std::printf("             step a moving scene at %.4e s: %.0f steps a frame of 1/60 s\n",
+                    step, std::ceil(1 / (60 * step)));
+    }
 }
 
 /// A sentence for every cause that a user can do something about.
@@ -128,6 +134,10 @@ inline void print_remedies(const Remedies& remedies) {
     if (!(remedies.stiffness_scale > 0) || !std::isfinite(remedies.mass_scale)) {
         std::printf("  no scale of stiffness or masses is proved to make it safe\n");
         return;
+    }
+    if (remedies.recipe_step > 0) {
+        std::printf("  the recipe takes %.0f steps in its place; or\n",
+                    std::ceil(remedies.verdict.step / remedies.recipe_step));
     }
     std::printf(
         "  any one of these makes it safe:\n  all stiffness times %.4g, or all masses times %.4g\n",
