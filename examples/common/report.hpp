@@ -87,12 +87,14 @@ inline void print_note(const char* label, const taut::StepLimit<double>& limit) 
 inline void print_blame(const Findings& found) {
     std::printf("The limiting vibration\n");
     const auto all = static_cast<double>(found.particles.value_or(found.degrees_of_freedom));
+    const double foremost =
+        found.springs_to_blame.empty() ? 0 : found.springs_to_blame.front().share;
     // A sine over a whole cloth has 0.44.
-    if (found.participants > 0.3 * all) {
+    if (found.participants > 0.3 * all && foremost < 0.05) {
         std::printf(
             "  spread evenly: the whole net sets the limit; no spring holds more than %.2g %% of "
             "its energy\n",
-            found.springs_to_blame.empty() ? 0 : 100 * found.springs_to_blame.front().share);
+            100 * foremost);
         return;
     }
     std::printf("  about %.0f of %.0f particles take part\n", std::max(1.0, found.participants),
