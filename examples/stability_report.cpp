@@ -25,7 +25,6 @@ namespace {
 using example::Findings;
 using example::naming;
 using example::Progress;
-using example::Remedies;
 using taut::Method;
 
 struct Options {
@@ -64,30 +63,34 @@ void analyse(const taut::Stability<double>& stability, const Options& options, P
             options.want_step > 0 ? options.want_step : found.symplectic_euler.certified;
         if (h > 0 && std::isfinite(h)) found.proof = stability.certify(Method::symplectic_euler, h);
     }
-    if (options.blame > 0 || !options.html.empty()) {
-        progress.at("finding the limiting vibration");
-        found.limiting_mode = stability.limiting_mode();
-    }
-    found.springs_to_blame = stability.limiting_springs(options.blame, found.limiting_mode);
-    found.particles_to_blame = stability.limiting_particles(options.blame, found.limiting_mode);
+    const auto limiting_mode = [&]() -> const taut::LimitingMode& {
+        if (!found.limiting_mode) {
+            progress.at("finding the limiting vibration");
+            found.limiting_mode = stability.limiting_mode();
+        }
+        return *found.limiting_mode;
+    };
+    if (!options.html.empty()) limiting_mode();
     if (options.blame > 0) {
+        const auto& mode = limiting_mode();
+        found.springs_to_blame = stability.limiting_springs(options.blame, mode);
+        found.particles_to_blame = stability.limiting_particles(options.blame, mode);
         double squares = 0;
-        for (const auto& one : stability.limiting_particles(stability.size(), found.limiting_mode))
+        for (const auto& one : stability.limiting_particles(stability.size(), mode))
             squares += one.share * one.share;
         found.participants = squares > 0 ? 1 / squares : 0;
     }
     const auto verdict = [&](double h) {
-        return example::judge(stability, found.symplectic_euler, h);
+        return example::judge(stability, found.symplectic_euler, limiting_mode, h);
     };
     if (options.step > 0) found.verdict = verdict(options.step);
     if (options.want_step > 0) {
         progress.at("looking for what makes the wanted step safe");
         const double h = options.want_step;
-        found.remedies = Remedies{verdict(h),
-                                  0,
-                                  stability.max_stiffness_scale(Method::symplectic_euler, h),
-                                  stability.min_mass_scale(Method::symplectic_euler, h),
-                                  {}};
+        auto& remedies = found.remedies.emplace();
+        remedies.verdict = verdict(h);
+        remedies.stiffness_scale = stability.max_stiffness_scale(Method::symplectic_euler, h);
+        remedies.mass_scale = stability.min_mass_scale(Method::symplectic_euler, h);
     }
     found.window_step = options.step;
     if (found.window_step == 0) {
@@ -119,18 +122,13 @@ Findings report_on_scene(const Options& options, Progress& progress) {
     found.graph_inertia = stability.max_step(Method::graph_inertia);
     if (found.remedies) {
         progress.at("looking for masses and inertia that make the wanted step safe");
-        found.remedies->recipe_step =
-            found.any_pose->unbounded()
-                ? 0
-                : taut::share_of_limit(taut::recipe.safety, taut::recipe.damping) *
-                      found.any_pose->certified;
         found.remedies->added_mass = taut::added_mass(scene.system, state, options.want_step);
         found.inertia = example::tell_inertia(scene.system, options.want_step);
     }
     found.analysis = seconds_since(analysis);
     if (!options.html.empty()) {
         progress.at("stepping the mesh for the page");
-        const auto& mode = found.limiting_mode;
+        const auto& mode = *found.limiting_mode;
         found.page = example::page_data(stability, found, mode, scene.system.rayleigh());
         example::add_mesh(found.page, scene, stability, mode);
         example::add_runs(found.page, scene, found.symplectic_euler, mode);
@@ -172,7 +170,7 @@ Findings report_on_matrices(const Options& options, Progress& progress) {
     if (!options.html.empty()) {
         std::optional<taut::RayleighDamping> undamped;
         if (options.damping_matrix.empty()) undamped.emplace();
-        found.page = example::page_data(stability, found, found.limiting_mode, undamped);
+        found.page = example::page_data(stability, found, *found.limiting_mode, undamped);
     }
     return found;
 }

@@ -25,6 +25,15 @@ export function chosen(plans) {
   return { best, second, near, close: near && second.method !== best.method };
 }
 
+export const MEASURING = "measuring …";
+/// Until a scene's plans are timed, none are shown.
+export function awaitAdvice() {
+  byId("pick").textContent = MEASURING;
+  byId("why").textContent = "";
+  byId("bars").replaceChildren();
+  byId("use").disabled = true;
+}
+
 export function writeAdvice(plans) {
   const { best, second, near, close } = chosen(plans);
   byId("use").disabled = !best;

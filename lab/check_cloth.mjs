@@ -54,6 +54,8 @@ export async function checkCloth(page, name, pictures) {
   const { drawn, reach, camera } = await state(page);
   expect(reach > 2 && drawn <= 1.06 && Math.hypot(...camera) > 1.15, `${name}: particles are ${reach.toPrecision(2)} diagonals away, none is drawn farther than ${drawn.toFixed(2)}, the camera is at ${Math.hypot(...camera).toFixed(2)}`);
   await page.locator("#again").click();
+  const safer = await state(page);
+  expect(safer.settings.h < safer.limits.anyPose && !safer.blown, `${name}: it starts again at a certified step, ${safer.settings.h.toExponential(3)} s`);
   await page.waitForFunction(() => window.labState().plans.length > 0);
   await page.locator("#use").click();
   const advised = await state(page);

@@ -131,6 +131,23 @@ export async function checkPins(page, name) {
   await page.locator("#factor").fill("-1");
   await page.locator("#factor").press("Enter");
   expect(/above 0/.test(await text(page, "#wrong")), `${name}: a scale of −1: ${await text(page, "#wrong")}`);
+
+  // What was set by hand stays; the second of two quick choices does not undo the first.
+  await page.locator("#mass").focus();
+  await page.keyboard.press("ArrowRight");
+  await page.locator("#unpin").click();
+  await settled(page);
+  const own = await state(page);
+  await page.evaluate(() => {
+    for (const [id, value] of [["up", "1"], ["unit", "m"]]) {
+      document.getElementById(id).value = value;
+      document.getElementById(id).dispatchEvent(new Event("change"));
+    }
+  });
+  await page.waitForFunction(() => Math.abs(window.labState().high[2] - 1) < 1e-9 && !window.labState().busy);
+  const kept = await state(page);
+  expect(kept.settings.mass === own.settings.mass && kept.preset === null && kept.pinned.length === 0,
+    `${name}: y is up again and the unit is m, chosen at once; ${kept.settings.mass.toPrecision(3)} kg and no pins stay as they were set`);
 }
 
 export async function checkReset(page, name) {

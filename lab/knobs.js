@@ -51,14 +51,16 @@ export class Knobs {
     }));
     byId("presets").addEventListener("click", ({ target }) => {
       if (!target.dataset.preset) return;
-      this.take(target.dataset.preset, this.shape);
+      const { preset } = target.dataset;
+      this.take(preset, this.shape, valuesOf(preset, this.shape));
       changed();
     });
   }
 
-  take(preset, shape) {
+  /// @param values  a preset's, or what was set by hand and has none
+  take(preset, shape, values) {
     this.shape = shape;
-    this.exact = valuesOf(preset, shape);
+    this.exact = { ...values };
     for (const [id, knob] of Object.entries(KNOBS)) byId(id).value = Math.round(byId(id).max * knob.at(this.exact[id]));
     this.mark(preset);
     this.write();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
-import { chosen, frameCost, writeAdvice } from "./advice.js";
+import { MEASURING, awaitAdvice, chosen, frameCost, writeAdvice } from "./advice.js";
 import { Analyst } from "./analyst.js";
 import { STEP, drawBands, drawRinging, setScale, standing } from "./charts.js";
 import { SYMPLECTIC, loadLab } from "./engine.js";
@@ -87,7 +87,9 @@ function forget() {
 // ---- analysis ----
 
 const knobs = new Knobs(() => {
-  Object.assign(settings, knobs.values());
+  const values = knobs.values();
+  bar.keep({ preset: knobs.preset, knobs: knobs.preset ? undefined : values });
+  Object.assign(settings, values);
   lab.knobs(settings);
   forget();
   analyse();
@@ -139,7 +141,7 @@ function take(result) {
 
 async function advise() {
   const mine = asked;
-  byId("pick").textContent = "measuring …";
+  byId("pick").textContent = MEASURING;
   const result = await analyst.advise(task()).catch((error) => {
     if (mine === asked) byId("pick").textContent = `not measured: ${error.message}`;
   });
@@ -161,14 +163,14 @@ async function open(next) {
     const progress = (done, words) => bar.progress(done, words);
     const read = await analyst.open(next, progress);
     if (mine !== asked || !read) return false;
-    const values = valuesOf(next.preset, read.shape);
+    const values = next.knobs ?? valuesOf(next.preset, read.shape);
     const result = await analyst.analyse({ scene: next, pins: read.pinned, knobs: values }, progress);
     if (mine !== asked || !result) return false;
     lab.open(next);
     lab.pinOnly(read.pinned);
     scene = next;
     bar.show(scene, read.words);
-    knobs.take(scene.preset, read.shape);
+    knobs.take(scene.preset, read.shape, values);
     Object.assign(settings, knobs.values());
     lab.knobs(settings);
     layOut();
@@ -176,9 +178,9 @@ async function open(next) {
     byId("verdict").hidden = true;
     found = result;
     plans = [];  // of another scene
-    byId("use").disabled = true;
+    awaitAdvice();
     setScale(found.limits[SYMPLECTIC]);
-    settings.h = 0.9 * usable();
+    settings.h = usable();
     take(result);
     return true;
   } catch (error) {
@@ -191,11 +193,9 @@ async function open(next) {
     if (mine === asked) bar.working(false);
   }
 }
+const safe = ({ anyPose, certified }) => [anyPose, certified].find((h) => h > 0 && h < Infinity);
 /// A step to begin with: of the method, or else of symplectic Euler.
-function usable() {
-  const of = ({ anyPose, certified }) => [anyPose, certified].find((h) => h > 0 && h < Infinity);
-  return of(limits()) ?? of(found.limits[SYMPLECTIC]) ?? 1e-3;
-}
+const usable = () => 0.9 * (safe(limits()) ?? safe(found.limits[SYMPLECTIC]) ?? 1e-3);
 
 /// The scene as it was laid out, drawn anew with the pins that it has.
 function layOut() {
@@ -207,7 +207,9 @@ function layOut() {
   view.each((model) => model.setPins(lab.pinned(), positions));
   byId("scene").textContent = sceneWords(scene.name, lab.size(), lab.springs(), shape);
 }
-function pinsChanged() {
+/// @param pins  set by hand; without them the top edge is pinned, wherever it is
+function pinsChanged(pins) {
+  bar.keep({ pins });
   startAgain();
   byId("scene").textContent = sceneWords(scene.name, lab.size(), lab.springs(), lab.shape());
   view.each((model) => model.setPins(lab.pinned(), mesh.positions));
@@ -218,13 +220,13 @@ const bar = new SceneBar({
   open,
   cancel: () => analyst.cancel(),
   pinTop: () => (lab.pinTop(), pinsChanged()),
-  unpin: () => (lab.unpinAll(), pinsChanged()),
+  unpin: () => (lab.unpinAll(), pinsChanged([])),
 });
 view.onClick((x, y) => {
   const particle = view.particleAt(x, y);
   if (particle < 0) return;
   lab.pin(particle, lab.pinned().includes(particle) ? 0 : 1);
-  pinsChanged();
+  pinsChanged(lab.pinned());
 });
 
 // ---- events ----
@@ -243,7 +245,13 @@ byId("methods").addEventListener("change", ({ target }) => {
   writeLimits();
   forget();
 });
-byId("again").addEventListener("click", startAgain);
+byId("again").addEventListener("click", () => {
+  if (safe(limits()) < settings.h) {
+    setStep(usable());
+    writeStep();
+  }
+  startAgain();
+});
 byId("start-again").addEventListener("click", startAgain);
 byId("use").addEventListener("click", () => {
   const { best } = chosen(plans);

@@ -14,7 +14,9 @@ export class SceneBar {
   /// @param act  open(scene), cancel(), pinTop(), unpin()
   constructor(act) {
     this.act = act;
-    this.scene = null;
+    this.scene = null;   // as it is shown
+    this.wanted = null;  // as it was asked for last: what the next change begins from
+    this.asked = 0;
     this.busy = false;
     byId("scenes").addEventListener("change", async ({ target }) => {
       this.open(() => shipped(target.value));
@@ -24,20 +26,20 @@ export class SceneBar {
       if (file) this.open(() => fromFile(file));
       target.value = "";  // the same file, mended, can be picked again
     });
-    byId("up").addEventListener("change", ({ target }) => this.open(() => changed(this.scene, { up: Number(target.value) })));
+    byId("up").addEventListener("change", ({ target }) => this.change({ up: Number(target.value) }));
     byId("unit").addEventListener("change", ({ target }) => {
       byId("factor").hidden = target.value !== "factor";
       if (target.value === "factor") byId("factor").focus();
-      else this.open(() => changed(this.scene, { scale: UNITS[target.value] }));
+      else this.change({ scale: UNITS[target.value] });
     });
     byId("factor").addEventListener("change", ({ target }) => {
       const scale = Number(target.value);
-      if (scale > 0 && scale < Infinity) this.open(() => changed(this.scene, { scale }));
+      if (scale > 0 && scale < Infinity) this.change({ scale });
       else this.complain("A scale is a number above 0: how many metres one unit of the file has.");
     });
     for (const id of OPTIONS) byId(id).addEventListener("change", () => {
       const options = OPTIONS.reduce((sum, name, bit) => sum + (byId(name).checked ? 1 << bit : 0), 0);
-      this.open(() => changed(this.scene, { options, pins: undefined }));
+      this.change(id === "weld" ? { options, pins: undefined } : { options });  // welding numbers particles anew
     });
     byId("pin-top").addEventListener("click", act.pinTop);
     byId("unpin").addEventListener("click", act.unpin);
@@ -64,20 +66,36 @@ export class SceneBar {
   }
 
   async open(make) {
-    let scene;
+    const mine = ++this.asked;
+    const back = () => {
+      if (mine !== this.asked) return;
+      this.wanted = this.scene;
+      this.mark();
+    };
     try {
-      scene = await make();
+      const scene = await make();
+      if (mine !== this.asked) return;
+      this.wanted = scene;
+      if (!(await this.act.open(scene))) back();
     } catch (error) {
       this.complain(error.message);
-      this.mark();
-      return;
+      back();
     }
-    if (!(await this.act.open(scene))) this.mark();
+  }
+  change(more) {
+    const scene = this.wanted = changed(this.wanted, more);
+    this.open(() => scene);
+  }
+  /// What the reader set by hand stays with the scene. A scene that was on its way is given up.
+  keep(more) {
+    ++this.asked;
+    this.scene = this.wanted = { ...this.scene, ...more };
+    this.mark();
   }
 
   /// @param words  sentences that are worth knowing
   show(scene, words) {
-    this.scene = scene;
+    this.scene = this.wanted = scene;
     this.mark();
     byId("notes").replaceChildren(...words.map((text) => Object.assign(document.createElement("p"), { textContent: text })));
   }

@@ -49,7 +49,7 @@ function net() {
 }
 
 let opened = 0;
-const keyed = ({ scale = 1, up = 2, options = 0, ...scene }) => ({ came: { scale, up, options, pins: scene.pins }, scale, up, options, ...scene, key: ++opened });
+const keyed = ({ scale = 1, up = 2, options = 0, ...scene }) => ({ came: { scale, up, options, pins: scene.pins, preset: scene.preset, knobs: undefined }, scale, up, options, ...scene, key: ++opened });
 
 /// @param preset  of knobs.js, to begin with
 const SHIPPED = {

@@ -28,17 +28,19 @@ struct Verdict {
 };
 
 /// @param limit  of symplectic Euler at this pose
-inline Verdict judge(const taut::Stability<double>& stability, const taut::StepLimit<double>& limit,
-                     double h) {
+/// @param mode   returns the limiting vibration; called only where the step is refuted
+template <class Mode>
+Verdict judge(const taut::Stability<double>& stability, const taut::StepLimit<double>& limit,
+              const Mode& mode, double h) {
     using Standing = Verdict::Standing;
     if (h <= limit.certified) return {h, Standing::certified};
     if (h < limit.refuted) {
         const bool proved = stability.certify(Method::symplectic_euler, h).proved;
         return {h, proved ? Standing::certified : Standing::undecided};
     }
-    const auto mode = stability.limiting_mode();
+    const taut::LimitingMode& limiting = mode();
     return {h, Standing::refuted,
-            std::max(taut::spectral_radius(Method::symplectic_euler, mode.k, mode.d, h),
+            std::max(taut::spectral_radius(Method::symplectic_euler, limiting.k, limiting.d, h),
                      stability.spectral_radius(Method::symplectic_euler, h))};
 }
 
@@ -54,7 +56,6 @@ inline const char* name(Verdict::Standing standing) {
 /// What would make a wanted step safe.
 struct Remedies {
     Verdict verdict;
-    double recipe_step = 0;  // s; 0: none
     double stiffness_scale = 0;
     double mass_scale = 0;
     std::optional<taut::AddedMass> added_mass;
@@ -131,7 +132,7 @@ struct Findings {
     std::optional<taut::StepLimit<double>> any_pose;
     std::optional<EnergyProof> energy;
     std::optional<taut::Certificate> proof;
-    taut::LimitingMode limiting_mode;  // where it was asked for
+    std::optional<taut::LimitingMode> limiting_mode;  // where something needed it
     std::vector<taut::SpringShare> springs_to_blame;
     std::vector<taut::ParticleShare> particles_to_blame;
     double participants = 0;         // 1/Σ of the squared shares of all particles
@@ -143,6 +144,11 @@ struct Findings {
     double setup = 0;     // s
     double analysis = 0;  // s
     Json page;            // what only the HTML page shows; null without --html
+
+    /// Of a moving scene by the recipe, s; 0: none.
+    double recipe_step() const {
+        return any_pose && !any_pose->unbounded() ? taut::recipe.safety * any_pose->certified : 0;
+    }
 };
 
 }  // namespace example

@@ -58,8 +58,7 @@ inline void print_promises(const Findings& found) {
     std::printf(
         "  recipe:    %.4g of any pose, springs looking %.4g h ahead: measured, not proved\n",
         taut::recipe.safety, taut::recipe.damping.look_ahead);
-    const double step =
-        taut::share_of_limit(taut::recipe.safety, taut::recipe.damping) * found.any_pose->certified;
+    const double step = found.recipe_step();
     if (step > 0) {
         std::printf("             step a moving scene at %.4e s: %.0f steps a frame of 1/60 s\n",
                     step, std::ceil(1 / (60 * step)));
@@ -129,7 +128,8 @@ inline std::string describe(const Verdict& verdict) {
     return text;
 }
 
-inline void print_remedies(const Remedies& remedies) {
+inline void print_remedies(const Findings& found) {
+    const Remedies& remedies = *found.remedies;
     std::printf("For symplectic Euler at h = %.4e s in this pose: %s\n", remedies.verdict.step,
                 describe(remedies.verdict).c_str());
     if (remedies.verdict.standing == Verdict::Standing::certified) return;
@@ -137,9 +137,9 @@ inline void print_remedies(const Remedies& remedies) {
         std::printf("  no scale of stiffness or masses is proved to make it safe\n");
         return;
     }
-    if (remedies.recipe_step > 0) {
+    if (found.recipe_step() > 0) {
         std::printf("  the recipe takes %.0f steps in its place; or\n",
-                    std::ceil(remedies.verdict.step / remedies.recipe_step));
+                    std::ceil(remedies.verdict.step / found.recipe_step()));
     }
     std::printf(
         "  any one of these makes it safe:\n  all stiffness times %.4g, or all masses times %.4g\n",
@@ -232,7 +232,7 @@ inline void print_table(const Findings& found, double d0) {
                     found.proof->proved ? "proved stable" : "not proved");
     }
     if (!found.particles_to_blame.empty()) print_blame(found);
-    if (found.remedies) print_remedies(*found.remedies);
+    if (found.remedies) print_remedies(found);
     if (found.inertia) print_inertia(*found.inertia, found);
     std::printf("Seconds: setup %.3f, analysis %.3f\n", found.setup, found.analysis);
 }

@@ -110,18 +110,21 @@ void for_each_triangle(const std::vector<Index>& face, Visitor&& visit) {
     for (std::size_t i = 1; i + 1 < face.size(); ++i) visit(face[0], face[i], face[i + 1]);
 }
 
-/// The area around each vertex, m²: a third of its triangles. Without triangles that have any, the
-/// length, m: half of its lines.
+/// The area around each vertex: of each of its faces an equal share for every corner, m². Without a
+/// face that has any, the length: half of each of its lines, m.
 template <class Scalar>
 Eigen::VectorXd areas_of_vertices(const Points<Scalar, 3>& vertices,
                                   const std::vector<std::vector<Index>>& faces) {
     const Points<double, 3> x = vertices.template cast<double>();
     Eigen::VectorXd area = Eigen::VectorXd::Zero(x.cols());
-    const auto add_thirds = [&](Index a, Index b, Index c) {
-        const Eigen::Vector3d u = x.col(b) - x.col(a), w = x.col(c) - x.col(a);
-        for (const Index corner : {a, b, c}) area[corner] += u.cross(w).norm() / 6;
-    };
-    for (const auto& face : faces) for_each_triangle(face, add_thirds);
+    for (const auto& face : faces) {
+        double whole = 0;
+        for_each_triangle(face, [&](Index a, Index b, Index c) {
+            const Eigen::Vector3d u = x.col(b) - x.col(a), w = x.col(c) - x.col(a);
+            whole += u.cross(w).norm() / 2;
+        });
+        for (const Index corner : face) area[corner] += whole / static_cast<double>(face.size());
+    }
     if (area.sum() > 0) return area;
     for (const auto& face : faces) {
         if (face.size() != 2) continue;

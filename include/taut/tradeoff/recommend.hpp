@@ -63,8 +63,8 @@ std::vector<Plan> feasible_plans(const SpringSystem<Scalar, Dim, Laws...>& syste
             candidate.scheme, [](auto descriptor) { return decltype(descriptor)::any_pose; });
         if (candidate.scheme == Scheme::graph_inertia) {
             if (!(limit > 0)) continue;
-            const double by_recipe = share_of_limit(recipe.safety, recipe.damping) * limit;
-            const auto most = static_cast<Index>(std::min(1e15, std::ceil(goal.frame / by_recipe)));
+            const auto most =
+                static_cast<Index>(std::min(1e15, std::ceil(goal.frame / (recipe.safety * limit))));
             tradeoff_detail::GraphInertiaPlans<Scalar, Dim, Laws...> inertia(system, state, goal);
             for (const Plan& plan : inertia.plans(candidate, most)) plans.push_back(plan);
         } else if (safe == method::AnyPose::every_step) {
