@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include <Eigen/QR>
 #include <taut/stability/stability.hpp>
 
 #include "../support/catch.hpp"
@@ -172,6 +173,32 @@ TEST_CASE("limits: dampers without stiffness, at any strength", "[stability]") {
             CHECK(limit.certified >= (1 - 2e-4) / d);
             CHECK(limit.refuted >= (1 - 1e-15) / d);
         }
+    }
+}
+
+TEST_CASE("limits: the softest mode of indefinite matrices is found below a free translation",
+          "[stability]") {
+    Random random(77);
+    for (const Index n : {3, 8, 40, 300}) {
+        // K1 = 0, as of springs that nothing holds, and one direction that pushes outwards.
+        Eigen::MatrixXd Q(n, n);
+        for (Index j = 0; j < n; ++j)
+            for (Index i = 0; i < n; ++i) Q(i, j) = j == 0 ? 1 : random.uniform(-1, 1);
+        Q = Eigen::HouseholderQR<Eigen::MatrixXd>(Q).householderQ() *
+            Eigen::MatrixXd::Identity(n, n);
+        Eigen::VectorXd lambda(n);
+        for (Index i = 0; i < n; ++i) lambda[i] = random.uniform(0.5, 1);
+        lambda[0] = 0;
+        lambda[n - 1] = -random.uniform(0.1, 0.4);
+        Eigen::MatrixXd K = Q * lambda.asDiagonal() * Q.transpose();
+        K = ((K + K.transpose()) / 2).eval();
+        const taut::Stability<double> stability(taut::LinearSystem<double>(
+            Eigen::VectorXd::Ones(n), Eigen::SparseMatrix<double>(n, n), sparse(K)));
+        const auto k_min = stability.stiffness_spectrum().k_min;
+        INFO(n << " degrees of freedom, least eigenvalue " << lambda[n - 1]);
+        CHECK(k_min.lower <= lambda[n - 1] + 1e-12);
+        CHECK(k_min.upper >= lambda[n - 1] - 1e-12);
+        CHECK(k_min.upper <= 0.99 * lambda[n - 1]);
     }
 }
 
