@@ -347,6 +347,7 @@ TEST_CASE("coarsen: each part keeps a particle, and springs without length do no
             CHECK(glued == 2);
         }
     }
+    CHECK(taut::least_count(system) == 3);
     CHECK(missing(message_of([&] { coarsen(system, 2); }), {"count is 2", "at least 3"}) == "");
 }
 

@@ -94,17 +94,30 @@ void require_coarsenable(const System& system, Index count) {
     if (external.wind.blows()) fail("coarsen: set_wind", cannot);
 }
 
-/// Fails unless every particle has a seed.
-inline void require_reached(const SpringGraph& graph, Clusters clusters) {
-    const auto given = clusters.seeds.size();
+template <class System>
+std::vector<int> pins_of(const System& system) {
+    std::vector<int> pins;
+    for (Index i = 0; i < system.size(); ++i)
+        if (system.is_pinned(i)) pins.push_back(static_cast<int>(i));
+    return pins;
+}
+/// The fewest seeds that every particle is joined to: those given, and one for each part without.
+inline Index least_seeds(const SpringGraph& graph, Clusters clusters) {
     for (int i = 0; i < graph.size(); ++i)
         if (clusters.of[i] < 0) add_seed(graph, i, clusters);
-    if (clusters.seeds.size() > given)
-        fail("coarsen: count is ", given, "; pins, and one particle of each part that no spring ",
-             "joins to them, are at least ", clusters.seeds.size());
+    return static_cast<Index>(clusters.seeds.size());
 }
 
 }  // namespace scene_detail
+
+/// The smallest count that coarsen() takes: the pins, and one for each part without a pin.
+template <class System>
+Index least_count(const System& system) {
+    const scene_detail::SpringGraph graph(system, system.initial_state().x);
+    const std::vector<int> pins = scene_detail::pins_of(system);
+    return scene_detail::least_seeds(
+        graph, scene_detail::farthest_seeds(graph, pins, static_cast<int>(pins.size())));
+}
 
 /// A network of `count` particles that moves as the system does, as far as so few can.
 ///
@@ -117,7 +130,7 @@ inline void require_reached(const SpringGraph& graph, Clusters clusters) {
 ///
 /// What is lost: wrinkles finer than a cluster, and what a spring across AB does. resolve() says
 /// how much that matters.
-/// @param count  at least the pins and one for each part without a pin, at most system.size()
+/// @param count  at least least_count(system), at most system.size()
 /// @throws (fail) where the count is not in that range, and by name for forces that cannot be
 ///         carried over: set_external_force, set_particle_force, set_wind
 template <class Scalar, int Dim, class... Laws>
@@ -126,12 +139,12 @@ Coarsening<SpringSystem<Scalar, Dim, Laws...>> coarsen(
     using System = SpringSystem<Scalar, Dim, Laws...>;
     scene_detail::require_coarsenable(system, count);
     const auto x = system.initial_state().x;
-    std::vector<int> pins;
-    for (Index i = 0; i < system.size(); ++i)
-        if (system.is_pinned(i)) pins.push_back(static_cast<int>(i));
+    const std::vector<int> pins = scene_detail::pins_of(system);
     const scene_detail::SpringGraph graph(system, x);
     auto clusters = scene_detail::farthest_seeds(graph, pins, static_cast<int>(count));
-    require_reached(graph, clusters);
+    if (const Index least = scene_detail::least_seeds(graph, clusters); count < least)
+        fail("coarsen: count is ", count, "; pins, and one particle of each part that no spring ",
+             "joins to them, are at least ", least);
 
     std::vector<double> mass(clusters.seeds.size(), 0);
     VectorX<Scalar> fine_mass(system.size());
