@@ -225,12 +225,12 @@ TEST_CASE("bdf2: the artificial damping ratio of a mode is (h omega)^3/4", "[int
         auto state = oscillator.initial_state();
         state.x(0, 0) += 0.0625;
         Bdf2 stepper(oscillator);
-        const auto size = [&] { return std::hypot(state.x(0, 0), state.v(0, 0) / 2); };
+        const auto swing = [&] { return std::hypot(state.x(0, 0), state.v(0, 0) / 2); };
         REQUIRE(stepper.step(state, z / 2, 10));  // past the first step
-        const double before = size();
+        const double before = swing();
         const int steps = static_cast<int>(2 / (z * z * z));
         REQUIRE(stepper.step(state, z / 2, steps));
-        const double ratio = std::log(before / size()) / (steps * z);
+        const double ratio = std::log(before / swing()) / (steps * z);
         CHECK_THAT(ratio, WithinRel(z * z * z / 4, 0.05));
     }
 }

@@ -165,11 +165,12 @@ TEMPLATE_TEST_CASE("linear_system: each pair of entries is judged by its own row
         }
     }
     // A circulatory block that a stiff neighbour hid.
-    Dense<TestType> K = Dense<TestType>::Zero(3, 3);
-    K(0, 0) = TestType(1e12);
-    K.bottomRightCorner(2, 2) << TestType(1e-6), TestType(1e-4), TestType(-1e-4), TestType(1e-6);
+    Dense<TestType> hiding = Dense<TestType>::Zero(3, 3);
+    hiding(0, 0) = TestType(1e12);
+    hiding.bottomRightCorner(2, 2) << TestType(1e-6), TestType(1e-4), TestType(-1e-4),
+        TestType(1e-6);
     CHECK(missing(message_of([&] {
-                      LinearSystem<TestType>(mass.cast<TestType>(), {}, sparse<TestType>(K));
+                      LinearSystem<TestType>(mass.cast<TestType>(), {}, sparse<TestType>(hiding));
                   }),
                   {"stiffness", "symmetric", "(2, 1)", "(1, 2)"}) == "");
 }

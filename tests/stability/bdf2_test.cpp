@@ -16,7 +16,7 @@ namespace {
 taut::SpringSystem<double, 1> line() {
     taut::SpringSystem<double, 1> system;
     for (int i = 0; i < 5; ++i) system.add_particle(Eigen::Matrix<double, 1, 1>(i), 0.1 + 0.05 * i);
-    for (int i = 0; i < 4; ++i) system.add_spring(i, i + 1, {100.0 * (i + 1)});
+    for (int i = 0; i < 4; ++i) system.add_spring(i, i + 1, 100.0 * (i + 1));
     system.pin(0);
     system.set_rayleigh({0.3, 2e-3});
     return system;
