@@ -100,7 +100,9 @@ std::string sentence(const Resolution<System>& found, Index all, double duration
         }
         case Resolved::fine: {
             std::string text = "The scene's own " + particles(all) + " are needed";
-            if (found.levels.size() > 1) {
+            if (found.levels.size() < 3) {
+                text += ": the budget has no room for three coarser levels to compare";
+            } else {
                 const auto& last = found.levels[found.levels.size() - 2];
                 text += ": " + over + "even " + std::to_string(last.particles) +
                         " are estimated to err by " + percent(last.error) + " (goal " +

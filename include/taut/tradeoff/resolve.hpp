@@ -127,7 +127,9 @@ private:
         if (!(fine.h > 0)) fail("resolve: no step of the scene is certified");
         found_.fine_cost = fine.cost;
         const Index least = least_count(system_);
-        for (Index free = 16; least + free <= system_.size() / 2; free *= 4) {
+        // Small scenes begin with fewer, so that three levels fit.
+        const Index most = system_.size() / 2 - least;
+        for (Index free = std::clamp<Index>(most / 16, 1, 16); free <= most; free *= 4) {
             Coarsening<System> coarsening = coarsen(system_, least + free);
             State start = coarsening.restricted(state_);
             const Pace pace = pace_of(coarsening.system, duration_, options_.samples);
@@ -269,11 +271,11 @@ private:
 ///     auto found = taut::resolve(cloth, state, 2.0, 0.03);   // within 3 % for 2 s
 ///     found.why, found.coarsening->system, found.cheaper()
 ///
-/// Levels of 16, 64, 256 … free particles are stepped by the recipe, each at its own certified
-/// step. The estimate of a level's error is its largest difference from the next, and of all finer
-/// levels' from theirs, on three levels at least. It is an estimate: nothing here is certified but
-/// the steps. The last run disturbs a level by 1e-7 of the scene's size: what that grows to, no
-/// resolution can predict better.
+/// Levels of 16, 64, 256 … free particles (fewer in scenes of some hundred) are stepped by the
+/// recipe, each at its own certified step. The estimate of a level's error is its largest
+/// difference from the next, and of all finer levels' from theirs, on three levels at least. It is
+/// an estimate: nothing here is certified but the steps. The last run disturbs a level by 1e-7 of
+/// the scene's size: what that grows to, no resolution can predict better.
 ///
 /// Deterministic, unless ResolveOptions::seconds cut it short. The scene itself is never run; the
 /// search costs at most ResolveOptions::budget of it.
