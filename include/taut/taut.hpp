@@ -29,6 +29,7 @@
 #include "model/tension_only.hpp"
 #include "scene/chain.hpp"
 #include "scene/cloth.hpp"
+#include "scene/coarsen.hpp"
 #include "scene/contact.hpp"
 #include "scene/mesh.hpp"
 #include "scene/obstacle.hpp"
@@ -46,6 +47,7 @@
 #include "stability/stability.hpp"
 #include "tradeoff/measure.hpp"
 #include "tradeoff/recommend.hpp"
+#include "tradeoff/resolve.hpp"
 
 #if defined(TAUT_COMPILED)
 #include "compiled.hpp"

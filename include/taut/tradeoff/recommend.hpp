@@ -3,6 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "../stability/any_pose.hpp"
@@ -10,6 +13,7 @@
 #include "choose.hpp"
 #include "cost.hpp"
 #include "graph_inertia_plans.hpp"
+#include "resolve.hpp"
 
 namespace taut {
 
@@ -85,21 +89,12 @@ std::vector<Plan> feasible_plans(const SpringSystem<Scalar, Dim, Laws...>& syste
     return feasible_plans(system, system.initial_state(), goal, candidates);
 }
 
-/// The integrator, solver, step and substeps that reach a goal at the least cost on this machine:
-/// feasible_plans(), each timed by a few steps from `state` on a copy, then choose().
-///
-///     taut::Goal goal;                                  // 1/60 s a frame, stable is enough
-///     auto advice = taut::recommend(cloth, state, goal);
-///     advice.pick.candidate.h, advice.why
-///
-/// Costs are those of the code as compiled and of the machine as busy as it is; everything else is
-/// deterministic.
-template <class Scalar, int Dim, class... Laws>
-Recommendation recommend(const SpringSystem<Scalar, Dim, Laws...>& system,
-                         const State<Scalar, Dim>& state, const Goal& goal,
-                         const std::vector<Candidate>& candidates,
-                         const Calibration& calibration = {}) {
-    std::vector<Plan> plans = feasible_plans(system, state, goal, candidates);
+namespace tradeoff_detail {
+
+/// Measures the cost of each plan by a few steps from `state`, s a frame.
+template <class System>
+void measure_costs(const System& system, const typename System::State& state,
+                   const Calibration& calibration, std::vector<Plan>& plans) {
     // A factorisation of a large scene takes seconds: one step shows that it is far behind.
     constexpr double far = 5;
     double least = std::numeric_limits<double>::infinity();
@@ -109,7 +104,67 @@ Recommendation recommend(const SpringSystem<Scalar, Dim, Laws...>& system,
                     step_cost(system, state, plan.candidate, calibration, far * least / substeps);
         least = std::min(least, plan.cost);
     }
-    return choose(std::move(plans), goal);
+}
+
+/// CPU s of lifting positions once.
+template <class System>
+double lift_cost(const Coarsening<System>& coarsening, const Calibration& calibration) {
+    const auto moved = coarsening.system.initial_state().v;
+    double least = std::numeric_limits<double>::infinity();
+    for (int repeat = 0; repeat < 3; ++repeat) {
+        const double start = calibration.clock();
+        const auto lifted = coarsening.lifted(moved);
+        // What depends on the result cannot be left out.
+        const double nothing = static_cast<double>(lifted(0, 0)) * 0;
+        least = std::min(least, calibration.clock() - start + nothing);
+    }
+    return least;
+}
+
+}  // namespace tradeoff_detail
+
+/// The integrator, solver, step and substeps that reach a goal at the least cost on this machine:
+/// feasible_plans(), each timed by a few steps from `state` on a copy, then choose().
+///
+///     taut::Goal goal;                                  // 1/60 s a frame, stable is enough
+///     auto advice = taut::recommend(cloth, state, goal);
+///     advice.pick.candidate.h, advice.why
+///
+/// With Goal::resolution it chooses the number of particles, too: where resolve() finds a coarser
+/// network that meets that goal, plans of it, with the cost of lifting once a frame, are compared
+/// with those of the scene. Plan::particles then says how many, for coarsen().
+///
+/// Costs are those of the code as compiled and of the machine as busy as it is; everything else is
+/// deterministic.
+/// @throws (fail) what feasible_plans(), choose() and resolve() refuse
+template <class Scalar, int Dim, class... Laws>
+Recommendation recommend(const SpringSystem<Scalar, Dim, Laws...>& system,
+                         const State<Scalar, Dim>& state, const Goal& goal,
+                         const std::vector<Candidate>& candidates,
+                         const Calibration& calibration = {}) {
+    std::vector<Plan> plans = feasible_plans(system, state, goal, candidates);
+    tradeoff_detail::measure_costs(system, state, calibration, plans);
+    std::string resolution;
+    if (goal.resolution) {
+        const auto found =
+            resolve(system, state, goal.resolution->duration, goal.resolution->error);
+        resolution = " " + found.why;
+        if (found.coarsening) {
+            const auto& coarse = found.coarsening->system;
+            const auto start = found.coarsening->restricted(state);
+            std::vector<Plan> coarser = feasible_plans(coarse, start, goal, candidates);
+            tradeoff_detail::measure_costs(coarse, start, calibration, coarser);
+            const double lift = tradeoff_detail::lift_cost(*found.coarsening, calibration);
+            for (Plan& plan : coarser) {
+                plan.particles = coarse.size();
+                plan.cost += lift;
+                plans.push_back(plan);
+            }
+        }
+    }
+    Recommendation answer = choose(std::move(plans), goal);
+    answer.why += resolution;
+    return answer;
 }
 
 /// The same among recommended_candidates(goal).
