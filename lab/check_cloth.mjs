@@ -87,6 +87,8 @@ export async function checkCloth(page, name, pictures) {
 
 /// What the readout says a frame costs is what the bars say, for the same integrator and step.
 async function checkPace(page, name) {
+  // The words of the step before stand until the next picture.
+  await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
   await page.waitForFunction(() => /takes [\d.]+\sms/.test(document.getElementById("pace").textContent));
   const read = Number(/takes ([\d.]+)\sms/.exec(await text(page, "#pace"))[1]);
   const { plans, settings } = await state(page);
