@@ -10,16 +10,7 @@ cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE ${folder})
 file(MAKE_DIRECTORY ${folder})
 
-# Runs a program; its exit code and what stdout and stderr say must be as expected.
-function(expect program arguments code regex)
-    separate_arguments(list UNIX_COMMAND "${arguments}")
-    execute_process(COMMAND ${${program}} ${list} WORKING_DIRECTORY ${folder}
-        RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE error)
-    if(NOT result STREQUAL code OR NOT "${error}${output}" MATCHES "${regex}")
-        message(SEND_ERROR "${program} ${arguments}\n  exit code ${result}, expected ${code};"
-            " expected text: ${regex}\n${error}${output}")
-    endif()
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/check/expect.cmake)
 
 set(corners "v 0 0 0\nv 1 0 0\nv 0 1 0\n")
 file(WRITE ${folder}/triangle.obj "${corners}f 1 2 3\n")

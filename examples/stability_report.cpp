@@ -34,10 +34,12 @@ struct Options {
     std::string damping_matrix;
     double step = 0;  // s; 0: half the symplectic limit
     bool zero_modes = false;
-    bool proof = false;     // narrow the brackets by factorisations
-    bool any_pose = false;  // narrow the any-pose limit
-    int blame = 0;          // springs and particles to name
-    double want_step = 0;   // s; 0: none
+    bool proof = false;             // narrow the brackets by factorisations
+    bool any_pose = false;          // narrow the any-pose limit
+    int blame = 0;                  // springs and particles to name
+    double want_step = 0;           // s; 0: none
+    std::optional<double> resolve;  // of the scene's size
+    double duration = 2;            // s, that --resolve is about
     std::string json;
     std::string html;
 };
@@ -125,6 +127,12 @@ Findings report_on_scene(const Options& options, Progress& progress) {
         found.remedies->added_mass = taut::added_mass(scene.system, state, options.want_step);
         found.inertia = example::tell_inertia(scene.system, options.want_step);
     }
+    if (options.resolve) {
+        progress.at("looking for how few particles would do");
+        found.resolution = {options.duration,
+                            taut::resolve(scene.system, state, options.duration, *options.resolve),
+                            {}};
+    }
     found.analysis = seconds_since(analysis);
     if (!options.html.empty()) {
         progress.at("stepping the mesh for the page");
@@ -132,6 +140,10 @@ Findings report_on_scene(const Options& options, Progress& progress) {
         found.page = example::page_data(stability, found, mode, scene.system.rayleigh());
         example::add_mesh(found.page, scene, stability, mode);
         example::add_runs(found.page, scene, found.symplectic_euler, mode);
+        if (found.resolution) {
+            progress.at("running the scene and its coarse network for the page");
+            example::add_resolution(found.page, scene, *found.resolution);
+        }
     }
     return found;
 }
@@ -209,6 +221,17 @@ int run(int argc, char** argv) {
                    "would cost")
         ->transform(example::time_quantity())
         ->check(example::positive());
+    auto* resolve =
+        app.add_option("--resolve", options.resolve,
+                       "say how few particles keep positions within this share of the scene's "
+                       "size: 0.03, or 3%")
+            ->transform(example::share_quantity())
+            ->check(example::positive());
+    app.add_option("--duration", options.duration, "for how long, of --resolve, s")
+        ->transform(example::time_quantity())
+        ->check(example::positive())
+        ->capture_default_str()
+        ->needs(resolve);
     app.add_option("--json", options.json,
                    "write the findings as JSON (- is stdout, without table)")
         ->transform(example::standard_output())
@@ -223,7 +246,8 @@ int run(int argc, char** argv) {
                               "--any-pose", "--up",           "--flip",
                               "--gravity",  "--scale",        "--units",
                               "--weld",     "--mass-by-area", "--stiffness-by-length",
-                              "--pin-box",  "--pin-top",      "--free"}) {
+                              "--pin-box",  "--pin-top",      "--free",
+                              "--resolve"}) {
         K->excludes(app.get_option(other));
     }
     app.footer(
@@ -237,6 +261,8 @@ int run(int argc, char** argv) {
         "  What makes 1/240 s safe?           stability_report cloth.obj --want-step 1/240\n"
         "  Which damping suits my step?       stability_report cloth.obj --step 0.1ms --d0 0.5\n"
         "  How many mechanisms does it have?  stability_report cloth.obj --zero-modes\n"
+        "  How few particles would do?        stability_report cloth.obj --resolve 3% --duration "
+        "2\n"
         "  Can I look at it?                  stability_report cloth.obj --html report.html\n"
         "  And my own matrices?               stability_report --stiffness-matrix K.mtx "
         "--mass-matrix M.mtx");

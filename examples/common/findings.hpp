@@ -117,6 +117,13 @@ InertiaTold tell_inertia(const System& system, double h) {
     return told;
 }
 
+/// How few particles would do.
+struct ResolutionFound {
+    double duration = 0;  // s
+    taut::Resolution<taut::SpringSystem<double, 3>> found;
+    std::optional<double> measured;  ///< error against the scene itself, where that was run
+};
+
 struct Findings {
     std::string name;
     std::string space;  // the scene's size and which way is down; empty for bare matrices
@@ -139,7 +146,8 @@ struct Findings {
     std::optional<Verdict> verdict;  // on a step that was asked for
     std::optional<Remedies> remedies;
     std::optional<InertiaTold> inertia;  // at the wanted step
-    double window_step = 0;              // s
+    std::optional<ResolutionFound> resolution;
+    double window_step = 0;  // s
     taut::AlphaWindow window;
     double setup = 0;     // s
     double analysis = 0;  // s

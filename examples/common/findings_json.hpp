@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "findings.hpp"
+#include "resolution_report.hpp"
 
 // What stability_report found, as JSON.
 
@@ -113,6 +114,7 @@ inline Json to_json(const Findings& found, double d0) {
                                               : Json(nullptr);
         json["want_step"]["graph_inertia"] = inertia_json(found.inertia);
     }
+    if (found.resolution) json["resolution"] = resolution_json(*found.resolution);
     json["seconds"] = {{"setup", found.setup}, {"analysis", found.analysis}};
     return json;
 }

@@ -234,6 +234,7 @@ inline void print_table(const Findings& found, double d0) {
     if (!found.particles_to_blame.empty()) print_blame(found);
     if (found.remedies) print_remedies(found);
     if (found.inertia) print_inertia(*found.inertia, found);
+    if (found.resolution) print_resolution(*found.resolution);
     std::printf("Seconds: setup %.3f, analysis %.3f\n", found.setup, found.analysis);
 }
 

@@ -67,8 +67,24 @@ async function checkRuns() {
   expect(!same(before, pixels(canvas)), "turning leaves the mesh as it is");
 }
 
+function checkResolution() {
+  const { levels, goal, films } = data.resolution;
+  expect(levels.length > 2 && levels.every(({ cost }) => cost > 0 && cost < 1), "levels without a cost");
+  expect(plot("resolution").querySelectorAll("circle").length === levels.length - 1, "a level is not drawn");
+  expect(byId("resolution").textContent.includes(`goal ${percent(goal)}`), "the goal is not drawn");
+  if (!films) return;
+  const at = (frame) => {
+    byId("instant").value = frame;
+    byId("instant").dispatchEvent(new Event("input"));
+    return ["fine", "coarse"].map((side) => pixels(canvasOf(`resolution-${side}`)));
+  };
+  const [first, last] = [at(0), at(films.frames - 1)];
+  expect(!same(first[0], last[0]) && !same(first[1], last[1]), "the films stand still");
+}
+
 async function check() {
   checkPictures();
+  if (data.resolution) checkResolution();
   if (data.runs) await checkRuns();
   expect(pageErrors.length === 0, `errors: ${pageErrors.join("; ")}`);
   const hidden = [...document.querySelectorAll("figure")].filter((f) => !visible(f)).map((f) => f.id);

@@ -135,6 +135,17 @@ function writeCaptions() {
   }
 }
 
+function writeResolution() {
+  const told = data.resolution;
+  if (!told) return;
+  fill("resolution-goal", `${percent(told.goal)} for ${seconds(told.duration)}`);
+  const compared = told.levels.length > 1 ? " Each dot is a network of fewer particles in place of the mesh, stepped at its own certified step. Its error is estimated by comparing its motion with that of the finest one that was run: no certificate." : "";
+  const measured = told.measured_error === null ? "" : ` The scene itself was run for this page, too: the ${whole(told.particles)} particles, lifted onto its mesh, are off by ${percent(told.measured_error)}.`;
+  const text = document.createElement("small");
+  text.textContent = resolved ? "Dots: the particles of the coarse network. Colour: how far the mesh that they carry is from the scene’s own motion, up to twice the goal." : "";
+  fill("resolution", `${told.why}${compared}${measured}`, text);
+}
+
 /// As the program prints it.
 const printed = (h) => `${h.toExponential(4).replace(/([+-])(\d)$/, "$10$2")} s`;
 const ordinal = (n) => (n === 1 ? "" : n === 2 ? "second" : n === 3 ? "third" : `${n}th`);
@@ -171,8 +182,16 @@ const films = mesh && data.runs && {
   below: decodeRun(data.runs.below, data.runs, mesh, data.mesh.index_bytes),
   above: decodeRun(data.runs.above, data.runs, mesh, data.mesh.index_bytes),
 };
+const resolved = mesh && data.resolution && data.resolution.films && decodeFilms(data.resolution.films, mesh, data.resolution.goal);
 let colours = colourTable();
 let shown = 0;
+let instant = 0;
+
+function drawInstant() {
+  for (const side of ["fine", "coarse"]) paintFilm(canvasOf(`resolution-${side}`), mesh, resolved, side, instant, colours);
+  byId("instant").value = instant;
+  byId("instant-words").textContent = `after ${seconds((instant * data.resolution.duration) / (resolved.frames - 1), 3)}`;
+}
 
 function drawFrame() {
   for (const side of ["below", "above"]) {
@@ -188,6 +207,7 @@ function drawFrame() {
 
 function drawMeshes() {
   if (films) drawFrame();
+  if (resolved) drawInstant();
   if (!mesh) return;
   paintSprings(canvasOf("whole"), mesh, colours, false);
   paintSprings(canvasOf("close"), mesh, colours, true);
@@ -198,6 +218,7 @@ function drawCharts() {
   if (data.multipliers) for (const side of ["below", "above"]) drawMultipliers(plot(`multipliers-${side}`), data, side);
   if (data.window) for (const method of ["explicit", "symplectic"]) drawWindow(plot(`window-${method}`), data, method);
   if (data.mesh && data.mesh.share.length) drawShares(plot("shares"), data);
+  if (data.resolution && data.resolution.levels.length > 1) drawResolution(plot("resolution"), data.resolution);
   if (films) drawReach(plot("reach"), data, shown * data.runs.steps_a_frame);
 }
 
@@ -231,11 +252,21 @@ function start() {
   byId("multipliers").hidden = !data.multipliers;
   byId("springs").hidden = !(mesh && data.mesh.share.length && data.mesh.extent > 1e-100);
   byId("window").hidden = !data.window;
+  byId("resolution").hidden = !data.resolution;
+  byId("resolution-films").hidden = !resolved;
   let number = 0;
   for (const mark of document.querySelectorAll("figure:not([hidden]) h2 span")) mark.textContent = ++number;
   writeHead();
   writeCaptions();
+  writeResolution();
   writeTable();
+  if (resolved) {
+    byId("instant").max = instant = resolved.frames - 1;
+    byId("instant").addEventListener("input", (event) => {
+      instant = +event.target.value;
+      drawInstant();
+    });
+  }
   if (films) {
     const last = films.above.frames - 1;
     byId("scrub").max = last;

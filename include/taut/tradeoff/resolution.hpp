@@ -45,6 +45,19 @@ enum class Resolved {
     cut_short       ///< ResolveOptions::seconds were over
 };
 
+/// In snake_case, for logs and files.
+constexpr const char* name(Resolved outcome) {
+    switch (outcome) {
+        case Resolved::coarse: return "coarse";
+        case Resolved::fine: return "fine";
+        case Resolved::unpredictable: return "unpredictable";
+        case Resolved::nothing_moves: return "nothing_moves";
+        case Resolved::diverged: return "diverged";
+        case Resolved::cut_short: return "cut_short";
+    }
+    return "unknown";
+}
+
 /// The answer of resolve(). Errors are those of positions relative to the scene's size: the root of
 /// their mean square over particles, at the worst sample.
 template <class System>
@@ -111,9 +124,9 @@ std::string sentence(const Resolution<System>& found, Index all, double duration
             return text + ".";
         }
         case Resolved::unpredictable:
-            return "No number of particles predicts this scene better than " +
-                   percent(found.floor) + " " + over + "(goal " + percent(found.goal) +
-                   "): a disturbance of 1e-7 of its size grows to that.";
+            return "No number of particles is known to keep this scene within " +
+                   percent(found.goal) + " " + over + "since a disturbance of 1e-7 of its size " +
+                   "grows to " + percent(found.floor) + " of it.";
         case Resolved::nothing_moves:
             return "Nothing moves " + over + ": any number of particles will do.";
         case Resolved::diverged:
