@@ -89,10 +89,10 @@ void row(const Scene& scene, const Path& fine, double duration, double goal, Tal
     if (found.coarsening) {
         const auto& level = found.levels[static_cast<std::size_t>(found.chosen)];
         const double truth = true_error(scene, fine, *found.coarsening, duration, found.size);
-        std::printf("%lld of %lld | %.2g %% | %.2g %% | %.3g | ",
+        std::printf("%lld of %lld | %.2g %% | %.2g %% | %s | ",
                     static_cast<long long>(level.particles),
                     static_cast<long long>(scene.system.size()), 100 * level.error, 100 * truth,
-                    found.cheaper());
+                    taut::tradeoff_detail::ratio(found.cheaper()).c_str());
         ++tally.promises;
         tally.broken += truth > goal;
     } else {

@@ -18,14 +18,15 @@ template <class Law>
 struct CoarseLaw {
     /// @param L  m, rest length   @param l  m, length in the pose   @returns forces, N
     template <class Parameters>
-    static std::array<double, 1> strengths(const Parameters& p, double, double l) {
+    static std::array<double, 1> strengths(const Parameters& p, [[maybe_unused]] double L,
+                                           double l) {
         static_assert(std::is_same_v<Parameters, typename Hookean::template Parameters<double>>,
                       "taut::coarsen: specialise taut::CoarseLaw for a law with such parameters");
         return {p.stiffness * l};
     }
     /// @param sum  N, of the strengths   @param L, l  m, as above, of the coarse spring
-    static Hookean::Parameters<double> parameters(const std::array<double, 1>& sum, double,
-                                                  double l) {
+    static Hookean::Parameters<double> parameters(const std::array<double, 1>& sum,
+                                                  [[maybe_unused]] double L, double l) {
         return {sum[0] / l};
     }
 };

@@ -27,12 +27,13 @@ public:
     std::vector<int> seeds;    ///< coarse particle → the fine one where it lies
     std::vector<int> cluster;  ///< fine particle → the coarse one that has its mass
 
+    /// As coarsen() makes it. @param mass_of  kg, of the fine particles
     Coarsening(System coarse, std::vector<int> seeds_of, std::vector<int> cluster_of,
-               VectorX<Scalar> mass, scene_detail::Lift lift)
+               VectorX<Scalar> mass_of, scene_detail::Lift lift)
         : system(std::move(coarse)),
           seeds(std::move(seeds_of)),
           cluster(std::move(cluster_of)),
-          mass_(std::move(mass)),
+          mass_(std::move(mass_of)),
           lift_(std::move(lift)) {}
 
     /// The coarse state for a fine one: seeds where they are, each with the mean velocity of its

@@ -88,6 +88,8 @@ std::string formatted(const char* format, Values... values) {
     return text;
 }
 inline std::string percent(double share) { return formatted("%.2g %%", 100 * share); }
+/// 4080, not 4.08e+03.
+inline std::string ratio(double value) { return formatted(value < 100 ? "%.3g" : "%.0f", value); }
 inline std::string particles(Index count) {
     return formatted("%lld particles", static_cast<long long>(count));
 }
@@ -102,8 +104,8 @@ std::string sentence(const Resolution<System>& found, Index all, double duration
             std::string text = particles(level.particles) + formatted(" at %.3g s", level.h) +
                                " are estimated to stay within " + percent(level.error) + " " +
                                over + "(goal " + percent(found.goal) + "), " +
-                               formatted("%.3g times cheaper than all %lld", found.cheaper(),
-                                         static_cast<long long>(all));
+                               ratio(found.cheaper()) + " times cheaper than all " +
+                               std::to_string(all);
             if (found.chosen > 0) {
                 const auto& coarser = found.levels[static_cast<std::size_t>(found.chosen) - 1];
                 text += "; " + std::to_string(coarser.particles) + " would err by " +
