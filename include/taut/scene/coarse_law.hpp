@@ -16,12 +16,13 @@ namespace taut {
 /// those of Hookean: the strength is k·l.
 template <class Law>
 struct CoarseLaw {
+    /// Whether it serves the law.
+    static constexpr bool known =
+        std::is_same_v<typename Law::template Parameters<double>, Hookean::Parameters<double>>;
+
     /// @param L  m, rest length   @param l  m, length in the pose   @returns forces, N
-    template <class Parameters>
-    static std::array<double, 1> strengths(const Parameters& p, [[maybe_unused]] double L,
-                                           double l) {
-        static_assert(std::is_same_v<Parameters, typename Hookean::template Parameters<double>>,
-                      "taut::coarsen: specialise taut::CoarseLaw for a law with such parameters");
+    static std::array<double, 1> strengths(const Hookean::Parameters<double>& p,
+                                           [[maybe_unused]] double L, double l) {
         return {p.stiffness * l};
     }
     /// @param sum  N, of the strengths   @param L, l  m, as above, of the coarse spring
@@ -34,6 +35,8 @@ struct CoarseLaw {
 /// A beam pushes by k_b/L² times a function of its strain.
 template <>
 struct CoarseLaw<Buckling> {
+    static constexpr bool known = true;
+
     /// @returns the forces of both lines at a strain of 1, and k_b/L², N
     static std::array<double, 3> strengths(const Buckling::Parameters<double>& p, double L,
                                            double l) {

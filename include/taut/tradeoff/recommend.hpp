@@ -121,6 +121,27 @@ double lift_cost(const Coarsening<System>& coarsening, const Calibration& calibr
     return least;
 }
 
+/// Appends the plans of a coarser network that meets the goal's resolution, if there is one.
+/// @returns what resolve() says
+template <class System>
+std::string add_coarser_plans(const System& system, const typename System::State& state,
+                              const Goal& goal, const std::vector<Candidate>& candidates,
+                              const Calibration& calibration, std::vector<Plan>& plans) {
+    const auto found = resolve(system, state, goal.resolution->duration, goal.resolution->error);
+    if (!found.coarsening) return found.why;
+    const auto& coarse = found.coarsening->system;
+    const auto start = found.coarsening->restricted(state);
+    std::vector<Plan> coarser = feasible_plans(coarse, start, goal, candidates);
+    measure_costs(coarse, start, calibration, coarser);
+    const double lift = lift_cost(*found.coarsening, calibration);
+    for (Plan& plan : coarser) {
+        plan.particles = coarse.size();
+        plan.cost += lift;
+        plans.push_back(plan);
+    }
+    return found.why;
+}
+
 }  // namespace tradeoff_detail
 
 /// The integrator, solver, step and substeps that reach a goal at the least cost on this machine:
@@ -146,20 +167,11 @@ Recommendation recommend(const SpringSystem<Scalar, Dim, Laws...>& system,
     tradeoff_detail::measure_costs(system, state, calibration, plans);
     std::string resolution;
     if (goal.resolution) {
-        const auto found =
-            resolve(system, state, goal.resolution->duration, goal.resolution->error);
-        resolution = " " + found.why;
-        if (found.coarsening) {
-            const auto& coarse = found.coarsening->system;
-            const auto start = found.coarsening->restricted(state);
-            std::vector<Plan> coarser = feasible_plans(coarse, start, goal, candidates);
-            tradeoff_detail::measure_costs(coarse, start, calibration, coarser);
-            const double lift = tradeoff_detail::lift_cost(*found.coarsening, calibration);
-            for (Plan& plan : coarser) {
-                plan.particles = coarse.size();
-                plan.cost += lift;
-                plans.push_back(plan);
-            }
+        if constexpr ((CoarseLaw<Laws>::known && ...)) {
+            resolution = " " + tradeoff_detail::add_coarser_plans(system, state, goal, candidates,
+                                                                  calibration, plans);
+        } else {
+            fail("recommend: Goal::resolution needs taut::CoarseLaw for every law of the system");
         }
     }
     Recommendation answer = choose(std::move(plans), goal);

@@ -34,6 +34,8 @@ void add_coarse_springs(const Set& set, const Positions& x, const Clusters& clus
     using Scalar = typename Coarse::Scalar;
     using Law = typename Set::Law;
     using Rule = CoarseLaw<Law>;
+    static_assert(Rule::known,
+                  "taut::coarsen: specialise taut::CoarseLaw for a law with parameters of its own");
     const auto strengths_of = [](const auto& spring, double l) {
         return Rule::strengths(spring.parameters.template cast<double>(),
                                static_cast<double>(spring.rest_length), l);
