@@ -16,11 +16,11 @@ function drawResolution(box, { levels, goal, particles }) {
     { scale: x, ticks: decades(x, width < 500 ? 4 : 8), text: (v) => `${+v.toPrecision(2)}`, title: "spring-steps, of those of the scene itself" },
     { scale: y, ticks: decades(y, 6), text: (v) => percent(v), title: "estimated error of positions, of the scene’s size" });
   line(root, frame.left, y(goal), frame.right, y(goal), "mark dash");
-  label(root, frame.right, y(goal) - 7, `goal ${percent(goal)}`, "end", "strong");
+  label(root, frame.left + 8, y(goal) - 7, `goal ${percent(goal)}`, "start", "strong");
   svg("path", { d: path(known.map(({ cost, error }) => [x(cost), y(error)])), class: "mark", fill: "none" }, root);
   for (const level of known) {
     const chosen = level.particles === particles;
-    svg("circle", { cx: x(level.cost), cy: y(level.error), r: chosen ? 7 : 4.5, class: chosen ? "certified" : "refuted", style: "stroke: var(--paper); stroke-width: 1.5" }, root);
+    svg("circle", { cx: x(level.cost), cy: y(level.error), r: chosen ? 7 : 4.5, style: `fill: var(--${chosen ? "certified" : "soft"}); stroke: var(--paper); stroke-width: 1.5` }, root);
     label(root, x(level.cost) + 8, y(level.error) - 9, whole(level.particles), "start", chosen ? "strong" : "");
   }
   line(root, x(1), frame.top, x(1), frame.bottom, "mark dash");
