@@ -245,6 +245,13 @@ TEST_CASE("resolve: bad input", "[tradeoff][bad_input]") {
     options = {};
     options.samples = 0;
     CHECK(refused(1, 0.1, options, {"samples is 0"}) == "");
+    {
+        taut::SpringSystem<double, 2> point;
+        for (int i = 0; i < 50; ++i) point.add_particle({1, 1}, 1);
+        point.set_gravity({0, -1});
+        CHECK(missing(message_of([&] { resolve(point, point.initial_state(), 1, 0.1); }),
+                      {"resolve", "size is 0"}) == "");
+    }
     line.set_external_force([](const auto&, auto&) {});
     CHECK(refused(1, 0.1, {}, {"set_external_force"}) == "");
     line.set_external_force({});

@@ -123,6 +123,8 @@ private:
 
     Resolved find() {
         if (system_.pinned_count() == system_.size() || !may_move()) return Resolved::nothing_moves;
+        if (!(found_.size > 0) || !std::isfinite(found_.size))
+            fail("resolve: the scene's size is ", found_.size, " m; it must be finite and > 0");
         const Pace fine = pace_of(system_, duration_, options_.samples);
         if (!(fine.h > 0)) fail("resolve: no step of the scene is certified");
         found_.fine_cost = fine.cost;
@@ -209,7 +211,7 @@ private:
     /// The coarsest level that is estimated to meet the goal.
     bool choose_level() {
         for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
-            if (options_.safety * found_.levels[l].error > found_.goal) continue;
+            if (!(options_.safety * found_.levels[l].error <= found_.goal)) continue;
             found_.chosen = static_cast<Index>(l);
             return true;
         }
@@ -241,7 +243,7 @@ private:
                                      return (path[s].col(i) - level.path[s].col(i)).eval();
                                  }) /
                        found_.size;
-        if (options_.safety * found_.floor > found_.goal) {
+        if (!(options_.safety * found_.floor <= found_.goal)) {
             found_.chosen = -1;
             return Resolved::unpredictable;
         }
@@ -281,7 +283,8 @@ private:
 /// search costs at most ResolveOptions::budget of it.
 /// @param duration  s, > 0   @param goal  > 0, the error of positions over the scene's size, root
 ///                  mean square over particles at the worst time: 0.03 is 3 %
-/// @throws (fail) for such values, a state that does not fit, forces that coarsen() refuses, and a
+/// @throws (fail) for other values, particles that all lie in one point, a state that does not fit,
+/// forces that coarsen() refuses, and a
 ///         scene of which no step is certified
 template <class Scalar, int Dim, class... Laws>
 Resolution<SpringSystem<Scalar, Dim, Laws...>> resolve(
