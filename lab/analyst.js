@@ -55,6 +55,11 @@ export class Analyst {
     return this.ask("advise", what);
   }
 
+  /// How few particles will do, of {scene, pins, knobs, goal, duration}.
+  resolve(what, progress) {
+    return this.ask("resolve", what, progress);
+  }
+
   /// Ends whatever is being done.
   cancel() {
     this.restart(Object.assign(new Error("Cancelled."), { cancelled: true }));

@@ -1,14 +1,17 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
-// What takes long, apart from the page: the analysis of a scene, and the timing of integrators. It
+// What takes long, apart from the page: the analysis of a scene, the timing of integrators, and the
+// search for a coarser network. It
 // has its own lab.wasm; whoever is tired of waiting ends it and starts another.
 
 import { loadLab } from "./engine.js";
 
 const ROUNDS = 5;        // timings of each plan after a first one that warms up
 const SECONDS = 0.012;   // of each
+const SAMPLES = 30;      // of a run of resolve
 let lab = null;
+let resolving = () => {};  // told how far resolve is
 let opened = null;       // the key of the scene that is open
 let newest = 0;          // the last task that was asked for
 
@@ -67,6 +70,15 @@ async function advise(id, task) {
   tell(id, { result: timed.sort((a, b) => a.cost - b.cost) });
 }
 
+/// It cannot be interrupted: whoever wants another answer ends this worker.
+async function resolve(id, task) {
+  prepare(task);
+  resolving = (run, sample) => tell(id, { progress: sample / SAMPLES, words: `stepping, run ${run + 1} of a coarser network` });
+  const begin = performance.now();
+  const found = lab.resolve(task.duration, task.goal);
+  tell(id, { result: { ...found, took: (performance.now() - begin) / 1000 } });
+}
+
 let last = Promise.resolve();
 onmessage = ({ data }) => {
   const { id, task } = data;
@@ -74,10 +86,10 @@ onmessage = ({ data }) => {
   last = last.then(async () => {
     try {
       if (task === "load") {
-        lab = await loadLab(data.module);
+        lab = await loadLab(data.module, (run, sample) => resolving(run, sample));
         tell(id, { result: true });
       } else if (id < newest) tell(id, { result: null });  // somebody wants another thing by now
-      else await { open, analyse, advise }[task](id, data);
+      else await { open, analyse, advise, resolve }[task](id, data);
     } catch (error) {
       opened = null;
       tell(id, { error: error.message, refused: Boolean(error.refused) });
