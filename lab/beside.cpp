@@ -45,7 +45,6 @@ struct Beside {
     Run fine, coarse;
     taut::Points<double, 3> seeds_at_start;
     bool stands = false;
-    double duration = 0;  // s
     double apart = 0;
     taut::Points<float, 3> drawn;
 };
@@ -85,15 +84,10 @@ void lab_beside_start(int particles, double duration, int fine) {
     beside.cloth = lab::scene().cloth;
     beside.coarsening.emplace(taut::coarsen(beside.cloth, particles));
     beside.stands = fine == 0;
-    beside.duration = duration;
-    lab_beside_again();
-}
-
-void lab_beside_again() {
     const auto& coarsening = *beside.coarsening;
     const auto start = beside.cloth.initial_state();
-    beside.fine.begin(beside.cloth, start, beside.duration);
-    beside.coarse.begin(coarsening.system, coarsening.restricted(start), beside.duration);
+    beside.fine.begin(beside.cloth, start, duration);
+    beside.coarse.begin(coarsening.system, coarsening.restricted(start), duration);
     beside.seeds_at_start = beside.coarse.state.x;
     beside.apart = 0;
 }

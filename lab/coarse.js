@@ -11,7 +11,7 @@ import { counted, whole } from "./words.js";
 
 const LEAST = 0.005, MOST = 0.2;  // goals, of the scene's size
 const LARGE = 5000;     // particles from which on a search begins with the button only
-const PATIENCE = 120;   // s that a picture of all particles in motion may take
+const PATIENCE = 60;    // s for which all particles may be stepped
 const PAUSE = 250;      // ms for which the slider must rest
 const byId = (id) => document.getElementById(id);
 
@@ -27,9 +27,10 @@ export class Coarse {
   /// @param app  {lab, task(), mesh(), makeAnalyst()}
   constructor(app) {
     this.app = app;
-    this.beside = new Beside(app.lab);
+    this.beside = new Beside();
     this.asked = 0;
     this.busy = false;
+    this.stepping = false;  // the worker makes what Beside shows
     this.found = null;
     byId("goal").addEventListener("input", () => this.changed());
     byId("durations").addEventListener("change", () => this.changed());
@@ -67,7 +68,8 @@ export class Coarse {
   }
   stop() {
     ++this.asked;
-    if (this.busy) this.analyst.cancel();
+    if (this.busy || this.stepping) this.analyst.cancel();
+    this.stepping = false;
     this.working(false);
   }
   drop(words) {
@@ -113,8 +115,19 @@ export class Coarse {
     this.draw();
     if (found.outcome !== "coarse") return this.beside.hide();
     const rate = found.searchCost / found.took;  // spring-steps a second
-    const slow = found.fineCost / rate > PATIENCE / 2;  // the page has other things to do half of the time
+    const slow = found.fineCost / rate > PATIENCE;
     this.beside.show(this.app.mesh(), found, lab.pinned(), slow);
+    this.step(this.asked, { ...this.app.task(), duration: found.duration, particles: found.chosen.particles, fine: !slow });
+  }
+  async step(mine, what) {
+    this.stepping = true;
+    try {
+      const took = await this.analyst.beside(what, (_done, _words, sent) => mine === this.asked && this.beside.take(sent));
+      if (mine === this.asked) this.beside.took = took;
+    } catch (error) {
+      if (mine === this.asked && !error.cancelled) this.beside.hide();
+    }
+    if (mine === this.asked) this.stepping = false;
   }
   /// Levels whose error is known, as a chart.
   draw() {

@@ -157,7 +157,6 @@ export async function loadLab(source, told = () => {}) {
       return { outcome: RESOLVED[outcome], words: text(wasm.lab_resolution_words()), levels, chosen: levels[chosen], cheaper, fineCost, searchCost, goal, duration };
     },
     startBeside: (particles, duration, fine) => wasm.lab_beside_start(particles, duration, fine ? 1 : 0),
-    besideAgain: wasm.lab_beside_again,
     stepBeside: wasm.lab_beside_step,
     besideSteps: wasm.lab_beside_steps,
     besideApart: wasm.lab_beside_apart,

@@ -192,8 +192,6 @@ LAB_CALL int lab_level_count();
 /// Both from rest where the scene was laid out, for `duration`, s.
 /// @param particles  of the coarser one   @param fine  0: the scene itself is too slow, and stands
 LAB_CALL void lab_beside_start(int particles, double duration, int fine);
-/// The same from the start.
-LAB_CALL void lab_beside_again();
 /// Takes `count` ≥ 1 steps of the scene, or of the coarser network where the scene stands, but none
 /// beyond the next of 30 samples. @returns s, since the start
 LAB_CALL double lab_beside_step(int count);

@@ -314,7 +314,7 @@ window.labState = () => ({
   settings: { ...settings }, limits: limits(), stale, slider: { ...STEP }, plans, advice: chosen(plans),
   scene: scene.name, busy: bar.busy, size: lab.size(), preset: knobs.preset, ...lab.shape(), pinned: lab.pinned(),
   camera: view.camera.position.toArray(), drawn: view.farthest(), pair: { taken: pair.taken, reach: pair.reach, h: pair.h, kick: found.mode.size },
-  coarse: { busy: coarse.busy, found: coarse.found, goal: coarse.goal, duration: coarse.duration, shown: coarse.beside.running, slow: coarse.beside.slow, time: coarse.beside.time, apart: coarse.beside.running ? lab.besideApart() : NaN },
+  coarse: { busy: coarse.busy, found: coarse.found, goal: coarse.goal, duration: coarse.duration, shown: coarse.beside.running, slow: coarse.beside.slow, time: coarse.beside.time, apart: coarse.beside.running ? coarse.beside.frame.apart : NaN, frames: coarse.beside.running ? coarse.beside.frames.length : 0, stepping: coarse.stepping },
 });
 window.labView = view;
 

@@ -10,6 +10,7 @@ import { loadLab } from "./engine.js";
 const ROUNDS = 5;        // timings of each plan after a first one that warms up
 const SECONDS = 0.012;   // of each
 const SAMPLES = 30;      // of a run of resolve
+const MANY = 10_000;     // particles of which a motion has 30 pictures a second, not 60
 let lab = null;
 let resolving = () => {};  // told how far resolve is
 let opened = null;       // the key of the scene that is open
@@ -79,6 +80,25 @@ async function resolve(id, task) {
   tell(id, { result: { ...found, took: (performance.now() - begin) / 1000 } });
 }
 
+/// Both motions in pictures for the page, which plays them while more are made.
+async function beside(id, task) {
+  prepare(task);
+  const begin = performance.now();
+  const { duration, fine } = task;
+  lab.startBeside(task.particles, duration, fine);
+  const h = duration / lab.besideSteps();
+  tell(id, { progress: 0, sent: { seeds: lab.besideSeeds(), h } });
+  const frame = lab.size() > MANY ? 1 / 30 : 1 / 60;
+  let time = 0;
+  for (let next = frame; time < duration - h / 2; next += frame) {
+    const until = Math.min(next, duration);
+    while (time < until - h / 2) time = lab.stepBeside(Math.ceil((until - time) / h - 1e-6));
+    const [all, few] = [fine ? lab.besidePositions(0).slice() : undefined, lab.besidePositions(1).slice()];
+    tell(id, { progress: time / duration, sent: { time, all, few, apart: lab.besideApart() } });
+  }
+  tell(id, { result: (performance.now() - begin) / 1000 });
+}
+
 let last = Promise.resolve();
 onmessage = ({ data }) => {
   const { id, task } = data;
@@ -89,7 +109,7 @@ onmessage = ({ data }) => {
         lab = await loadLab(data.module, (run, sample) => resolving(run, sample));
         tell(id, { result: true });
       } else if (id < newest) tell(id, { result: null });  // somebody wants another thing by now
-      else await { open, analyse, advise, resolve }[task](id, data);
+      else await { open, analyse, advise, resolve, beside }[task](id, data);
     } catch (error) {
       opened = null;
       tell(id, { error: error.message, refused: Boolean(error.refused) });
