@@ -29,6 +29,7 @@ export class Beside {
     this.mesh = mesh;
     this.found = found;
     this.slow = slow;
+    this.pins = pinned.length;  // the first seeds, which are drawn already
     this.count = mesh.positions.length / 3;
     this.still = new Float32Array(this.count);
     this.frames = [{ time: 0, all: slow ? undefined : mesh.positions, few: mesh.positions, apart: 0 }];
@@ -49,7 +50,7 @@ export class Beside {
   /// What the worker has stepped. @param sent  {seeds, h} once, then {time, all, few, apart} often
   take(sent) {
     if (sent.seeds) {
-      this.view.panes[1].model.setSeeds(sent.seeds);
+      this.view.panes[1].model.setSeeds(sent.seeds.slice(this.pins));
       if (!this.slow) byId("all").textContent += `, at ${seconds(sent.h, 3)}`;
     } else this.frames.push(sent);
   }
@@ -77,10 +78,10 @@ export class Beside {
   }
   words() {
     const { found, slow, took, frame: { time, apart } } = this;
-    const at = `${seconds(time, 2)} of ${seconds(found.duration, 2)}`;
+    const at = `${time.toFixed(2)}\u00a0s of ${found.duration}\u00a0s`;
     if (slow) return `${at}. To step all ${whole(this.count)} particles would take minutes here, so they are not shown beside it.`;
     if (apart === Infinity) return `${at}. A step failed.`;
-    const pace = Number.isNaN(took) ? ", as fast as all particles are stepped here" : `, replayed; to step them took ${significant(took, 2)} s`;
+    const pace = Number.isNaN(took) ? ", as fast as all particles are stepped here" : `, replayed; stepping both took ${significant(took, 2)}\u00a0s`;
     const measured = apart > 0 ? ` Measured here, both were at most ${percent(apart, 2)} of the scene’s size apart so far; estimated were ${percent(found.chosen.error, 2)} for all of it.` : "";
     return `${at}${pace}.${measured}`;
   }

@@ -58,7 +58,7 @@ export function drawBands(bands, scale, limits) {
 /// @param levels  whose error is known, the coarsest first   @param found  the answer of resolve
 export function drawLevels(box, levels, { goal, fineCost, chosen }) {
   const { root, width, height } = drawing(box, 230, "Estimated error of coarser networks against their cost");
-  const frame = { left: 56, right: width - 14, top: 32, bottom: height - 46 };
+  const frame = { left: 56, right: width - 22, top: 32, bottom: height - 46 };
   const errors = [goal, ...levels.flatMap(({ error }) => [error, 2 * error])].filter((v) => v > 0);
   const x = logarithmic(levels[0].cost / fineCost / 2, 1, frame.left, frame.right);
   const y = logarithmic(Math.min(...errors) / 1.5, 1.5 * Math.max(...errors), frame.bottom, frame.top);

@@ -109,7 +109,7 @@ export class Coarse {
   take(found) {
     const { lab } = this.app;
     this.found = found;
-    byId("coarse-words").textContent = found.words;
+    byId("coarse-words").textContent = found.words.replace(/(\d) (?=%|s\b)/g, "$1\u00a0");
     byId("coarse-more").textContent = more(found);
     byId("coarse-found").hidden = false;
     this.draw();
@@ -137,6 +137,6 @@ export class Coarse {
     if (known.length === 0) return;
     drawLevels(byId("coarse-chart"), known, this.found);
     const finest = this.found.levels[this.found.levels.length - 1];
-    byId("coarse-chart-words").textContent = `Each dot is a network with that many particles; ${counted(finest.particles, "particle")}, the most that were run, are what the others are compared with. A line reaches to twice the estimate: where that stays below the goal, the coarsest network is chosen.`;
+    byId("coarse-chart-words").textContent = `Each dot is a network with that many particles; ${counted(finest.particles, "particle")}, the most that were run, are what the others are compared with. A line reaches to twice the estimate; it must stay below the goal where a network is to be chosen.`;
   }
 }

@@ -135,6 +135,9 @@ export class MeshModel {
     dots.setAttribute("position", this.position);
     dots.setIndex(new THREE.BufferAttribute(Uint32Array.from(seeds), 1));
     this.seedMaterial.map = disc();
+    this.seedMaterial.onBeforeCompile = (shader) => {  // nearer, or the slope that a dot lies on hides half of it
+      shader.vertexShader = shader.vertexShader.replace("#include <logdepthbuf_vertex>", "gl_Position.z -= 2e-4 * gl_Position.w;\n#include <logdepthbuf_vertex>");
+    };
     this.add(new THREE.Points(dots, this.seedMaterial));
   }
 
