@@ -59,8 +59,7 @@ export class Analyst {
   resolve(what, progress) {
     return this.ask("resolve", what, progress);
   }
-  /// Steps {scene, pins, knobs, duration, particles (of the coarser network), fine (whether the scene
-  /// itself, too)}. @param progress  (share done, nothing, what Beside takes)   @returns s it took
+  /// Steps {scene, pins, knobs, duration, particles (of the coarser network)}. @param progress  (share done, nothing, what Beside takes)   @returns s it took
   beside(what, progress) {
     return this.ask("beside", what, progress);
   }

@@ -24,34 +24,36 @@ export class Beside {
     byId("beside").hidden = true;
   }
   /// @param mesh  as MeshModel takes it   @param found  the answer of resolve
-  /// @param slow  whether the scene itself would take too long
-  show(mesh, found, pinned, slow) {
+  show(mesh, found, pinned) {
     this.mesh = mesh;
     this.found = found;
-    this.slow = slow;
+    this.slow = false;  // whether the scene itself would take too long
     this.pins = pinned.length;  // the first seeds, which are drawn already
     this.count = mesh.positions.length / 3;
     this.still = new Float32Array(this.count);
-    this.frames = [{ time: 0, all: slow ? undefined : mesh.positions, few: mesh.positions, apart: 0 }];
+    this.frames = [{ time: 0, all: mesh.positions, few: mesh.positions, apart: 0 }];
     this.took = NaN;  // s that all of the stepping took; NaN: it goes on
     this.time = 0;
     byId("beside").hidden = false;
-    byId("beside").classList.toggle("one", slow);
+    byId("beside").classList.remove("one");
     this.view ??= new View(byId("beside-view"), 2);
-    this.view.only = slow ? 1 : undefined;
+    this.view.only = undefined;
     this.view.show(mesh);
     this.view.lookAgain();
     this.view.each((model) => model.setPins(pinned, mesh.positions));
     byId("all").textContent = `All ${whole(this.count)} particles`;
-    byId("few").textContent = `${whole(found.chosen.particles)} particles (dots), at ${seconds(found.chosen.h, 3)}`;
+    byId("few").textContent = `${whole(found.chosen.particles)} particles (pins and dots), at ${seconds(found.chosen.h, 3)}`;
     this.running = true;
     this.draw();
   }
-  /// What the worker has stepped. @param sent  {seeds, h} once, then {time, all, few, apart} often
+  /// What the worker has stepped. @param sent  {seeds, h, slow} once, then {time, all, few, apart} often
   take(sent) {
     if (sent.seeds) {
       this.view.panes[1].model.setSeeds(sent.seeds.slice(this.pins));
-      if (!this.slow) byId("all").textContent += `, at ${seconds(sent.h, 3)}`;
+      byId("all").textContent += `, at ${seconds(sent.h, 3)}`;
+      this.slow = sent.slow;
+      byId("beside").classList.toggle("one", sent.slow);
+      this.view.only = sent.slow ? 1 : undefined;
     } else this.frames.push(sent);
   }
 

@@ -11,7 +11,6 @@ import { counted, whole } from "./words.js";
 
 const LEAST = 0.005, MOST = 0.2;  // goals, of the scene's size
 const LARGE = 5000;     // particles from which on a search begins with the button only
-const PATIENCE = 60;    // s for which all particles may be stepped
 const PAUSE = 250;      // ms for which the slider must rest
 const byId = (id) => document.getElementById(id);
 
@@ -114,10 +113,8 @@ export class Coarse {
     byId("coarse-found").hidden = false;
     this.draw();
     if (found.outcome !== "coarse") return this.beside.hide();
-    const rate = found.searchCost / found.took;  // spring-steps a second
-    const slow = found.fineCost / rate > PATIENCE;
-    this.beside.show(this.app.mesh(), found, lab.pinned(), slow);
-    this.step(this.asked, { ...this.app.task(), duration: found.duration, particles: found.chosen.particles, fine: !slow });
+    this.beside.show(this.app.mesh(), found, lab.pinned());
+    this.step(this.asked, { ...this.app.task(), duration: found.duration, particles: found.chosen.particles });
   }
   async step(mine, what) {
     this.stepping = true;
@@ -137,6 +134,6 @@ export class Coarse {
     if (known.length === 0) return;
     drawLevels(byId("coarse-chart"), known, this.found);
     const finest = this.found.levels[this.found.levels.length - 1];
-    byId("coarse-chart-words").textContent = `Each dot is a network with that many particles; ${counted(finest.particles, "particle")}, the most that were run, are what the others are compared with. A line reaches to twice the estimate; it must stay below the goal where a network is to be chosen.`;
+    byId("coarse-chart-words").textContent = `Each dot is a network with that many particles; ${counted(finest.particles, "particle")}, the most that were run, are what the others are compared with. The coarsest network is chosen whose line, which reaches to twice the estimate, stays below the goal.`;
   }
 }

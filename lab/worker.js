@@ -11,6 +11,8 @@ const ROUNDS = 5;        // timings of each plan after a first one that warms up
 const SECONDS = 0.012;   // of each
 const SAMPLES = 30;      // of a run of resolve
 const MANY = 10_000;     // particles of which a motion has 30 pictures a second, not 60
+const PATIENCE = 60;     // s for which both motions may be stepped
+const TRIAL = 300;       // ms after which that is judged
 let lab = null;
 let resolving = () => {};  // told how far resolve is
 let opened = null;       // the key of the scene that is open
@@ -75,25 +77,35 @@ async function advise(id, task) {
 async function resolve(id, task) {
   prepare(task);
   resolving = (run, sample) => tell(id, { progress: sample / SAMPLES, words: `stepping, run ${run + 1} of a coarser network` });
+  tell(id, { result: lab.resolve(task.duration, task.goal) });
+}
+
+/// s that both motions would take, judged by their beginning.
+function besideTakes(duration, particles) {
+  lab.startBeside(particles, duration, true);
   const begin = performance.now();
-  const found = lab.resolve(task.duration, task.goal);
-  tell(id, { result: { ...found, took: (performance.now() - begin) / 1000 } });
+  for (;;) {
+    const time = lab.stepBeside(4);
+    const spent = performance.now() - begin;
+    if (spent > TRIAL || time > duration / 2) return (spent / 1000) * (duration / time);
+  }
 }
 
 /// Both motions in pictures for the page, which plays them while more are made.
 async function beside(id, task) {
   prepare(task);
   const begin = performance.now();
-  const { duration, fine } = task;
-  lab.startBeside(task.particles, duration, fine);
+  const { duration, particles } = task;
+  const slow = besideTakes(duration, particles) > PATIENCE;
+  lab.startBeside(particles, duration, !slow);
   const h = duration / lab.besideSteps();
-  tell(id, { progress: 0, sent: { seeds: lab.besideSeeds(), h } });
+  tell(id, { progress: 0, sent: { seeds: lab.besideSeeds(), h, slow } });
   const frame = lab.size() > MANY ? 1 / 30 : 1 / 60;
   let time = 0;
   for (let next = frame; time < duration - h / 2; next += frame) {
     const until = Math.min(next, duration);
     while (time < until - h / 2) time = lab.stepBeside(Math.ceil((until - time) / h - 1e-6));
-    const [all, few] = [fine ? lab.besidePositions(0).slice() : undefined, lab.besidePositions(1).slice()];
+    const [all, few] = [!slow ? lab.besidePositions(0).slice() : undefined, lab.besidePositions(1).slice()];
     tell(id, { progress: time / duration, sent: { time, all, few, apart: lab.besideApart() } });
   }
   tell(id, { result: (performance.now() - begin) / 1000 });
