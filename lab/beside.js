@@ -40,6 +40,7 @@ export class Beside {
     this.view.only = undefined;
     this.view.show(mesh);
     this.view.lookAgain();
+    this.view.camera.position.multiplyScalar(1.12);  // what hangs becomes longer
     this.view.each((model) => model.setPins(pinned, mesh.positions));
     byId("all").textContent = `All ${whole(this.count)} particles`;
     byId("few").textContent = `${whole(found.chosen.particles)} particles (pins and dots), at ${seconds(found.chosen.h, 3)}`;
