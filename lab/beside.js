@@ -82,7 +82,7 @@ export class Beside {
   words() {
     const { found, slow, took, frame: { time, apart } } = this;
     const at = `${time.toFixed(2)}\u00a0s of ${found.duration}\u00a0s`;
-    if (slow) return `${at}. To step all ${whole(this.count)} particles would take minutes here, so they are not shown beside it.`;
+    if (slow) return `${at}. Stepping all ${whole(this.count)} particles would take more than a minute here, so they are not shown beside it.`;
     if (apart === Infinity) return `${at}. A step failed.`;
     const pace = Number.isNaN(took) ? ", as fast as all particles are stepped here" : `, replayed; stepping both took ${significant(took, 2)}\u00a0s`;
     const measured = apart > 0 ? ` Measured here, both were at most ${percent(apart, 2)} of the scene’s size apart so far; estimated were ${percent(found.chosen.error, 2)} for all of it.` : "";

@@ -60,8 +60,8 @@ export function drawLevels(box, levels, { goal, fineCost, chosen }) {
   const { root, width, height } = drawing(box, 230, "Estimated error of coarser networks against their cost");
   const frame = { left: 56, right: width - 22, top: 32, bottom: height - 46 };
   const errors = [goal, ...levels.flatMap(({ error }) => [error, 2 * error])].filter((v) => v > 0);
-  const x = logarithmic(levels[0].cost / fineCost / 2, 1, frame.left, frame.right);
-  const y = logarithmic(Math.min(...errors) / 1.5, 1.5 * Math.max(...errors), frame.bottom, frame.top);
+  const x = logarithmic(levels[0].cost / fineCost / 4, 1, frame.left, frame.right);
+  const y = logarithmic(Math.min(...errors) / 2.5, 2 * Math.max(...errors), frame.bottom, frame.top);
   const share = (v) => percent(v, 2);
   axes(root, frame,
     { scale: x, ticks: decades(x, width < 640 ? 5 : 10), text: share, title: "cost of the motion, of what all particles cost" },
@@ -74,7 +74,8 @@ export function drawLevels(box, levels, { goal, fineCost, chosen }) {
     const [a, b] = [x(level.cost / fineCost), y(level.error)];
     line(root, a, b, a, y(2 * level.error), best ? "line-certified" : "axis");
     svg("circle", { cx: a, cy: b, r: best ? 6 : 4, class: best ? "certified" : "dot" }, root);
-    label(root, a + 10, b + 4, best ? `${level.particles}, chosen` : level.particles, "start", best ? "strong" : "");
+    if (best) label(root, a, y(2 * level.error) - 7, `${level.particles}, chosen`, "middle", "strong");
+    else label(root, a, b + 17, level.particles, "middle");  // below, where the chosen one's has none
   }
 }
 
