@@ -23,10 +23,10 @@ export class Analyst {
     this.ask("load", { module: this.module }).catch(() => {});
   }
 
-  take({ id, result, error, refused, progress, words }) {
+  take({ id, result, error, refused, progress, words, sent }) {
     const task = this.waiting.get(id);
     if (!task) return;
-    if (progress !== undefined) return task.progress(progress, words);
+    if (progress !== undefined) return task.progress(progress, words, sent);
     this.waiting.delete(id);
     if (error === undefined) return task.resolve(result);
     if (!refused) this.restart(new Error(error));  // what has aborted is of no use any more
@@ -53,6 +53,15 @@ export class Analyst {
   /// The plans that are stable, the cheapest first, of a scene that has been analysed.
   advise(what) {
     return this.ask("advise", what);
+  }
+
+  /// How few particles will do, of {scene, pins, knobs, goal, duration}.
+  resolve(what, progress) {
+    return this.ask("resolve", what, progress);
+  }
+  /// Steps {scene, pins, knobs, duration, particles (of the coarser network)}. @param progress  (share done, nothing, what Beside takes)   @returns s it took
+  beside(what, progress) {
+    return this.ask("beside", what, progress);
   }
 
   /// Ends whatever is being done.

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
-// The bands behind the slider of h, and the chart of ringing. Scales and SVG are those of the pages
+// The bands behind the slider of h, and the charts of ringing and of coarser networks. Scales and SVG are those of the pages
 // of stability_report: examples/report/draw.js, loaded before.
 
-/* global decades, drawing, hatching, label, line, logarithmic, metres, path, seconds, svg, axes */
+/* global decades, drawing, hatching, label, line, logarithmic, metres, path, percent, seconds, svg, axes */
 
 export const STEP = { least: 2e-5, most: 5e-2 };  // s, the slider's ends
 
@@ -52,6 +52,31 @@ export function drawBands(bands, scale, limits) {
   }
   line(root, x(FRAME), 10, x(FRAME), height, "mark dash");
   label(root, x(FRAME), 6, "a frame, 1/60\u00a0s", "middle");
+}
+
+/// Estimated errors against costs; a line from each dot to twice its error.
+/// @param levels  whose error is known, the coarsest first   @param found  the answer of resolve
+export function drawLevels(box, levels, { goal, fineCost, chosen }) {
+  const { root, width, height } = drawing(box, 230, "Estimated error of coarser networks against their cost");
+  const frame = { left: 56, right: width - 22, top: 32, bottom: height - 46 };
+  const errors = [goal, ...levels.flatMap(({ error }) => [error, 2 * error])].filter((v) => v > 0);
+  const x = logarithmic(levels[0].cost / fineCost / 4, 1, frame.left, frame.right);
+  const y = logarithmic(Math.min(...errors) / 2.5, 2 * Math.max(...errors), frame.bottom, frame.top);
+  const share = (v) => percent(v, 2);
+  axes(root, frame,
+    { scale: x, ticks: decades(x, width < 640 ? 5 : 10), text: share, title: "cost of the motion, of what all particles cost" },
+    { scale: y, ticks: decades(y, 6), text: share, title: "estimated error, of the scene’s size" });
+  line(root, frame.left, y(goal), frame.right, y(goal), "mark dash");
+  label(root, frame.right - 6, y(goal) - 6, `goal ${share(goal)}`, "end", "strong");
+  for (const level of levels) {
+    if (!(level.error > 0)) continue;
+    const best = level.particles === chosen?.particles;
+    const [a, b] = [x(level.cost / fineCost), y(level.error)];
+    line(root, a, b, a, y(2 * level.error), best ? "line-certified" : "axis");
+    svg("circle", { cx: a, cy: b, r: best ? 6 : 4, class: best ? "certified" : "dot" }, root);
+    if (best) label(root, a, y(2 * level.error) - 7, `${level.particles}, chosen`, "middle", "strong");
+    else label(root, a, b + 17, level.particles, "middle");  // below, where the chosen one's has none
+  }
 }
 
 /// @param samples  {ringing, predicted (NaN: nothing), state} for each frame shown, the newest last

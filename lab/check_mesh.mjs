@@ -8,7 +8,7 @@ import { fileURLToPath } from "node:url";
 import { checkLayout, choose, dragStep, expect, paintedView, scene, settled, shown, state, text, watch } from "./check_tools.mjs";
 
 const SKIRT = fileURLToPath(new URL("../examples/data/skirt.obj", import.meta.url));
-const named = (name, lines) => ({ name, mimeType: "text/plain", buffer: Buffer.from(Array.isArray(lines) ? lines.join("\n") : lines) });
+export const named = (name, lines) => ({ name, mimeType: "text/plain", buffer: Buffer.from(Array.isArray(lines) ? lines.join("\n") : lines) });
 
 /// Lets a file fall on the page, as from a folder.
 async function drop(page, file) {
@@ -22,7 +22,7 @@ async function drop(page, file) {
 const showsScene = (page, name) => page.waitForFunction((wanted) => window.labState().scene === wanted && !window.labState().busy, name);
 
 /// A grid of triangles, 1 m wide, upright.
-function grid(columns, rows) {
+export function grid(columns, rows) {
   const lines = [];
   for (let r = 0; r < rows; ++r) for (let c = 0; c < columns; ++c) lines.push(`v ${(c / (columns - 1)).toFixed(6)} ${(r / (columns - 1)).toFixed(6)} 0`);
   for (let r = 0; r + 1 < rows; ++r) {

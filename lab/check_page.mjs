@@ -9,6 +9,7 @@ import { statSync } from "node:fs";
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { checkCloth } from "./check_cloth.mjs";
+import { checkCoarse, checkCoarseCleared } from "./check_coarse.mjs";
 import { checkFiles, checkLarge, checkPins, checkReset, checkSkirt } from "./check_mesh.mjs";
 import { close, conclude, expect, launch, open, serve, state } from "./check_tools.mjs";
 
@@ -67,6 +68,15 @@ const CHECKS = {
     await checkReset(page, "reset");
     await checkLarge(page, "large");
     await close(page, "meshes");
+  },
+  async coarse() {
+    const page = await open(browser, server.address, ...DESK);
+    await checkCoarse(page, "coarse", pictures);
+    await checkCoarseCleared(page, "coarse");
+    await close(page, "coarse");
+    const phone = await open(browser, single, ...PHONE, { deviceScaleFactor: 2, colorScheme: "dark" });
+    await checkCoarse(phone, "coarse_phone", pictures);
+    await close(phone, "coarse_phone");
   },
   async single() {
     const bytes = statSync(`${site}.html`).size;

@@ -3,7 +3,8 @@
 
 // node check_same.mjs lab.wasm native mesh.obj
 // The WebAssembly takes the same hundred steps as the native program, by each method, and must end
-// within 1e-6 m of it; and it finds the same limits of a mesh, within a millionth of each.
+// within 1e-6 m of it; it finds the same limits of a mesh, within a millionth of each; and resolve()
+// chooses the same network, with the same estimated error within a thousandth.
 
 import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
@@ -36,9 +37,14 @@ for (const [, act] of lab.parts) act();
 const { limits, mode } = lab.found();
 const ours = [...ANALYSED.flatMap((method) => [limits[method].anyPose, limits[method].certified, limits[method].refuted]), mode.k, mode.d, mode.kMax];
 const theirs = native(mesh);
+const [particles, error] = theirs.splice(-2);
 if (ours.length !== theirs.length) throw new Error(`${theirs.length} numbers of the native program, ${ours.length} here`);
 const apart = (a, b) => (a === b ? 0 : Math.abs(a - b) / Math.abs(b));
 const most = Math.max(...ours.map((v, i) => apart(v, theirs[i])));
 console.log(`${mesh}: certified ${theirs[4].toExponential(4)} s, refuted ${theirs[5].toExponential(4)} s; native and WebAssembly differ by ${most.toExponential(1)} of each limit`);
 if (!(theirs[3] > 0 && theirs[4] > theirs[3] && theirs[5] > theirs[4])) throw new Error("the limits of symplectic Euler are not in order");
 if (!(most < 1e-6)) throw new Error(`limits differ by ${most} of themselves; at most 1e-6 is allowed`);
+
+const { chosen, words } = lab.resolve(0.1, 0.05);
+console.log(`${words} Natively: ${particles} particles, ${(100 * error).toPrecision(6)} %; here ${(100 * chosen?.error).toPrecision(6)} %`);
+if (chosen?.particles !== particles || !(apart(chosen.error, error) < 1e-3)) throw new Error("resolve() answers otherwise natively");

@@ -5,12 +5,14 @@
 
 export const METHODS = ["explicit_euler", "symplectic_euler", "velocity_verlet", "implicit_euler", "bdf2", "graph_inertia"];
 export const EXPLICIT = 0, SYMPLECTIC = 1, IMPLICIT = 3, INERTIA = 5;
+export const RESOLVED = ["coarse", "fine", "unpredictable", "nothing_moves", "diverged", "cut_short"];
 export const ANALYSED = [0, 1, 2, 3, 5];
 
 /// @param memory  called for it   @param said  what the library says before it aborts
-function hostOf(memory, said) {
+/// @param told  as loadLab takes it
+function hostOf(memory, said, told) {
   return {
-    env: { emscripten_notify_memory_growth() {} },
+    env: { emscripten_notify_memory_growth() {}, lab_resolving: told },
     wasi_snapshot_preview1: {
       clock_time_get(_clock, _precision, at) {
         new DataView(memory().buffer).setBigUint64(at, BigInt(Math.round(performance.now() * 1e6)), true);
@@ -37,10 +39,11 @@ function hostOf(memory, said) {
 }
 
 /// @param source  the bytes of lab.wasm, or the WebAssembly.Module made of them
-export async function loadLab(source) {
+/// @param told  (run, sample): how far resolve() is
+export async function loadLab(source, told = () => {}) {
   const module = source instanceof WebAssembly.Module ? source : await WebAssembly.compile(source);
   let memory;
-  const instance = await WebAssembly.instantiate(module, hostOf(() => memory, { text: "" }));
+  const instance = await WebAssembly.instantiate(module, hostOf(() => memory, { text: "" }, told));
   const wasm = instance.exports;
   memory = wasm.memory;
   wasm._initialize();
@@ -139,6 +142,27 @@ export async function loadLab(source) {
       const [lower, upper] = doubles(wasm.lab_window(method, h, drag, mode.kMax, mode.compression), 2);
       return { lower, upper };
     },
+
+    // ---- how few particles will do ----
+
+    /// @param duration  s   @param goal  a share of the scene's size
+    /// @returns {outcome (RESOLVED), words, levels, chosen (one of them, or nothing), cheaper, fineCost, searchCost}
+    resolve(duration, goal) {
+      wasm.lab_resolve(duration, goal);
+      const [outcome, chosen, cheaper, fineCost, searchCost] = doubles(wasm.lab_resolution(), 5);
+      const levels = Array.from({ length: wasm.lab_level_count() }, (_, i) => {
+        const [particles, springs, h, cost, error] = doubles(wasm.lab_level(i), 5);
+        return { particles, springs, h, cost, error };
+      });
+      return { outcome: RESOLVED[outcome], words: text(wasm.lab_resolution_words()), levels, chosen: levels[chosen], cheaper, fineCost, searchCost, goal, duration };
+    },
+    startBeside: (particles, duration, fine) => wasm.lab_beside_start(particles, duration, fine ? 1 : 0),
+    stepBeside: wasm.lab_beside_step,
+    besideSteps: wasm.lab_beside_steps,
+    besideApart: wasm.lab_beside_apart,
+    besidePositions: (which) => floats(wasm.lab_beside_positions(which), 3 * wasm.lab_size()),
+    besideSeeds: () => integers(wasm.lab_beside_seeds(), wasm.lab_beside_seed_count()).slice(),
+
     advise: wasm.lab_advise,
     timePlan: wasm.lab_time_plan,
     plan(i) {

@@ -156,4 +156,53 @@ struct LabPlan {
     double cost;       ///< s a frame, as measured here; infinity: not yet, or a step failed
 };
 LAB_CALL const LabPlan* lab_plan(int i);
+
+// ---- how few particles will do: resolve.cpp ----
+
+/// Searches for the coarsest network whose motion, from rest where the scene was laid out, is
+/// estimated to stay within `goal`, a share of the scene's size, for `duration`, s. It costs up to
+/// 0.3 of the scene's own run; after a minute it ends, and says so.
+LAB_CALL void lab_resolve(double duration, double goal);
+/// The host's: called at each of 30 samples of a run that lab_resolve() steps; both count from 0.
+void lab_resolving(int run, int sample);
+
+struct LabResolution {
+    double outcome;      ///< a taut::Resolved; −1: no step of the scene is certified
+    double chosen;       ///< of the levels; −1: none
+    double cheaper;      ///< how many times, in spring-steps
+    double fine_cost;    ///< spring-steps of the scene itself
+    double search_cost;  ///< spring-steps
+};
+LAB_CALL const LabResolution* lab_resolution();
+/// The same in a sentence.
+LAB_CALL const char* lab_resolution_words();
+
+struct LabLevel {
+    double particles;
+    double springs;
+    double h;      ///< s, certified at any pose
+    double cost;   ///< spring-steps
+    double error;  ///< estimated, a share of the scene's size; infinity: not known
+};
+LAB_CALL const LabLevel* lab_level(int i);
+LAB_CALL int lab_level_count();
+
+// ---- the scene beside a coarser network of it, in the same time: beside.cpp ----
+
+/// Both from rest where the scene was laid out, for `duration`, s.
+/// @param particles  of the coarser one   @param fine  0: the scene itself is too slow, and stands
+LAB_CALL void lab_beside_start(int particles, double duration, int fine);
+/// Takes `count` ≥ 1 steps of the scene, or of the coarser network where the scene stands, but none
+/// beyond the next of 30 samples. @returns s, since the start
+LAB_CALL double lab_beside_step(int count);
+/// What all of those steps are.
+LAB_CALL double lab_beside_steps();
+/// How far both were apart at the worst sample so far, by the root mean square over particles, a
+/// share of the scene's size; 0 where the scene stands; infinity where a step failed.
+LAB_CALL double lab_beside_apart();
+/// 3 × n, m; of the coarser network as it is lifted. @param which  0: the scene, 1: the other
+LAB_CALL const float* lab_beside_positions(int which);
+/// The particles of the scene that the coarser network has, the pins first.
+LAB_CALL const int* lab_beside_seeds();
+LAB_CALL int lab_beside_seed_count();
 }

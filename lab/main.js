@@ -3,6 +3,7 @@
 
 import { MEASURING, awaitAdvice, chosen, frameCost, writeAdvice } from "./advice.js";
 import { Analyst } from "./analyst.js";
+import { Coarse } from "./coarse.js";
 import { STEP, drawBands, drawRinging, setScale, standing } from "./charts.js";
 import { SYMPLECTIC, loadLab } from "./engine.js";
 import { addressOf, bytesOf } from "./files.js";
@@ -22,7 +23,8 @@ const share = (low, high, value) => Math.log(value / low) / Math.log(high / low)
 
 const module = await WebAssembly.compile(await bytesOf("lab.wasm"));
 const lab = await loadLab(module);
-const analyst = new Analyst(await addressOf("worker.js"), module);
+const workerAddress = await addressOf("worker.js");
+const analyst = new Analyst(workerAddress, module);
 const view = new View(byId("view"), 1);
 const pair = new Pair(lab);
 const settings = { method: SYMPLECTIC, h: STEP.least };
@@ -92,6 +94,7 @@ const knobs = new Knobs(() => {
   Object.assign(settings, values);
   lab.knobs(settings);
   forget();
+  coarse.clear(CHANGED);
   analyse();
 });
 let asked = 0;
@@ -150,6 +153,12 @@ async function advise() {
   writeAdvice(plans);
 }
 
+// ---- how coarse it may be ----
+
+const CHANGED = "Knobs or pins have changed: what was found is no longer of this scene. Ask again.";
+/// It has a worker of its own, so that no search keeps the limits waiting.
+const coarse = new Coarse({ lab, task, mesh: () => mesh, makeAnalyst: () => new Analyst(workerAddress, module) });
+
 // ---- scenes ----
 
 /// Shows a scene once the worker has read and analysed it; until then, and if it cannot, the one
@@ -174,6 +183,7 @@ async function open(next) {
     Object.assign(settings, knobs.values());
     lab.knobs(settings);
     layOut();
+    coarse.clear("");
     view.lookAgain();
     byId("verdict").hidden = true;
     found = result;
@@ -213,6 +223,7 @@ function pinsChanged(pins) {
   startAgain();
   byId("scene").textContent = sceneWords(scene.name, lab.size(), lab.springs(), lab.shape());
   view.each((model) => model.setPins(lab.pinned(), mesh.positions));
+  coarse.clear(CHANGED);
   analyse();
 }
 
@@ -266,7 +277,10 @@ byId("reset").addEventListener("click", async () => {
   if (await open(original(scene))) byId("reset-words").textContent = "Knobs, integrator, step, pins and camera are as at the start.";
 });
 addEventListener("input", () => (byId("reset-words").textContent = ""));
-addEventListener("resize", () => found && drawBands(byId("bands"), byId("scale"), limits()));
+addEventListener("resize", () => {
+  if (found) drawBands(byId("bands"), byId("scale"), limits());
+  coarse.draw();
+});
 
 let last = performance.now();
 let frames = 0;
@@ -286,6 +300,7 @@ function tick(now) {
   });
   view.render();
   pair.tick();
+  coarse.beside.tick(elapsed);
   if (++frames % 3 === 0) drawRinging(byId("chart"), run.samples, SAMPLES, mesh.edge);
   requestAnimationFrame(tick);
 }
@@ -299,6 +314,7 @@ window.labState = () => ({
   settings: { ...settings }, limits: limits(), stale, slider: { ...STEP }, plans, advice: chosen(plans),
   scene: scene.name, busy: bar.busy, size: lab.size(), preset: knobs.preset, ...lab.shape(), pinned: lab.pinned(),
   camera: view.camera.position.toArray(), drawn: view.farthest(), pair: { taken: pair.taken, reach: pair.reach, h: pair.h, kick: found.mode.size },
+  coarse: { busy: coarse.busy, found: coarse.found, goal: coarse.goal, duration: coarse.duration, shown: coarse.beside.running, slow: coarse.beside.slow, time: coarse.beside.time, apart: coarse.beside.running ? coarse.beside.frame.apart : NaN, frames: coarse.beside.running ? coarse.beside.frames.length : 0, stepping: coarse.stepping },
 });
 window.labView = view;
 

@@ -31,6 +31,16 @@ function colourTable() {
   return table;
 }
 
+/// A dot for seeds; a point is a square without.
+function disc() {
+  const canvas = Object.assign(document.createElement("canvas"), { width: 32, height: 32 });
+  const context = canvas.getContext("2d");
+  context.fillStyle = "#fff";
+  context.arc(16, 16, 15, 0, 2 * Math.PI);
+  context.fill();
+  return new THREE.CanvasTexture(canvas);
+}
+
 export class MeshModel {
   /// @param mesh  {positions (3 × n, at the start), triangles, threads, centre, size, edge}: it is
   ///              drawn with `centre` at the origin and `size` as one
@@ -57,6 +67,7 @@ export class MeshModel {
     this.add(new THREE.Mesh(this.faces, this.cloth), new THREE.LineSegments(weave, this.threads));
 
     this.pinMaterial = new THREE.MeshBasicMaterial();
+    this.seedMaterial = new THREE.PointsMaterial({ size: 6, sizeAttenuation: false, alphaTest: 0.5 });
     this.pins = null;
     this.blamed = null;
     this.paint = () => this.takeColours();
@@ -75,6 +86,7 @@ export class MeshModel {
     this.table = colourTable();
     this.threads.color.set(this.net ? 0xffffff : dark.matches ? 0x0e1114 : 0x1c1f24);
     this.threads.opacity = this.net ? 1 : (dark.matches ? 0.3 : 0.2) * (this.smooth ? 1 : 0.4);
+    this.seedMaterial.color.set(dark.matches ? 0x86b4da : 0x2d5f8b);
     this.pinMaterial.color.set(dark.matches ? 0xe9e6e0 : 0x1c1f24);
   }
 
@@ -82,6 +94,7 @@ export class MeshModel {
     dark.removeEventListener("change", this.paint);
     this.group.traverse((object) => {
       object.geometry?.dispose();
+      object.material?.map?.dispose();
       object.material?.dispose();
     });
   }
@@ -114,6 +127,18 @@ export class MeshModel {
       this.pins.setMatrixAt(i, matrix.makeTranslation(...at));
     });
     this.add(this.pins);
+  }
+
+  /// Once. @param seeds  particles that are drawn as dots
+  setSeeds(seeds) {
+    const dots = new THREE.BufferGeometry();
+    dots.setAttribute("position", this.position);
+    dots.setIndex(new THREE.BufferAttribute(Uint32Array.from(seeds), 1));
+    this.seedMaterial.map = disc();
+    this.seedMaterial.onBeforeCompile = (shader) => {  // nearer, or the slope that a dot lies on hides half of it
+      shader.vertexShader = shader.vertexShader.replace("#include <logdepthbuf_vertex>", "gl_Position.z -= 2e-4 * gl_Position.w;\n#include <logdepthbuf_vertex>");
+    };
+    this.add(new THREE.Points(dots, this.seedMaterial));
   }
 
   /// @param blamed  pairs of particles, the foremost first   @param shares  of each

@@ -69,6 +69,10 @@ export class View {
       pane.scene.add(pane.model.group);
     }
   }
+  /// The panes that are drawn: all, or the one that `only` names.
+  get drawn() {
+    return this.only === undefined ? this.panes : [this.panes[this.only]];
+  }
   each(act) {
     for (const { model } of this.panes) act(model);
   }
@@ -77,9 +81,9 @@ export class View {
     this.fit();
     this.controls.update();
     const { width, height } = this.renderer.getSize(new THREE.Vector2());
-    const each = width / this.panes.length;
-    this.renderer.setScissorTest(this.panes.length > 1);
-    this.panes.forEach(({ scene }, i) => {
+    const each = width / this.drawn.length;
+    this.renderer.setScissorTest(this.drawn.length > 1);
+    this.drawn.forEach(({ scene }, i) => {
       this.renderer.setViewport(i * each, 0, each, height);
       this.renderer.setScissor(i * each, 0, each, height);
       this.renderer.render(scene, this.camera);
@@ -90,10 +94,12 @@ export class View {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const ratio = Math.min(devicePixelRatio || 1, 2);
     const size = this.renderer.getSize(new THREE.Vector2());
-    if (size.x === width && size.y === height && this.renderer.getPixelRatio() === ratio) return;
+    const same = size.x === width && size.y === height && this.renderer.getPixelRatio() === ratio;
+    if (same && this.fitted === this.drawn.length) return;
+    this.fitted = this.drawn.length;
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(width, height, false);
-    const aspect = width / this.panes.length / height;
+    const aspect = width / this.drawn.length / height;
     this.camera.aspect = aspect;
     this.camera.fov = aspect > 1 ? 32 : Math.min(60, 38 / Math.max(0.6, aspect));  // a narrow picture would cut the cloth off
     this.camera.updateProjectionMatrix();

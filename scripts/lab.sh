@@ -65,7 +65,7 @@ newer() {
 flags="-std=c++17 -fno-exceptions -fno-rtti -DNDEBUG -Iinclude -isystem $eigen"
 flags="$flags -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror"
 headers="include examples/common lab/lab.hpp lab/scene.hpp scripts/lab.sh"
-parts="scene motion pair limits advice"
+parts="scene motion pair limits advice resolve beside"
 
 # compile COMPILER FOLDER OPTION…: the parts that have changed, to objects in the folder.
 compile() {
