@@ -269,6 +269,29 @@ TEMPLATE_TEST_CASE("lammps: the files hold the scene to the bit, and its motion"
     }
 }
 
+TEST_CASE("lammps: a file of many blocks is whole", "[io]") {
+    const Files files("blocks");
+    const auto cloth = taut::hanging_cloth<double>({40, 41});
+    Random random(7);
+    auto state = cloth.initial_state();
+    state.v = random.points<double, 3>(cloth.size(), -1, 1);
+    REQUIRE(write_lammps("", cloth, state, files.options()));
+    CHECK(files.data.bytes().size() > 3 * 65536);
+    const Network network = read(files);
+    CHECK(difference(network, state) == 0);
+    REQUIRE(network.bonds.size() == static_cast<std::size_t>(cloth.spring_count()));
+    std::size_t s = 0, wrong = 0;
+    cloth.visit_springs([&](const auto& spring) {
+        const auto& bond = network.bonds[s++];
+        wrong += bond.a == static_cast<std::size_t>(spring.a) &&
+                         bond.b == static_cast<std::size_t>(spring.b) &&
+                         bond.L == spring.rest_length
+                     ? 0
+                     : 1;
+    });
+    CHECK(wrong == 0);
+}
+
 TEST_CASE("lammps: the step is the stated share of the certified any-pose limit", "[io]") {
     const Files files("share");
     const auto cloth = taut::hanging_cloth<double>({6, 5});
