@@ -112,7 +112,7 @@ int limit(const std::string& folder, Index edge, Index steps) {
         static_cast<long long>(edge), static_cast<long long>(lattice.spring_count()),
         bracket.certified, bracket.refuted);
     std::fflush(stdout);
-    for (const bool below : {false, true}) {
+    for (const bool below : {true, false}) {
         taut::LammpsOptions options;
         options.step = below ? 0.99 * bracket.certified : 1.02 * bracket.refuted;
         options.steps = below ? steps : 20;
