@@ -29,7 +29,7 @@ using taut::Index;
 double peak_megabytes() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) / 1024;
+    return static_cast<double>(usage.ru_maxrss) * 1024 / 1e6;
 }
 
 /// A lattice of about so many springs. @param diagonals  nine springs a particle, else three

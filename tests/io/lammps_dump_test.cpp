@@ -150,6 +150,21 @@ TEST_CASE("lammps_dump: a file cut anywhere gives whole frames and then says so"
     }
 }
 
+TEST_CASE("lammps_dump: a last line of any length that has no end is cut", "[io][bad_input]") {
+    const TemporaryFile file("tail.dump");
+    Random random(4);
+    using State = taut::State<double, 3>;
+    const std::string one = frame(random_frame<State>(random, 4, 0), {}, random);
+    for (std::size_t length = 1; length < 1100; ++length) {
+        put(file, one + std::string(length, 'x'));
+        LammpsDump<double, 3> dump(file.path, 4);
+        State state;
+        REQUIRE(dump.read(state));
+        CAPTURE(length);
+        REQUIRE(dump.read(state).status == DumpStatus::cut);
+    }
+}
+
 TEST_CASE("lammps_dump: bad input: foreign lines are named", "[io][bad_input]") {
     const TemporaryFile file("foreign.dump");
     Random random(3);
