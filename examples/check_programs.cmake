@@ -202,6 +202,23 @@ expect(stability_report "${cloth} --json missing/report.json" 1
     "--json: missing/report.json cannot be written")
 expect(stability_report "${cloth} --html missing/report.html" 1
     "--html: missing/report.html cannot be written")
+# For LAMMPS: a folder, made where it is missing.
+expect(stability_report "${cloth} --lammps for/lammps" 0
+    "For LAMMPS: [0-9]+ bond types, 2 atom types.*0[.]5 of the limit at any pose.*cd for/lammps && mpirun")
+foreach(file IN ITEMS taut.data taut.in)
+    if(NOT EXISTS ${folder}/for/lammps/${file})
+        message(SEND_ERROR "--lammps for/lammps wrote no ${file}")
+    endif()
+endforeach()
+expect(stability_report "${cloth} --d0 0.5 --lammps for/lammps" 0 "For LAMMPS")
+file(READ ${folder}/for/lammps/taut.in script)
+if(NOT script MATCHES "fix drag all viscous 0.5 " OR NOT script MATCHES "\ntimestep [0-9.e-]+ ")
+    message(SEND_ERROR "--d0 0.5 --lammps wrote\n${script}")
+endif()
+expect(stability_report "${cloth} --alpha 1e-4 --lammps for/lammps" 1 "--lammps: .*set_rayleigh.* has no equal")
+expect(stability_report "${cloth} --lammps triangle.obj" 1 "--lammps: triangle.obj/taut.data: cannot be written")
+expect(stability_report "${K} K.mtx --lammps for/lammps" 108 "--lammps")
+expect(stability_report "${cloth} --lammps for/lammps --json -" 0 "^[{]")
 # What is written is no file that is read, and no other one that is written.
 file(READ ${folder}/triangle.obj mesh)
 expect(stability_report "triangle.obj --json triangle.obj" 1 "--json: triangle.obj is the file of MESH too")

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/lammps_files.hpp"
 #include "common/main.hpp"
 #include "common/matrix_market.hpp"
 #include "common/naming.hpp"
@@ -42,6 +43,7 @@ struct Options {
     double duration = 2;            // s, that --resolve is about
     std::string json;
     std::string html;
+    std::string lammps;  // folder
 };
 
 constexpr double proof_tightness = 1e-6;
@@ -134,6 +136,11 @@ Findings report_on_scene(const Options& options, Progress& progress) {
                             {}};
     }
     found.analysis = seconds_since(analysis);
+    if (!options.lammps.empty()) {
+        progress.at("writing the files for LAMMPS");
+        found.lammps =
+            example::write_lammps_folder("--lammps", options.lammps, scene.system, state);
+    }
     if (!options.html.empty()) {
         progress.at("stepping the mesh for the page");
         const auto& mode = *found.limiting_mode;
@@ -240,6 +247,10 @@ int run(int argc, char** argv) {
                    "write the findings as one page to look at (- is stdout, without table)")
         ->transform(example::standard_output())
         ->check(example::not_empty());
+    app.add_option("--lammps", options.lammps,
+                   "write the scene for LAMMPS into folder DIR, to be stepped at half of the limit "
+                   "at any pose")
+        ->check(example::not_empty());
     for (const char* other : {"MESH",       "--scene",        "--size",
                               "--d0",       "--alpha",        "--pin",
                               "--stretch",  "--bend",         "--mass",
@@ -247,7 +258,7 @@ int run(int argc, char** argv) {
                               "--gravity",  "--scale",        "--units",
                               "--weld",     "--mass-by-area", "--stiffness-by-length",
                               "--pin-box",  "--pin-top",      "--free",
-                              "--resolve"}) {
+                              "--resolve",  "--lammps"}) {
         K->excludes(app.get_option(other));
     }
     app.footer(
@@ -264,6 +275,7 @@ int run(int argc, char** argv) {
         "  How few particles would do?        stability_report cloth.obj --resolve 3% --duration "
         "2\n"
         "  Can I look at it?                  stability_report cloth.obj --html report.html\n"
+        "  Can LAMMPS step it on a cluster?   stability_report cloth.obj --lammps cloth\n"
         "  And my own matrices?               stability_report --stiffness-matrix K.mtx "
         "--mass-matrix M.mtx");
     CLI11_PARSE(app, argc, argv)
@@ -284,7 +296,10 @@ int run(int argc, char** argv) {
         return options.stiffness_matrix.empty() ? report_on_scene(options, progress)
                                                 : report_on_matrices(options, progress);
     }();
-    if (options.json != "-" && options.html != "-") example::print_table(found, options.scene.d0);
+    if (options.json != "-" && options.html != "-") {
+        example::print_table(found, options.scene.d0);
+        if (!found.lammps.empty()) std::printf("\n%s", found.lammps.c_str());
+    }
     if (!options.json.empty())
         example::write_text(example::to_json(found, options.scene.d0).dump(2), "--json",
                             options.json);

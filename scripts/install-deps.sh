@@ -15,12 +15,14 @@ case "${1-}" in
     --ci) packages="$packages git clang-format-14 clang-16 libclang-rt-16-dev chromium pkgconf doxygen
 libjs-mathjax libboost-dev libmpfr-dev" ;;
     --bench) packages="$packages libboost-dev libmpfr-dev libbullet-dev libbenchmark-dev libsundials-dev
-python3-matplotlib valgrind" ;;
+python3-matplotlib valgrind lammps openmpi-bin" ;;
     *) echo "install-deps: unknown option '$1'; there are --ci and --bench" >&2; exit 1 ;;
 esac
 if [ "${1-}" = --ci ]; then
     # The lab, and a reader of meshes. Node reads the system's certificates, which it only recommends.
     packages="$packages emscripten nodejs ca-certificates python3 libassimp-dev zlib1g-dev"
+    # What steps a network beyond one machine, on two ranks.
+    packages="$packages lammps openmpi-bin"
     # A nodejs from elsewhere brings npm, and Debian's will not go beside it.
     command -v npm >/dev/null || packages="$packages npm"
 fi

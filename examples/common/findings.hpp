@@ -151,6 +151,7 @@ struct Findings {
     taut::AlphaWindow window;
     double setup = 0;     // s
     double analysis = 0;  // s
+    std::string lammps;   // lines on what was written for it
     Json page;            // what only the HTML page shows; null without --html
 
     /// Of a moving scene by the recipe, s; 0: none.
