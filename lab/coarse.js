@@ -134,6 +134,6 @@ export class Coarse {
     if (known.length === 0) return;
     drawLevels(byId("coarse-chart"), known, this.found);
     const finest = this.found.levels[this.found.levels.length - 1];
-    byId("coarse-chart-words").textContent = `Each dot is a network with that many particles; ${counted(finest.particles, "particle")}, the most that were run, are what the others are compared with. The coarsest network is chosen whose line, which reaches to twice the estimate, stays below the goal.`;
+    byId("coarse-chart-words").textContent = `Each dot is a network with that many particles; ${counted(finest.particles, "particle")}, the most that were run, are what the others are compared with. Of three networks or more, the coarsest is chosen whose line, which reaches to twice the estimate, stays below the goal.`;
   }
 }
