@@ -48,7 +48,7 @@ export class Coarse {
     byId("goal-value").textContent = percent(this.goal, 2);
     const large = this.app.mesh() && this.app.lab.size() > LARGE;
     byId("coarse-large").textContent = large ? `With ${whole(this.app.lab.size())} particles the search may take a minute. It begins only with the button.` : "";
-    byId("coarse-found").classList.toggle("old", Boolean(this.found) && (this.busy || this.found.goal !== this.goal || this.found.duration !== this.duration));
+    byId("coarse").classList.toggle("old", Boolean(this.found) && (this.busy || this.found.goal !== this.goal || this.found.duration !== this.duration));
   }
   /// Another goal: a small scene is searched again at once.
   changed() {
