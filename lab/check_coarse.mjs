@@ -59,7 +59,7 @@ export async function checkCoarseCleared(page, name) {
   await page.locator("#durations").getByText("2 s", { exact: true }).click();
   await page.waitForFunction(() => window.labState().coarse.busy && /run \d/.test(document.getElementById("coarse-progress-words").textContent));
   const words = await text(page, "#coarse-progress-words");
-  const dimmed = await page.locator("#coarse-found.old").count();
+  const dimmed = await page.locator("#coarse.old").count();
   await page.locator("#coarse-cancel").click();
   await page.waitForFunction(() => !window.labState().coarse.busy);
   const after = await state(page);

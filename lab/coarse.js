@@ -48,7 +48,7 @@ export class Coarse {
     byId("goal-value").textContent = percent(this.goal, 2);
     const large = this.app.mesh() && this.app.lab.size() > LARGE;
     byId("coarse-large").textContent = large ? `With ${whole(this.app.lab.size())} particles the search may take a minute. It begins only with the button.` : "";
-    byId("coarse-found").classList.toggle("old", Boolean(this.found) && (this.busy || this.found.goal !== this.goal || this.found.duration !== this.duration));
+    byId("coarse").classList.toggle("old", Boolean(this.found) && (this.busy || this.found.goal !== this.goal || this.found.duration !== this.duration));
   }
   /// Another goal: a small scene is searched again at once.
   changed() {
@@ -134,6 +134,6 @@ export class Coarse {
     if (known.length === 0) return;
     drawLevels(byId("coarse-chart"), known, this.found);
     const finest = this.found.levels[this.found.levels.length - 1];
-    byId("coarse-chart-words").textContent = `Each dot is a network with that many particles; ${counted(finest.particles, "particle")}, the most that were run, are what the others are compared with. The coarsest network is chosen whose line, which reaches to twice the estimate, stays below the goal.`;
+    byId("coarse-chart-words").textContent = `Each dot is a network with that many particles; ${counted(finest.particles, "particle")}, the most that were run, are what the others are compared with. Of three networks or more, the coarsest is chosen whose line, which reaches to twice the estimate, stays below the goal.`;
   }
 }
