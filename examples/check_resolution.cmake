@@ -26,7 +26,7 @@ if(NOT outcome STREQUAL "coarse" OR NOT estimated LESS_EQUAL 0.05 OR levels LESS
 endif()
 expect(stability_report "${soft} --resolve 0.01% --duration 0.3" 0 "own 1600 particles are needed")
 expect(stability_report "${cloth} --resolve 1%" 0 "own 16 particles are needed")
-expect(stability_report "${cloth} --resolve 3% --free --gravity 0" 0 "Nothing moves over 2 s")
+expect(stability_report "${cloth} --resolve 3% --free --gravity 0" 0 "Nothing moves for 2 s: any number")
 expect(stability_report "${cloth} --resolve 0" 105 "--resolve.*> 0")
 expect(stability_report "${cloth} --resolve -3%" 105 "--resolve.*> 0")
 expect(stability_report "${cloth} --resolve 3% --duration 0" 105 "--duration.*> 0")

@@ -130,7 +130,8 @@ std::string sentence(const Resolution<System>& found, Index all, double duration
                    percent(found.goal) + " " + over + "since a disturbance of 1e-7 of its size " +
                    "grows to " + percent(found.floor) + " of it.";
         case Resolved::nothing_moves:
-            return "Nothing moves " + over + ": any number of particles will do.";
+            return "Nothing moves" + formatted(" for %.3g s", duration) +
+                   ": any number of particles will do.";
         case Resolved::diverged:
             return "The motion of " + particles(found.levels.back().particles) +
                    " does not stay finite: the scene diverges.";
