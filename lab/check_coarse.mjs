@@ -69,7 +69,7 @@ export async function checkCoarseCleared(page, name) {
   await settled(page);
   await page.locator("#find").click();
   await page.waitForFunction(() => window.labState().coarse.found);
-  expect((await state(page)).coarse.found.outcome === "nothing_moves" && /Nothing moves over 2\ss/.test(await text(page, "#coarse-words")) && !(await shown(page, "#coarse-chart-box")), `${name}: without pins, after it was cancelled: ${await text(page, "#coarse-words")}`);
+  expect((await state(page)).coarse.found.outcome === "nothing_moves" && /Nothing moves for 2\ss/.test(await text(page, "#coarse-words")) && !(await shown(page, "#coarse-chart-box")), `${name}: without pins, after it was cancelled: ${await text(page, "#coarse-words")}`);
 
   await page.setInputFiles("#file", named("sheet.obj", grid(75, 75)));
   await page.waitForFunction(() => window.labState().scene === "sheet.obj" && !window.labState().busy);
