@@ -77,9 +77,19 @@ TEST_CASE("coarsen: seeds are the farthest along the springs, clusters the neare
         Eigen::MatrixXd length =
             Eigen::MatrixXd::Constant(n, n, std::numeric_limits<double>::infinity());
         length.diagonal().setZero();
-        system.for_each_spring([&](Index a, Index b) {
-            const double l = std::min(length(a, b), (x.col(b) - x.col(a)).norm());
-            length(a, b) = length(b, a) = l;
+        // A spring of half the median's k l leads √2 times as far.
+        std::vector<double> strengths;
+        const auto strength = [&](const auto& spring) {
+            return spring.stiffness_bound() * (x.col(spring.b) - x.col(spring.a)).norm();
+        };
+        system.visit_springs([&](const auto& spring) { strengths.push_back(strength(spring)); });
+        std::sort(strengths.begin(), strengths.end());
+        const double median = strengths[strengths.size() / 2];
+        system.visit_springs([&](const auto& spring) {
+            const double softer = std::sqrt(std::max(1.0, median / strength(spring)));
+            const double l = softer * (x.col(spring.b) - x.col(spring.a)).norm();
+            double& known = length(spring.a, spring.b);
+            known = length(spring.b, spring.a) = std::min(known, l);
         });
         for (Index via = 0; via < n; ++via)
             for (Index i = 0; i < n; ++i)
@@ -351,6 +361,20 @@ TEST_CASE("coarsen: each part keeps a particle, and springs without length do no
     CHECK(missing(message_of([&] { coarsen(system, 2); }), {"count is 2", "at least 3"}) == "");
 }
 
+TEST_CASE("coarsen: slack and taut threads between the same ends stay apart", "[scene]") {
+    taut::SpringSystem<double, 1, taut::TensionOnly> threads;
+    using Vector = Eigen::Matrix<double, 1, 1>;
+    threads.add_particle(Vector(0.0), 1);
+    threads.add_particle(Vector(1.0), 1);
+    for (const double rest : {0.7, 1.3})
+        threads.add_spring(taut::Spring<double, taut::TensionOnly>{0, 1, {20}, rest, 0});
+    const auto coarse = coarsen(threads, 2);
+    CHECK(coarse.system.spring_count() == 2);
+    taut::Points<double, 1> f;
+    coarse.system.force(coarse.system.initial_state(), f);
+    CHECK_THAT(std::abs(f(0, 0)), Catch::Matchers::WithinRel(6, 1e-12));
+}
+
 TEST_CASE("coarsen: bad input: counts and forces that cannot be carried over",
           "[scene][bad_input]") {
     Random random(23);
@@ -382,6 +406,11 @@ TEST_CASE("coarsen: bad input: counts and forces that cannot be carried over",
     auto state = system.initial_state();
     state.x.conservativeResize(3, 29);
     CHECK(missing(message_of([&] { coarse.restricted(state); }), {"restricted", "29"}) == "");
+    taut::SpringSystem<double, 3> stacked;
+    for (int i = 0; i < 3; ++i) stacked.add_particle({0, 0, 0}, 1);
+    stacked.add_spring(taut::Spring<double, taut::Hookean>{0, 2, {10}, 0.5, 0});
+    CHECK(missing(message_of([&] { coarsen(stacked, 3); }),
+                  {"particles 0 and 2", "initial_state", "0.5 m"}) == "");
     const taut::SpringSystem<double, 3> empty;
     CHECK(missing(message_of([&] { coarsen(empty, 1); }), {"no particles"}) == "");
 }

@@ -17,7 +17,7 @@ namespace taut {
 /// Writes a scene for LAMMPS, a data file and an input script, whose velocity Verlet it steps by a
 /// share of the proved any-pose limit [T23]:
 ///
-///     v½ = v + ½h M⁻¹f(x, v),  x⁺ = x + h v½,  v⁺ = v½ + ½h M⁻¹f(x⁺, v½),
+///     v½ = v + ½h M⁻¹f,  x⁺ = x + h v½,  f⁺ = f(x⁺, v½),  v⁺ = v½ + ½h M⁻¹f⁺,
 ///
 /// which is taut::VelocityVerlet, so the limit is that of the run. It holds in exact arithmetic, at
 /// each pose, for small vibrations. Its units are `si`, in which m, kg, s and N go through.
@@ -28,9 +28,9 @@ namespace taut {
 ///     gravity   fix gravity; drag d0: fix viscous, γ = d0·m
 ///
 /// The box is open and follows the particles, so no bond is too long for it; but a bond must not
-/// become longer than LammpsReport::cutoff, or LAMMPS stops. In one or two dimensions the missing
-/// coordinates are and stay 0. Particle i has the id i + 1. What LAMMPS lacks is refused by name
-/// or, with LammpsOptions::nearest, left out with a warning: dampers, damping in proportion to
+/// become longer than LammpsReport::cutoff, or LAMMPS may stop. In one or two dimensions the
+/// missing coordinates are and stay 0. Particle i has the id i + 1. What LAMMPS lacks is refused by
+/// name or, with LammpsOptions::nearest, left out with a warning: dampers, damping in proportion to
 /// stiffness, forces from outside, slack of TensionOnly. The scene as written then has a limit
 /// at least as large. Other laws are refused.
 ///

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdio>
 #include <limits>
 #include <optional>
@@ -75,7 +76,8 @@ struct Resolution {
 
     /// The spring-steps of the scene itself over those of the chosen level; 1 where there is none.
     double cheaper() const {
-        return chosen < 0 ? 1 : fine_cost / levels[static_cast<std::size_t>(chosen)].cost;
+        if (chosen < 0) return 1;
+        return fine_cost / std::max(1.0, levels[static_cast<std::size_t>(chosen)].cost);
     }
 };
 
@@ -116,12 +118,12 @@ std::string sentence(const Resolution<System>& found, Index all, double duration
         case Resolved::fine: {
             std::string text = "The scene's own " + particles(all) + " are needed";
             if (found.levels.size() < 3) {
-                text += ": the budget has no room for three coarser levels to compare";
+                text += ": it, or the budget, is too small for three coarser levels to compare";
             } else {
                 const auto& last = found.levels[found.levels.size() - 2];
                 text += ": " + over + "even " + std::to_string(last.particles) +
                         " are estimated to err by " + percent(last.error) + " (goal " +
-                        percent(found.goal) + ")";
+                        percent(found.goal) + ", to be met with some room)";
             }
             return text + ".";
         }
@@ -133,12 +135,14 @@ std::string sentence(const Resolution<System>& found, Index all, double duration
             return "Nothing moves" + formatted(" for %.3g s", duration) +
                    ": any number of particles will do.";
         case Resolved::diverged:
-            return "The motion of " + particles(found.levels.back().particles) +
-                   " does not stay finite: the scene diverges.";
+            return "The motion of a network of " + particles(found.levels.back().particles) +
+                   " does not stay finite.";
         case Resolved::cut_short:
             return "The time for the search was over after " +
-                   formatted("%lld levels: nothing is known of finer ones.",
-                             static_cast<long long>(found.levels.size()));
+                   formatted(
+                       "%.3g of the cost of the scene itself: nothing is known of finer "
+                       "levels.",
+                       found.search_cost / found.fine_cost);
     }
     return {};
 }

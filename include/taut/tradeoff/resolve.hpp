@@ -58,17 +58,26 @@ Samples<System> run(const System& system, typename System::State state, const Pa
 }
 
 /// The largest over the samples of the root mean square over particles, m.
+/// @param many   how many particles of the scene each stands for
 /// @param apart  apart(s, i): how far particle i is from where it ought to be in sample s, a vector
 template <class Apart>
-double worst_rms(std::size_t samples, Index particles, const Apart& apart) {
+double worst_rms(std::size_t samples, const Eigen::VectorXd& many, const Apart& apart) {
     double worst = 0;
     for (std::size_t s = 0; s < samples; ++s) {
         double squares = 0;
-        for (Index i = 0; i < particles; ++i)
-            squares += static_cast<double>(apart(s, i).squaredNorm());
-        worst = std::max(worst, std::sqrt(squares / static_cast<double>(particles)));
+        for (Index i = 0; i < many.size(); ++i)
+            squares += many[i] * static_cast<double>(apart(s, i).squaredNorm());
+        worst = std::max(worst, std::sqrt(squares / many.sum()));
     }
     return worst;
+}
+
+/// How many particles of the scene each of a coarse network stands for.
+template <class System>
+Eigen::VectorXd cluster_sizes(const Coarsening<System>& coarsening) {
+    Eigen::VectorXd many = Eigen::VectorXd::Zero(coarsening.system.size());
+    for (const int c : coarsening.cluster) ++many[c];
+    return many;
 }
 
 /// A free particle's start moved by `size` along each axis, this way or that.
@@ -122,11 +131,13 @@ private:
     }
 
     Resolved find() {
-        if (system_.pinned_count() == system_.size() || !may_move()) return Resolved::nothing_moves;
         if (!(found_.size > 0) || !std::isfinite(found_.size))
             fail("resolve: the scene's size is ", found_.size, " m; it must be finite and > 0");
+        if (!may_move()) return Resolved::nothing_moves;
         const Pace fine = pace_of(system_, duration_, options_.samples);
-        if (!(fine.h > 0)) fail("resolve: no step of the scene is certified");
+        if (!(fine.h > 0))
+            fail("resolve: no step of the scene is certified, or the duration of ", duration_,
+                 " s holds more than 1e12 of them");
         found_.fine_cost = fine.cost;
         const Index least = least_count(system_);
         // Small scenes begin with fewer, so that three levels fit.
@@ -154,8 +165,15 @@ private:
     }
 
     /// Whether any particle can get farther than 1e-9 of the size by the speed and the force that
-    /// it begins with.
+    /// it begins with, or a compressed spring may buckle.
     bool may_move() const {
+        bool compressed = false;
+        system_.visit_springs([&](const auto& spring) {
+            if (system_.is_pinned(spring.a) && system_.is_pinned(spring.b)) return;
+            const Scalar l = (state_.x.col(spring.b) - state_.x.col(spring.a)).norm();
+            compressed |= l > 0 && spring.tension(l) < Scalar(-1e-9) * l * spring.stiffness_bound();
+        });
+        if (compressed) return true;
         typename System::Force f;
         system_.force(state_, f);
         double farthest = 0;
@@ -180,7 +198,7 @@ private:
         std::size_t lifted_of = 0;
         Points<Scalar, System::Dim> moved =
             Points<Scalar, System::Dim>::Zero(System::Dim, level.coarsening.system.size());
-        return worst_rms(last.path.size(), last.path[0].cols(),
+        return worst_rms(last.path.size(), cluster_sizes(last.coarsening),
                          [&](std::size_t s, Index i) {
                              if (s != lifted_of) moved = level.path[lifted_of = s] - level.path[0];
                              const auto at = static_cast<std::size_t>(i);
@@ -238,7 +256,7 @@ private:
             found_.chosen = -1;
             return in_time() ? Resolved::diverged : Resolved::cut_short;
         }
-        found_.floor = worst_rms(path.size(), level.path[0].cols(),
+        found_.floor = worst_rms(path.size(), cluster_sizes(level.coarsening),
                                  [&](std::size_t s, Index i) {
                                      return (path[s].col(i) - level.path[s].col(i)).eval();
                                  }) /
@@ -274,8 +292,8 @@ private:
 ///     found.why, found.coarsening->system, found.cheaper()
 ///
 /// Levels of 16, 64, 256 … free particles (fewer in scenes of some hundred) are stepped by the
-/// recipe, each at its own certified step. The estimate of a level's error is its largest
-/// difference from the next, and of all finer levels' from theirs, on three levels at least. It is
+/// recipe, each at its own certified step. The estimate of a level's error is its distance
+/// from the finest level, of three at the least, and half the distance of the last two. It is
 /// an estimate: nothing here is certified but the steps. The last run disturbs a level by 1e-7 of
 /// the scene's size: what that grows to, no resolution can predict better.
 ///
@@ -294,6 +312,7 @@ Resolution<SpringSystem<Scalar, Dim, Laws...>> resolve(
     require_positive("resolve", "goal", goal);
     if (!(options.safety >= 1)) fail("resolve: safety is ", options.safety, "; it must be >= 1");
     require_positive("resolve", "budget", options.budget);
+    if (!(options.seconds > 0)) fail("resolve: seconds is ", options.seconds, "; it must be > 0");
     if (options.samples < 1) fail("resolve: samples is ", options.samples, "; it must be >= 1");
     detail::require_fits("resolve", state, system.size());
     if (!state.finite())

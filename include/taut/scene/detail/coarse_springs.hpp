@@ -25,7 +25,8 @@ inline int high_of(ClusterPair pair) { return static_cast<int>(pair & 0xffffffff
 
 /// Adds to `coarse` one spring for each pair of clusters that springs of `set` join: under a
 /// stretch along AB it stores what they do, so that k_AB = Σ k l |cos θ|³/L_AB with θ between a
-/// spring and AB. Dampers likewise. Its rest length keeps their mean strain.
+/// spring and AB. Dampers likewise. Its rest length keeps their mean strain. Those that are slack,
+/// taut and at rest in the pose become one each: a law may answer them in different ways.
 /// @param x      m, Dim × n, the pose
 /// @param pairs  of clusters that springs join; appended to
 template <class Coarse, class Set, class Positions>
@@ -42,6 +43,7 @@ void add_coarse_springs(const Set& set, const Positions& x, const Clusters& clus
     };
     struct Sum {
         ClusterPair pair;
+        int strain;                                     // 1 taut, 0 at rest, -1 slack in the pose
         decltype(strengths_of(set[0], 1.0)) strengths;  // N
         double damping;                                 // N·s
         double weight;                                  // N
@@ -56,6 +58,12 @@ void add_coarse_springs(const Set& set, const Positions& x, const Clusters& clus
             (x.col(clusters.seeds[b]) - x.col(clusters.seeds[a])).template cast<double>().eval();
         const double l = d.norm(), L = D.norm();
         pairs.push_back(pair_of(a, b));
+        if (!(l > 0) && spring.rest_length > 0 && spring.stiffness_bound() > 0)
+            fail(
+                "coarsen: particles ", spring.a, " and ", spring.b,
+                " lie on each other in initial_state(), where lengths and angles are measured, but "
+                "the rest length of their spring is ",
+                spring.rest_length, " m");
         if (!(l > 0) || !(L > 0)) {
             // No stretch to compare by. Between two seeds the spring itself is the coarse one.
             if (clusters.is_seed(static_cast<int>(spring.a)) &&
@@ -69,14 +77,18 @@ void add_coarse_springs(const Set& set, const Positions& x, const Clusters& clus
         const double weight = share * l * static_cast<double>(spring.stiffness_bound());
         auto strengths = strengths_of(spring, l);
         for (double& strength : strengths) strength *= share;
-        sums.push_back({pair_of(a, b), strengths, share * l * static_cast<double>(spring.damping),
-                        weight, weight * static_cast<double>(spring.rest_length) / l});
+        const double ratio = static_cast<double>(spring.rest_length) / l;
+        const int strain = (ratio < 1 - 1e-6) - (ratio > 1 + 1e-6);
+        sums.push_back({pair_of(a, b), strain, strengths,
+                        share * l * static_cast<double>(spring.damping), weight,
+                        weight * static_cast<double>(spring.rest_length) / l});
     }
+    const auto kind = [](const Sum& sum) { return std::make_pair(sum.pair, sum.strain); };
     std::stable_sort(sums.begin(), sums.end(),
-                     [](const Sum& one, const Sum& other) { return one.pair < other.pair; });
+                     [&](const Sum& one, const Sum& other) { return kind(one) < kind(other); });
     for (auto at = sums.begin(); at != sums.end();) {
         Sum sum = *at++;
-        for (; at != sums.end() && at->pair == sum.pair; ++at) {
+        for (; at != sums.end() && kind(*at) == kind(sum); ++at) {
             for (std::size_t i = 0; i < sum.strengths.size(); ++i)
                 sum.strengths[i] += at->strengths[i];
             sum.damping += at->damping;

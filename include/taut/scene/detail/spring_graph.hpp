@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -14,12 +15,15 @@
 
 namespace taut::scene_detail {
 
-/// The particles of a system, and the springs between them with their lengths in a pose.
+/// The particles of a system, and the springs between them with how far they lead: the length in a
+/// pose, over the mean of the springs' part of the scene, so that a small part is not left out
+/// beside a large one. A spring that is softer than most leads farther by √(k l of the median over
+/// its own), so that clusters end where a scene gives way.
 class SpringGraph {
 public:
     struct Neighbour {
         int particle;
-        double length;  // m
+        double length;
     };
 
     /// @param x  m, Dim × n
@@ -33,11 +37,13 @@ public:
         for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
         neighbours_.resize(first_.back());
         std::vector<std::size_t> end(first_.begin(), first_.end() - 1);
+        const std::vector<double> lengths = lengths_of(system, x);
+        std::size_t spring = 0;
         system.for_each_spring([&](Index a, Index b) {
-            const auto length = static_cast<double>((x.col(b) - x.col(a)).norm());
-            neighbours_[end[a]++] = {static_cast<int>(b), length};
-            neighbours_[end[b]++] = {static_cast<int>(a), length};
+            neighbours_[end[a]++] = {static_cast<int>(b), lengths[spring]};
+            neighbours_[end[b]++] = {static_cast<int>(a), lengths[spring++]};
         });
+        measure_by_parts();
     }
 
     int size() const { return static_cast<int>(first_.size()) - 1; }
@@ -47,6 +53,50 @@ public:
     }
 
 private:
+    /// Of each spring, m, longer where it is softer than most.
+    template <class System, class Positions>
+    static std::vector<double> lengths_of(const System& system, const Positions& x) {
+        constexpr double most = 1e3;
+        std::vector<double> lengths, strengths;
+        system.visit_springs([&](const auto& spring) {
+            const auto l = static_cast<double>((x.col(spring.b) - x.col(spring.a)).norm());
+            lengths.push_back(l);
+            strengths.push_back(l * static_cast<double>(spring.stiffness_bound()));
+        });
+        std::vector<double> sorted = strengths;
+        const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+        if (!sorted.empty()) std::nth_element(sorted.begin(), middle, sorted.end());
+        for (std::size_t s = 0; s < lengths.size(); ++s) {
+            if (lengths[s] > 0 && strengths[s] < *middle)
+                lengths[s] *= std::min(most, std::sqrt(*middle / strengths[s]));
+        }
+        return lengths;
+    }
+    /// Divides the lengths of each part by their mean.
+    void measure_by_parts() {
+        std::vector<bool> seen(first_.size() - 1, false);
+        std::vector<int> part;
+        for (int start = 0; start < size(); ++start) {
+            if (seen[start]) continue;
+            part.assign(1, start);
+            seen[start] = true;
+            double sum = 0, count = 0;
+            for (std::size_t at = 0; at < part.size(); ++at) {
+                for_each_neighbour(part[at], [&](const Neighbour& next) {
+                    sum += next.length;
+                    ++count;
+                    if (seen[next.particle]) return;
+                    seen[next.particle] = true;
+                    part.push_back(next.particle);
+                });
+            }
+            if (!(sum > 0)) continue;
+            for (const int i : part)
+                for (std::size_t k = first_[i]; k < first_[i + 1]; ++k)
+                    neighbours_[k].length *= count / sum;
+        }
+    }
+
     std::vector<std::size_t> first_;  // of particle i in neighbours_
     std::vector<Neighbour> neighbours_;
 };
@@ -55,7 +105,7 @@ private:
 struct Clusters {
     std::vector<int> seeds;      // particles
     std::vector<int> of;         // particle → index in seeds; −1: no spring leads to a seed
-    std::vector<double> length;  // m, along the springs from its seed
+    std::vector<double> length;  // along the springs from its seed, as of SpringGraph
 
     bool is_seed(int particle) const {
         return of[particle] >= 0 && seeds[of[particle]] == particle;
