@@ -125,15 +125,19 @@ Index least_count(const System& system) {
 ///
 /// The particles that stay, the seeds, are the pins and then always the particle farthest from all
 /// so far along the springs (farthest-point sampling); those of a smaller count come first among
-/// those of a larger one. Each takes the mass of the particles nearest to it and the constant
-/// forces on them. Springs between two such clusters become one: k_AB = Σ k l |cos θ|³/L_AB, which
-/// stores the same energy under a stretch along AB; rest lengths keep the mean strain. Lengths and
-/// angles are those of initial_state(). Gravity and damping factors are carried over.
+/// those of a larger one. Ways are measured in mean spring lengths of their part of the scene, and
+/// soft springs count as longer, so that clusters end where a scene gives way. Each takes the mass
+/// of the particles nearest to it and the constant forces on them. Springs between two such
+/// clusters become one: k_AB = Σ k l |cos θ|³/L_AB, which stores the same energy under a stretch
+/// along AB; rest lengths keep the mean strain, of slack and taut springs apart. Lengths and angles
+/// are those of initial_state(). Gravity and damping factors are carried over.
 ///
 /// What is lost: wrinkles finer than a cluster, and what a spring across AB does. resolve() says
 /// how much that matters.
 /// @param count  at least least_count(system), at most system.size()
-/// @throws (fail) where the count is not in that range, and by name for forces that cannot be
+/// @throws (fail) where the count is not in that range, where a spring with a rest length has none
+/// in
+///         initial_state(), and by name for forces that cannot be
 ///         carried over: set_external_force, set_particle_force, set_wind
 template <class Scalar, int Dim, class... Laws>
 Coarsening<SpringSystem<Scalar, Dim, Laws...>> coarsen(
