@@ -135,10 +135,9 @@ Index least_count(const System& system) {
 /// What is lost: wrinkles finer than a cluster, and what a spring across AB does. resolve() says
 /// how much that matters.
 /// @param count  at least least_count(system), at most system.size()
-/// @throws (fail) where the count is not in that range, where a spring with a rest length has none
-/// in
-///         initial_state(), and by name for forces that cannot be
-///         carried over: set_external_force, set_particle_force, set_wind
+/// @throws (fail) where the count is not in that range; where a spring with a rest length has no
+///         length in initial_state(); and by name for forces that cannot be carried over:
+///         set_external_force, set_particle_force, set_wind
 template <class Scalar, int Dim, class... Laws>
 Coarsening<SpringSystem<Scalar, Dim, Laws...>> coarsen(
     const SpringSystem<Scalar, Dim, Laws...>& system, Index count) {
