@@ -33,7 +33,8 @@ export async function checkCoarse(page, name, pictures) {
   await page.locator("#beside").scrollIntoViewIfNeeded();
   await page.waitForFunction(() => window.labState().coarse.time > 0.5);
   const { coarse } = await state(page);
-  expect(coarse.frames >= 31 && coarse.apart > 0 && coarse.apart <= 0.05, `${name}: both meshes move, ${coarse.frames} pictures, at most ${(100 * coarse.apart).toPrecision(2)} % apart: ${await text(page, "#beside-words")}`);
+  const tooSlow = /would take more than a minute here/.test(await text(page, "#beside-words"));  // a busy machine
+  expect(coarse.frames >= 31 && (tooSlow || coarse.apart > 0) && coarse.apart <= 0.05, `${name}: both meshes move, ${coarse.frames} pictures, at most ${(100 * coarse.apart).toPrecision(2)} % apart: ${await text(page, "#beside-words")}`);
   const { share } = await paintedView(page, "beside-view");
   expect(share > 0.03 && (await wide(page)) <= 0, `${name}: they cover ${(100 * share).toFixed(0)} % of their picture, and the page is no wider than the window`);
   await page.locator("#coarse").screenshot({ path: `${pictures}/${name}_coarse.png` });
@@ -53,7 +54,7 @@ export async function checkCoarseCleared(page, name) {
   await answered(page);
   const { found, shown: moving } = (await state(page)).coarse;
   expect(found?.outcome === "fine" && found.goal === 0.005 && !moving && !(await shown(page, "#beside")), `${name}: at 0.5 %: ${await text(page, "#coarse-words")} ${await text(page, "#coarse-more")}`);
-  expect(/own 3072 particles are needed: .* estimated to err by .* \(goal 0\.5\s%\)/.test(await text(page, "#coarse-words")) && (await page.locator("#coarse-chart circle.certified").count()) === 0 && (await page.locator("#coarse-chart circle").count()) > 1,
+  expect(/own 3072 particles are needed: .* estimated to err by .* \(goal 0\.5\s%/.test(await text(page, "#coarse-words")) && (await page.locator("#coarse-chart circle.certified").count()) === 0 && (await page.locator("#coarse-chart circle").count()) > 1,
     `${name}: the chart shows what was tried, and nothing chosen`);
 
   await page.locator("#durations").getByText("2 s", { exact: true }).click();
