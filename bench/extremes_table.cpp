@@ -11,6 +11,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <taut/lattice/lattice.hpp>
 #include <taut/taut.hpp>
 #include <type_traits>
 

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <random>
 #include <taut/model/tension_only.hpp>
+#include <taut/contact/contact.hpp>
 #include <taut/taut.hpp>
 
 #include "measure.hpp"

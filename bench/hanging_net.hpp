@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <taut/scene/cloth.hpp>
-#include <taut/solver/static_equilibrium.hpp>
+#include <taut/equilibrium/equilibrium.hpp>
 
 namespace bench {
 

@@ -10,8 +10,8 @@
 #include <cstdlib>
 #include <functional>
 #include <string>
-#include <taut/integrator/projective_dynamics.hpp>
-#include <taut/solver/cholmod.hpp>
+#include <taut/projective/projective.hpp>
+#include <taut/suitesparse/cholmod.hpp>
 #include <taut/solver/conjugate_gradient.hpp>
 #include <taut/taut.hpp>
 #include <vector>

@@ -11,9 +11,9 @@
 #include <cstring>
 #include <filesystem>
 #include <string>
-#include <taut/io/lammps.hpp>
-#include <taut/io/lammps_dump.hpp>
-#include <taut/scene/lattice.hpp>
+#include <taut/lammps/lammps.hpp>
+#include <taut/lammps/lammps_dump.hpp>
+#include <taut/lattice/lattice.hpp>
 #include <taut/stability/stability.hpp>
 
 #include "measure.hpp"

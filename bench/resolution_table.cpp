@@ -13,7 +13,7 @@
 #include <string>
 #include <taut/scene/cloth.hpp>
 #include <taut/scene/mesh.hpp>
-#include <taut/tradeoff/resolve.hpp>
+#include <taut/resolution/resolution.hpp>
 #include <vector>
 
 #include "../examples/common/mesh_file.hpp"

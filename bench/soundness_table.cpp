@@ -11,7 +11,9 @@
 #include <cstdlib>
 #include <limits>
 #include <random>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/taut.hpp>
+#include <taut/tight/dense.hpp>
 #include <tuple>
 #include <vector>
 

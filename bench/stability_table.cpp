@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
-#include <taut/solver/cholmod_simplicial.hpp>
+#include <taut/suitesparse/cholmod_simplicial.hpp>
 #include <taut/taut.hpp>
 #include <vector>
 

@@ -5,7 +5,7 @@
 // comparisons over commits. The argument is the size of the hanging cloth; an item is a step.
 
 #include <benchmark/benchmark.h>
-#include <taut/integrator/projective_dynamics.hpp>
+#include <taut/projective/projective.hpp>
 #include <taut/solver/conjugate_gradient.hpp>
 #include <taut/taut.hpp>
 

@@ -11,7 +11,11 @@
 #include <cstring>
 #include <optional>
 #include <string>
-#include <taut/solver/modal_analysis.hpp>
+#include <taut/modal/modal_analysis.hpp>
+#include <taut/bdf2/bdf2.hpp>
+#include <taut/contact/contact.hpp>
+#include <taut/modal/modal_dynamics.hpp>
+#include <taut/projective/projective.hpp>
 #include <taut/taut.hpp>
 #include <utility>
 

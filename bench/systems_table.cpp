@@ -7,11 +7,12 @@
 
 #include <cmath>
 #include <cstdio>
-#include <taut/integrator/bdf2.hpp>
-#include <taut/integrator/modal_dynamics.hpp>
+#include <taut/bdf2/bdf2.hpp>
+#include <taut/modal/modal_dynamics.hpp>
 #include <taut/model/buckling.hpp>
 #include <taut/model/tension_only.hpp>
-#include <taut/solver/modal_analysis.hpp>
+#include <taut/modal/modal_analysis.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/taut.hpp>
 #include <vector>
 

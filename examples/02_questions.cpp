@@ -4,6 +4,7 @@
 // One answer for each question that a time step raises; docs/questions.md reads along.
 
 #include <cstdio>
+#include <taut/mass_scaling/mass_scaling.hpp>
 #include <taut/taut.hpp>
 
 using taut::Method;

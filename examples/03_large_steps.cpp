@@ -5,6 +5,7 @@
 // takes, and a step size that adapts. docs/systems/large_steps.md reads along.
 
 #include <cstdio>
+#include <taut/integrator/adaptive.hpp>
 #include <taut/taut.hpp>
 
 int main() {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <taut/bdf2/bdf2.hpp>
 #include <taut/taut.hpp>
 
 using taut::Buckling;

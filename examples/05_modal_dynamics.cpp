@@ -6,7 +6,9 @@
 
 #include <cmath>
 #include <cstdio>
-#include <taut/solver/modal_analysis.hpp>
+#include <taut/modal/modal_analysis.hpp>
+#include <taut/equilibrium/equilibrium.hpp>
+#include <taut/modal/modal_dynamics.hpp>
 #include <taut/taut.hpp>
 
 int main() {

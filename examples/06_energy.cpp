@@ -5,6 +5,8 @@
 // never rises, at any step. docs/systems/energy.md reads along.
 
 #include <cstdio>
+#include <taut/newton/energy_guarantee.hpp>
+#include <taut/projective/projective.hpp>
 #include <taut/taut.hpp>
 
 int main() {

@@ -4,6 +4,7 @@
 // A cloth falls on a sphere, with friction. docs/systems/contact.md reads along.
 
 #include <cstdio>
+#include <taut/contact/contact.hpp>
 #include <taut/taut.hpp>
 
 int main() {

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <taut/equilibrium/equilibrium.hpp>
+#include <taut/lattice/lattice.hpp>
 #include <taut/taut.hpp>
 #include <utility>
 

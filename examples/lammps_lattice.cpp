@@ -9,9 +9,9 @@
 #include <cstdio>
 #include <stdexcept>
 #include <string>
-#include <taut/io/lammps_dump.hpp>
-#include <taut/io/ply.hpp>
-#include <taut/scene/lattice.hpp>
+#include <taut/lammps/lammps_dump.hpp>
+#include <taut/mesh_files/ply.hpp>
+#include <taut/lattice/lattice.hpp>
 
 #include "common/lammps_files.hpp"
 #include "common/main.hpp"

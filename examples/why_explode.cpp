@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <taut/contact/contact.hpp>
+#include <taut/equilibrium/equilibrium.hpp>
 #include <taut/taut.hpp>
 
 namespace {

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 #include <stdexcept>
-#include <taut/model/linear_system.hpp>
+#include <taut/own_matrices/linear_system.hpp>
 
 #include "../tests/support/temporary_file.hpp"
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <memory>
-#include <taut/solver/modal_analysis.hpp>
+#include <taut/modal/modal_analysis.hpp>
 
 #include "soup.hpp"
 

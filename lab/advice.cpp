@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
-#include <taut/tradeoff/recommend.hpp>
+#include <taut/recommend/recommend.hpp>
 #include <vector>
 
 #include "lab.hpp"

@@ -6,8 +6,8 @@
 #include <limits>
 #include <optional>
 #include <taut/integrator/symplectic_euler.hpp>
-#include <taut/scene/coarsen.hpp>
-#include <taut/tradeoff/resolve.hpp>
+#include <taut/resolution/coarsen.hpp>
+#include <taut/resolution/resolution.hpp>
 
 #include "lab.hpp"
 #include "scene.hpp"

@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: MIT
 
 #include <optional>
-#include <taut/integrator/bdf2.hpp>
+#include <taut/bdf2/bdf2.hpp>
 #include <taut/integrator/explicit_euler.hpp>
-#include <taut/integrator/graph_inertia.hpp>
+#include <taut/graph_inertia/graph_inertia.hpp>
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/integrator/velocity_verlet.hpp>
 #include <taut/method/visit.hpp>
 #include <taut/solver/conjugate_gradient.hpp>
-#include <taut/tradeoff/candidate.hpp>
+#include <taut/recommend/candidate.hpp>
 #include <variant>
 
 #include "lab.hpp"

@@ -3,7 +3,7 @@
 
 #include <chrono>
 #include <string>
-#include <taut/tradeoff/resolve.hpp>
+#include <taut/resolution/resolution.hpp>
 #include <vector>
 
 #include "lab.hpp"

@@ -11,7 +11,7 @@
 #include <string>
 #include <taut/scene/cloth.hpp>
 #include <taut/scene/mesh.hpp>
-#include <taut/scene/weld.hpp>
+#include <taut/mesh_files/weld.hpp>
 #include <utility>
 
 #include "../examples/common/obj_text.hpp"

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdio>
+#include <taut/graph_inertia/graph_inertia.hpp>
 #include <taut/taut.hpp>
 
 #include "../../tests/support/energy_networks.hpp"

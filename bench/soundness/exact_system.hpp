@@ -5,7 +5,7 @@
 #include <array>
 #include <functional>
 #include <limits>
-#include <taut/model/linear_system.hpp>
+#include <taut/own_matrices/linear_system.hpp>
 #include <taut/model/spring_system.hpp>
 
 #include "exact_law.hpp"

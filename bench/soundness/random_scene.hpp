@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <taut/model/buckling.hpp>
-#include <taut/model/linear_system.hpp>
+#include <taut/own_matrices/linear_system.hpp>
 #include <taut/model/spring_system.hpp>
 #include <taut/model/tension_only.hpp>
 #include <vector>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <taut/lattice/lattice.hpp>
 #include <taut/taut.hpp>
 
 namespace bench::survival {

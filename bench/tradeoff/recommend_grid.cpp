@@ -9,6 +9,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <taut/equilibrium/equilibrium.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
+#include <taut/recommend/recommend.hpp>
 #include <taut/taut.hpp>
 #include <vector>
 

@@ -10,7 +10,8 @@
 #include <complex>
 #include <cstdio>
 #include <string>
-#include <taut/stability/dense.hpp>
+#include <taut/tight/dense.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/taut.hpp>
 
 namespace {

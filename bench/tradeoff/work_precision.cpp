@@ -7,7 +7,11 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <taut/lattice/lattice.hpp>
+#include <taut/projective/projective.hpp>
+#include <taut/recommend/recommend.hpp>
 #include <taut/taut.hpp>
+#include <taut/tradeoff/tradeoff.hpp>
 
 #include "../../examples/common/mesh_file.hpp"
 #include "../measure.hpp"

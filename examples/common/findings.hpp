@@ -7,6 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <taut/graph_inertia/graph_inertia.hpp>
+#include <taut/graph_inertia/inertia_price.hpp>
+#include <taut/mass_scaling/mass_scaling.hpp>
+#include <taut/resolution/resolution.hpp>
 #include <taut/taut.hpp>
 #include <vector>
 

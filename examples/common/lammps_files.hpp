@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
-#include <taut/io/lammps.hpp>
+#include <taut/lammps/lammps.hpp>
 
 #include "naming.hpp"
 

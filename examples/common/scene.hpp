@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <taut/mesh_files/mesh_files.hpp>
 #include <taut/taut.hpp>
 #include <utility>
 #include <vector>

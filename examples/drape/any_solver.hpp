@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <utility>
 #ifdef DRAPE_CHOLMOD
-#include <taut/solver/cholmod.hpp>
+#include <taut/suitesparse/cholmod.hpp>
 #endif
 
 namespace drape {

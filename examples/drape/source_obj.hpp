@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <taut/mesh_files/mesh_files.hpp>
 #include <taut/taut.hpp>
 #include <utility>
 

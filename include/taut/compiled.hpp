@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "integrator/bdf2.hpp"
 #include "integrator/explicit_euler.hpp"
 #include "integrator/guarded.hpp"
 #include "integrator/implicit_euler.hpp"
-#include "integrator/projective_dynamics.hpp"
 #include "integrator/symplectic_euler.hpp"
 #include "integrator/velocity_verlet.hpp"
 #include "model/buckling.hpp"
@@ -15,9 +13,8 @@
 #include "solver/conjugate_gradient.hpp"
 #include "solver/interleaved_llt.hpp"
 #include "stability/any_pose.hpp"
-#include "stability/detail/low_modes.hpp"
 #include "stability/energy_limit.hpp"
-#include "stability/explicit_estimate.hpp"
+#include "tight/explicit_estimate.hpp"
 #include "stability/stability.hpp"
 
 // What the library Taut::Compiled holds: explicit instantiations for float and double, two and
@@ -68,11 +65,7 @@
 
 #define TAUT_COMPILED_DENSE(KIND) KIND class DenseAnalysis<double>;
 
-#define TAUT_COMPILED_KRYLOV(KIND)                                                      \
-    KIND double explicit_estimate(const Pencil&, double);                               \
-    KIND Eigen::MatrixXd stability_detail::low_modes<double>(const Pencil&);            \
-    KIND std::vector<double> stability_detail::frequency_changes<double>(const Pencil&, \
-                                                                         const Pencil&);
+#define TAUT_COMPILED_KRYLOV(KIND) KIND double explicit_estimate(const Pencil&, double);
 
 #define TAUT_COMPILED_STEPPER(KIND, ...) \
     KIND class __VA_ARGS__;              \
@@ -82,8 +75,7 @@
     TAUT_COMPILED_STEPPER(KIND, ExplicitEuler<LinearSystem<SCALAR>>)   \
     TAUT_COMPILED_STEPPER(KIND, SymplecticEuler<LinearSystem<SCALAR>>) \
     TAUT_COMPILED_STEPPER(KIND, VelocityVerlet<LinearSystem<SCALAR>>)  \
-    TAUT_COMPILED_STEPPER(KIND, ImplicitEuler<LinearSystem<SCALAR>>)   \
-    TAUT_COMPILED_STEPPER(KIND, Bdf2<LinearSystem<SCALAR>>)
+    TAUT_COMPILED_STEPPER(KIND, ImplicitEuler<LinearSystem<SCALAR>>)
 
 #define TAUT_COMPILED_SYSTEM(KIND, SCALAR, DIM, ...)                                            \
     KIND void SpringSystem<__VA_ARGS__>::set_gravity(const Vector&);                            \
@@ -109,13 +101,10 @@
     TAUT_COMPILED_STEPPER(KIND, ExplicitEuler<SpringSystem<__VA_ARGS__>>)   \
     TAUT_COMPILED_STEPPER(KIND, VelocityVerlet<SpringSystem<__VA_ARGS__>>)
 
-#define TAUT_COMPILED_IMPLICIT(KIND, SCALAR, DIM, ...)                                           \
-    TAUT_COMPILED_STEPPER(KIND, ImplicitEuler<SpringSystem<__VA_ARGS__>>)                        \
-    TAUT_COMPILED_STEPPER(                                                                       \
-        KIND, ImplicitEuler<SpringSystem<__VA_ARGS__>, ConjugateGradient<SCALAR, DIM>>)          \
-    TAUT_COMPILED_STEPPER(KIND, Bdf2<SpringSystem<__VA_ARGS__>>)                                 \
-    TAUT_COMPILED_STEPPER(KIND, Bdf2<SpringSystem<__VA_ARGS__>, ConjugateGradient<SCALAR, DIM>>) \
-    TAUT_COMPILED_STEPPER(KIND, ProjectiveDynamics<SpringSystem<__VA_ARGS__>>)
+#define TAUT_COMPILED_IMPLICIT(KIND, SCALAR, DIM, ...)                    \
+    TAUT_COMPILED_STEPPER(KIND, ImplicitEuler<SpringSystem<__VA_ARGS__>>) \
+    TAUT_COMPILED_STEPPER(                                                \
+        KIND, ImplicitEuler<SpringSystem<__VA_ARGS__>, ConjugateGradient<SCALAR, DIM>>)
 
 #define TAUT_COMPILED_GUARD(KIND, STEPPER, SCALAR, ...)                                         \
     KIND class Guarded<STEPPER<SpringSystem<__VA_ARGS__>>>;                                     \
@@ -127,9 +116,7 @@
 #define TAUT_COMPILED_GUARDS(KIND, SCALAR, DIM, ...)                \
     TAUT_COMPILED_GUARD(KIND, SymplecticEuler, SCALAR, __VA_ARGS__) \
     TAUT_COMPILED_GUARD(KIND, VelocityVerlet, SCALAR, __VA_ARGS__)  \
-    TAUT_COMPILED_GUARD(KIND, ImplicitEuler, SCALAR, __VA_ARGS__)   \
-    TAUT_COMPILED_GUARD(KIND, Bdf2, SCALAR, __VA_ARGS__)            \
-    TAUT_COMPILED_GUARD(KIND, ProjectiveDynamics, SCALAR, __VA_ARGS__)
+    TAUT_COMPILED_GUARD(KIND, ImplicitEuler, SCALAR, __VA_ARGS__)
 
 #define TAUT_COMPILED_EACH_LAW(PART, KIND, SCALAR, DIM) \
     PART(KIND, SCALAR, DIM, SCALAR, DIM)                \

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // EXPECT: taut::coarsen: specialise taut::CoarseLaw for a law with parameters of its own
 
-#include <taut/scene/coarsen.hpp>
+#include <taut/resolution/coarsen.hpp>
 
 #include "../support/laws.hpp"
 

@@ -4,7 +4,7 @@
 // ERRORS: 1
 
 #include <taut/model/spring_system.hpp>
-#include <taut/scene/contact.hpp>
+#include <taut/contact/contact.hpp>
 
 struct Depth {
     double distance;

@@ -4,7 +4,7 @@
 // ERRORS: 1
 
 #include <taut/model/spring_system.hpp>
-#include <taut/scene/contact.hpp>
+#include <taut/contact/contact.hpp>
 
 struct Ground {
     taut::Surface<double, 3> surface(const Eigen::Vector3d& x) {  // not const

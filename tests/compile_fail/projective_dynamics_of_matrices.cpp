@@ -2,6 +2,6 @@
 // SPDX-License-Identifier: MIT
 // EXPECT: taut::ProjectiveDynamics: needs a SpringSystem
 
-#include <taut/integrator/projective_dynamics.hpp>
+#include <taut/projective/projective.hpp>
 
 void step(const taut::LinearSystem<double>& system) { taut::ProjectiveDynamics stepper(system); }

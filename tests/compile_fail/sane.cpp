@@ -4,6 +4,7 @@
 
 // What the other files of this folder do wrong, done right: this one must compile.
 #include <Eigen/SparseLU>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/taut.hpp>
 
 #include "../support/laws.hpp"

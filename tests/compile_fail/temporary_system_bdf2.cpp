@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // EXPECT: deleted
 
-#include <taut/integrator/bdf2.hpp>
+#include <taut/bdf2/bdf2.hpp>
 #include <taut/scene/cloth.hpp>
 
 void step() { taut::Bdf2 stepper(taut::hanging_cloth<double>({4, 4})); }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // EXPECT: deleted
 
-#include <taut/integrator/projective_dynamics.hpp>
+#include <taut/projective/projective.hpp>
 #include <taut/scene/cloth.hpp>
 
 void step() { taut::ProjectiveDynamics stepper(taut::hanging_cloth<double>({4, 4})); }

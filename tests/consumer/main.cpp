@@ -3,14 +3,15 @@
 
 #include <cstdio>
 
+#include <taut/modal/modal_dynamics.hpp>
 #include <taut/taut.hpp>
 
 #ifdef CONSUMER_SUITESPARSE
-#include <taut/solver/cholmod.hpp>
-#include <taut/solver/umfpack.hpp>
+#include <taut/suitesparse/cholmod.hpp>
+#include <taut/suitesparse/umfpack.hpp>
 #endif
 #ifdef CONSUMER_MODAL
-#include <taut/solver/modal_analysis.hpp>
+#include <taut/modal/modal_analysis.hpp>
 #endif
 
 int main() {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <taut/core/concepts.hpp>
 #include <taut/model/spring_system.hpp>
-#include <taut/scene/obstacle.hpp>
+#include <taut/contact/obstacle.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/laws.hpp"

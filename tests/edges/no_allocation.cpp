@@ -16,6 +16,7 @@ bool eigen_allocated = false;
 
 // Eigen asserts on every allocation while none is allowed.
 #define eigen_assert(condition) ((condition) ? void() : void(eigen_allocated = true))
+#include <taut/graph_inertia/graph_inertia.hpp>
 #include <taut/taut.hpp>
 
 // Not inline: GCC would take the pair for a mismatch of new and free.

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
+#include <taut/graph_inertia/graph_inertia.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/taut.hpp>
 
 #if defined(__cpp_exceptions) || defined(__cpp_rtti)

@@ -5,6 +5,7 @@
 // prints, same_output.cmake compares.
 
 #include <taut/taut.hpp>
+#include <taut/wind/wind.hpp>
 
 #include <cstdint>
 #include <cstdio>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include <taut/integrator/bdf2.hpp>
+#include <taut/bdf2/bdf2.hpp>
 #include <taut/integrator/explicit_euler.hpp>
 #include <taut/integrator/implicit_euler.hpp>
-#include <taut/integrator/projective_dynamics.hpp>
+#include <taut/projective/projective.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/stability/any_pose.hpp>

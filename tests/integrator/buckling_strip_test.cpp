@@ -4,7 +4,7 @@
 // and nothing has to be damped for it.
 #include <algorithm>
 #include <cmath>
-#include <taut/integrator/bdf2.hpp>
+#include <taut/bdf2/bdf2.hpp>
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/model/spring_system.hpp>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <taut/integrator/guarded.hpp>
 #include <taut/integrator/implicit_euler.hpp>
-#include <taut/integrator/projective_dynamics.hpp>
+#include <taut/projective/projective.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/integrator/velocity_verlet.hpp>
 #include <taut/scene/cloth.hpp>

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT
 // What `ok` promises, by trying to break it.
 #include <cmath>
-#include <taut/integrator/bdf2.hpp>
+#include <taut/bdf2/bdf2.hpp>
 #include <taut/integrator/guarded.hpp>
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/integrator/velocity_verlet.hpp>
 #include <taut/scene/cloth.hpp>
-#include <taut/scene/contact.hpp>
+#include <taut/contact/contact.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/promise.hpp"

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 #include <limits>
-#include <taut/integrator/bdf2.hpp>
+#include <taut/bdf2/bdf2.hpp>
 #include <taut/integrator/guarded.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/integrator/velocity_verlet.hpp>
-#include <taut/scene/chain.hpp>
+#include <taut/lattice/chain.hpp>
 #include <taut/scene/cloth.hpp>
 
 #include "../support/catch.hpp"

@@ -7,7 +7,7 @@
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/integrator/velocity_verlet.hpp>
 #include <taut/scene/cloth.hpp>
-#include <taut/scene/contact.hpp>
+#include <taut/contact/contact.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/random_system.hpp"

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <taut/integrator/bdf2.hpp>
+#include <taut/bdf2/bdf2.hpp>
 #include <taut/integrator/guarded.hpp>
 #include <taut/integrator/implicit_euler.hpp>
-#include <taut/integrator/projective_dynamics.hpp>
+#include <taut/projective/projective.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/integrator/velocity_verlet.hpp>
 #include <taut/model/state_view.hpp>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include <taut/stability/lanczos.hpp>
-#include <taut/stability/matrix_pencil.hpp>
+#include <taut/own_matrices/matrix_pencil.hpp>
 #include <taut/stability/spring_pencil.hpp>
 
 #include "../support/catch.hpp"

@@ -6,7 +6,7 @@
 #include <functional>
 #include <limits>
 #include <taut/core/status.hpp>
-#include <taut/scene/chain.hpp>
+#include <taut/lattice/chain.hpp>
 
 #include "catch.hpp"
 #include "dense.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <taut/method/method.hpp>
-#include <taut/model/linear_system.hpp>
+#include <taut/own_matrices/linear_system.hpp>
 #include <vector>
 
 #include "decompositions.hpp"

@@ -4,7 +4,7 @@
 
 #include <optional>
 #include <string>
-#include <taut/scene/chain.hpp>
+#include <taut/lattice/chain.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/scene/with_law.hpp>
 #include <taut/stability/stability.hpp>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include <taut/scene/chain.hpp>
+#include <taut/lattice/chain.hpp>
 #include <taut/scene/cloth.hpp>
-#include <taut/tradeoff/measure.hpp>
+#include <taut/tradeoff/tradeoff.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/message.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include <taut/tradeoff/measure.hpp>
+#include <taut/tradeoff/tradeoff.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/random.hpp"

@@ -6,11 +6,11 @@
 #include <type_traits>
 
 #include "../method/implicit_euler.hpp"
-#include "../model/particle_constraints.hpp"
+#include "../constraints/particle_constraints.hpp"
 #include "../solver/block_ordering.hpp"
-#include "detail/constraint_projection.hpp"
+#include "../constraints/detail/constraint_projection.hpp"
 #include "detail/factor_cache.hpp"
-#include "detail/newton.hpp"
+#include "../newton/detail/newton.hpp"
 #include "detail/step_equation.hpp"
 #include "detail/step_loop.hpp"
 

@@ -8,7 +8,7 @@
 #include "../core/revision.hpp"
 #include "particle_force.hpp"
 #include "state.hpp"
-#include "wind.hpp"
+#include "../wind/wind.hpp"
 
 namespace taut {
 

@@ -16,7 +16,7 @@
 #include "detail/law_check.hpp"
 #include "external_forces.hpp"
 #include "hookean.hpp"
-#include "linear_system.hpp"
+#include "../own_matrices/linear_system.hpp"
 #include "spring_set.hpp"
 #include "state.hpp"
 #include "tangent_matrix.hpp"

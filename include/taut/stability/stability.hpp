@@ -16,9 +16,9 @@
 #include "detail/quick_mode.hpp"
 #include "detail/scales.hpp"
 #include "detail/symplectic_limit.hpp"
-#include "detail/unproved.hpp"
-#include "detail/zero_modes.hpp"
-#include "matrix_pencil.hpp"
+#include "../own_matrices/detail/unproved.hpp"
+#include "../tight/detail/zero_modes.hpp"
+#include "../own_matrices/matrix_pencil.hpp"
 #include "rayleigh.hpp"
 #include "spring_pencil.hpp"
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "accuracy.hpp"
-#include "candidate.hpp"
+#include "../accuracy/accuracy.hpp"
+#include "../recommend/candidate.hpp"
 
 namespace taut {
 

@@ -10,9 +10,9 @@
 #include "../../model/spring_system.hpp"
 #include "cache_order.hpp"
 #include "law_plan.hpp"
-#include "triangle_fours.hpp"
-#include "triangle_pairing.hpp"
-#include "triangle_rows.hpp"
+#include "../../wind/triangle_fours.hpp"
+#include "../../wind/triangle_pairing.hpp"
+#include "../../wind/triangle_rows.hpp"
 
 namespace taut::integrator_detail::sweep {
 

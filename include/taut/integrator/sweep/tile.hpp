@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "../../model/damping.hpp"
-#include "../../model/wind.hpp"
+#include "../../wind/wind.hpp"
 #include "planes.hpp"
 
 namespace taut::integrator_detail::sweep {

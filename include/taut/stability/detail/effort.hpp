@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "../certificate.hpp"
+#include "../../tight/certificate.hpp"
 #include "../step_limit.hpp"
 #include "quotients.hpp"
 

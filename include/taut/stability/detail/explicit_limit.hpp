@@ -8,8 +8,8 @@
 
 #include "../../core/detail/bisection.hpp"
 #include "../../method/mode.hpp"
-#include "../dense.hpp"
-#include "../explicit_estimate.hpp"
+#include "../../tight/dense.hpp"
+#include "../../tight/explicit_estimate.hpp"
 #include "effort.hpp"
 
 // Explicit Euler: D − hK⁺ ≻ 0 and 4M − 2hD + h²K ≻ 0, or mode by mode where M, D and K commute.

@@ -1,0 +1,281 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "linear_system.hpp"
+#include "../tight/certificate.hpp"
+#include "../stability/pencil.hpp"
+
+namespace taut {
+
+/// The pencil of a LinearSystem: bare matrices, without springs behind them.
+/// @tparam Scalar  the system's; all is taken in double
+template <class Scalar>
+class MatrixPencil final : public ScenePencil {
+public:
+    /// Copies M, D and K.
+    explicit MatrixPencil(const LinearSystem<Scalar>& system);
+
+    void multiply(const Combination& c, const Eigen::VectorXd& u,
+                  Eigen::VectorXd& y) const override {
+        y = c.mass() * mass_.cwiseProduct(u);
+        if (on_K(c) != 0) y.noalias() += on_K(c) * (K_ * u);
+        if (c.damping() != 0) y.noalias() += c.damping() * (D_ * u);
+    }
+    Enclosed quadratic(const Combination& c, const Eigen::VectorXd& u) const override;
+    double upper_bound(const Combination& c, double enough = 0) const override;
+    double deficit(const Combination& c) const override {
+        const double bound = Pencil::deficit(c);
+        Prover<> prover;
+        return std::min(bound, proved_deficit(prover, *this, c, bound));
+    }
+    SparseMatrix<double> assemble(const Combination& c) const override;
+    double assembly_error(const Combination& c, const Eigen::VectorXd& s) const override;
+    std::vector<SpringShare> spring_shares(const Eigen::VectorXd&) const override { return {}; }
+    std::vector<ParticleShare> particle_shares(const Eigen::VectorXd& u) const override;
+    std::shared_ptr<const ScenePencil> scaled(double stiffness, double mass) const override;
+
+private:
+    using Matrix = SparseMatrix<double>;
+
+    // K⁺ = K.
+    static double on_K(const Combination& c) { return c.stiffness() + c.projected(); }
+    /// The sizes of what S is added up from, the mass term apart: its rounding errors are relative
+    /// to these.
+    Matrix magnitudes(const Combination& c) const {
+        return std::abs(on_K(c)) * K_.cwiseAbs() + std::abs(c.damping()) * D_.cwiseAbs();
+    }
+    using Real = TangentReal<Scalar>;
+
+    /// @param check  takes each entry and its row
+    template <class Check>
+    static Matrix checked(const SparseMatrix<Scalar>& A, Check&& check);
+    static bool diagonally_dominant(const SparseMatrix<Real>& A);
+    static bool proves_semidefinite(const SparseMatrix<Scalar>& A);
+    void detect_rayleigh();
+
+    Matrix K_;
+    Matrix D_;
+};
+
+template <class Scalar>
+MatrixPencil<Scalar>::MatrixPencil(const LinearSystem<Scalar>& system)
+    : K_(checked(system.stiffness(),
+                 [&](Scalar k, Index row) { in_range(k, "stiffness in row", row); })),
+      D_(checked(system.damping(),
+                 [&](Scalar d, Index row) { in_range(d, "damping in row", row); })) {
+    mass_.resize(system.size());
+    for (Index i = 0; i < system.size(); ++i)
+        mass_[i] = in_range(system.mass()[i], "mass in row", i);
+    if (!lost().empty()) return;
+    detect_rayleigh();
+    facts_.stiffness_semidefinite = facts_.projected_semidefinite =
+        proves_semidefinite(system.stiffness());
+    facts_.damping_semidefinite = is_rayleigh() || proves_semidefinite(system.damping());
+}
+
+template <class Scalar>
+template <class Check>
+auto MatrixPencil<Scalar>::checked(const SparseMatrix<Scalar>& A, Check&& check) -> Matrix {
+    for (Index j = 0; j < A.outerSize(); ++j) {
+        for (typename SparseMatrix<Scalar>::InnerIterator entry(A, j); entry; ++entry) {
+            check(entry.value(), entry.row());
+        }
+    }
+    return A.template cast<double>();
+}
+
+/// D = d0·M is the one Rayleigh form that bare matrices show; α·K is not looked for, since rounding
+/// would hide it. Every entry has its say: d0 is what all quotients agree on to the rounding of a
+/// product, of a quotient and of both to double. A D that is 0 anywhere on its diagonal, or whose
+/// quotients vanish or overflow, is not of this form.
+template <class Scalar>
+void MatrixPencil<Scalar>::detect_rayleigh() {
+    constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+    double least = std::numeric_limits<double>::infinity();
+    double most = 0;
+    bool diagonal = true;
+    for (Index j = 0; j < size(); ++j) {
+        double d = 0;
+        for (Matrix::InnerIterator entry(D_, j); entry; ++entry) {
+            if (entry.row() == j) {
+                d = entry.value();
+            } else {
+                diagonal = diagonal && entry.value() == 0;
+            }
+        }
+        const double quotient = d / mass_[j];
+        least = std::min(least, d != 0 && !std::isnormal(quotient) ? -1 : quotient);
+        most = std::max(most, quotient);
+    }
+    facts_.is_rayleigh =
+        diagonal && least >= 0 && most <= least * (1 + rounding) && std::isfinite(most);
+    if (is_rayleigh()) rayleigh_.mass_proportional = most;
+}
+
+/// a_ii ≥ Σ|a_ij| in every row; where the sum rounds, with room for it.
+template <class Scalar>
+bool MatrixPencil<Scalar>::diagonally_dominant(const SparseMatrix<Real>& A) {
+    for (Index j = 0; j < A.outerSize(); ++j) {
+        Real diagonal = 0;
+        Real others = 0;
+        bool exact = true;
+        int count = 0;
+        for (typename SparseMatrix<Real>::InnerIterator entry(A, j); entry; ++entry, ++count) {
+            if (entry.row() == j) {
+                diagonal = entry.value();
+            } else {
+                // Knuth's two-sum: the residue of this addition.
+                const Real term = std::abs(entry.value());
+                const Real sum = others + term;
+                const Real back = sum - others;
+                exact = exact && (others - (sum - back)) + (term - back) == 0;
+                others = sum;
+            }
+        }
+        const Real rounding = exact ? 0 : count * std::numeric_limits<Real>::epsilon() * others;
+        if (!(diagonal >= others + rounding)) return false;
+    }
+    return true;
+}
+
+/// By its own numbers, or in double, and then with what the conversion may have changed.
+template <class Scalar>
+bool MatrixPencil<Scalar>::proves_semidefinite(const SparseMatrix<Scalar>& A) {
+    if (A.nonZeros() == 0 || diagonally_dominant(A.template cast<Real>())) return true;
+    constexpr bool rounds =
+        std::numeric_limits<Scalar>::digits > std::numeric_limits<double>::digits;
+    const double rounding = rounds ? std::numeric_limits<double>::epsilon() : 0;
+    const Matrix rounded = A.template cast<double>();
+    const auto error = [&](const Eigen::VectorXd& s) {
+        return rounding * s.cwiseProduct(rounded.cwiseAbs() * s).maxCoeff();
+    };
+    return Prover<>{}(Matrix(rounded), error).proved;
+}
+
+template <class Scalar>
+Enclosed MatrixPencil<Scalar>::quadratic(const Combination& c, const Eigen::VectorXd& u) const {
+    Enclosed sum;
+    for (Index i = 0; i < size(); ++i) {
+        const double term = c.mass() * mass_[i] * u[i] * u[i];
+        sum.value += term;
+        sum.error += std::abs(term);
+    }
+    const auto add = [&](const Matrix& A, double factor) {
+        if (factor == 0) return;
+        for (Index j = 0; j < A.outerSize(); ++j) {
+            for (Matrix::InnerIterator entry(A, j); entry; ++entry) {
+                const double term = factor * entry.value() * u[entry.row()] * u[j];
+                sum.value += term;
+                sum.error += std::abs(term);
+            }
+        }
+    };
+    add(K_, on_K(c));
+    add(D_, c.damping());
+    const double terms = static_cast<double>(size() + K_.nonZeros() + D_.nonZeros()) + 8;
+    sum.error *= terms * std::numeric_limits<double>::epsilon();
+    return sum;
+}
+
+/// Collatz–Wielandt: λ_max(A) ≤ max_i (a_ii + Σ_{j≠i} |a_ij| p_j/p_i) for every p > 0; the power
+/// iteration on |A| improves p.
+template <class Scalar>
+double MatrixPencil<Scalar>::upper_bound(const Combination& c, double enough) const {
+    constexpr int most_repeats = 60;
+    const Matrix S = assemble(c);
+    const Matrix sizes = magnitudes(c);
+    Index widest = 1;
+    for (Index j = 0; j < size(); ++j) {
+        widest = std::max<Index>(widest, S.outerIndexPtr()[j + 1] - S.outerIndexPtr()[j]);
+    }
+    const double rounding =
+        static_cast<double>(widest + 8) * std::numeric_limits<double>::epsilon();
+    // Products that underflow lose less than this in a row; rows without entries lose nothing.
+    const Eigen::VectorXd entries =
+        sizes * Eigen::VectorXd::Ones(size()) + std::abs(c.mass()) * mass_;
+    const Eigen::VectorXd underflow =
+        (entries.array() > 0)
+            .select(static_cast<double>(widest + 8) * std::numeric_limits<double>::min(),
+                    Eigen::VectorXd::Zero(size()));
+    Eigen::VectorXd p = mass_.cwiseSqrt().cwiseInverse();
+    Eigen::VectorXd others(size());
+    double best = std::numeric_limits<double>::infinity();
+    for (int repeat = 0; repeat < most_repeats && best > enough; ++repeat) {
+        others.setZero();
+        for (Index j = 0; j < size(); ++j) {
+            for (Matrix::InnerIterator entry(S, j); entry; ++entry) {
+                if (entry.row() != j) others[entry.row()] += std::abs(entry.value()) * p[j];
+            }
+        }
+        const Eigen::VectorXd diagonal = S.diagonal().cwiseProduct(p);
+        const Eigen::VectorXd error =
+            rounding * (sizes * p + std::abs(c.mass()) * mass_.cwiseProduct(p)) + underflow;
+        const Eigen::VectorXd weight = mass_.cwiseProduct(p);
+        const Eigen::VectorXd quotient = (others + diagonal + error).cwiseQuotient(weight);
+        // maxCoeff may pass over what is not a number: a weight that vanished, or overflow.
+        if (!(weight.minCoeff() > 0) || quotient.hasNaN()) break;
+        best = std::min(best, quotient.maxCoeff());
+        const Eigen::VectorXd powered = (others + diagonal.cwiseAbs()).cwiseQuotient(mass_);
+        const double growth = powered.cwiseQuotient(p).maxCoeff();
+        if (!(growth > 0)) break;
+        // Averaging with the old p keeps a bipartite pattern from alternating.
+        p = 0.5 * p + (0.5 / growth) * powered;
+    }
+    // A quotient that vanished by underflow is not zero.
+    const double least = std::numeric_limits<double>::min();
+    if (best >= 0 && best < least && sizes.nonZeros() > 0 && sizes.coeffs().maxCoeff() > 0)
+        best = least;
+    return best + 8 * std::numeric_limits<double>::epsilon() * std::abs(best);
+}
+
+template <class Scalar>
+SparseMatrix<double> MatrixPencil<Scalar>::assemble(const Combination& c) const {
+    Matrix S = on_K(c) * K_ + c.damping() * D_;
+    Matrix mass(size(), size());
+    mass.setIdentity();
+    mass.diagonal() = c.mass() * mass_;
+    S += mass;
+    S.makeCompressed();
+    return S;
+}
+
+/// Two products and two sums an entry.
+template <class Scalar>
+double MatrixPencil<Scalar>::assembly_error(const Combination& c, const Eigen::VectorXd& s) const {
+    const Eigen::VectorXd row = magnitudes(c) * s + std::abs(c.mass()) * mass_.cwiseProduct(s);
+    return 4 * std::numeric_limits<double>::epsilon() * s.cwiseProduct(row).maxCoeff();
+}
+
+template <class Scalar>
+std::vector<ParticleShare> MatrixPencil<Scalar>::particle_shares(const Eigen::VectorXd& u) const {
+    std::vector<ParticleShare> shares;
+    const double total = mass_.dot(u.cwiseAbs2());
+    for (Index i = 0; i < size(); ++i) {
+        shares.push_back({i, total > 0 ? mass_[i] * u[i] * u[i] / total : 0});
+    }
+    return shares;
+}
+
+/// D has no known part that follows K; its part d0·M follows M where it was recognised.
+template <class Scalar>
+std::shared_ptr<const ScenePencil> MatrixPencil<Scalar>::scaled(double stiffness,
+                                                                double mass) const {
+    auto pencil = std::make_shared<MatrixPencil>(*this);
+    pencil->mass_ *= mass;
+    // An entry that vanished would take the allowance for its row's underflow with it.
+    constexpr double least = std::numeric_limits<double>::min();
+    pencil->K_ = K_.unaryExpr([&](double entry) {
+        const double product = stiffness * entry;
+        const bool zero = entry == 0 || stiffness == 0;
+        return zero ? 0 : std::copysign(std::max(std::abs(product), least), product);
+    });
+    if (is_rayleigh()) pencil->D_ *= mass;
+    return pencil;
+}
+
+}  // namespace taut

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/SparseCholesky>
+#include <string>
+
+#include "../bdf2/bdf2.hpp"
+#include "../integrator/explicit_euler.hpp"
+#include "../graph_inertia/graph_inertia.hpp"
+#include "../integrator/implicit_euler.hpp"
+#include "../integrator/symplectic_euler.hpp"
+#include "../integrator/velocity_verlet.hpp"
+#include "../method/visit.hpp"
+#include "../solver/conjugate_gradient.hpp"
+
+namespace taut {
+
+/// How an implicit step solves its linear system.
+enum class LinearSolver {
+    direct,             ///< sparse Cholesky (Eigen::SimplicialLLT, particles ordered)
+    conjugate_gradient  ///< ConjugateGradient with its default, TwoLevel
+};
+
+/// One way to advance a scene.
+struct Candidate {
+    Scheme scheme = Scheme::symplectic_euler;
+    double h = 0;                                ///< s
+    LinearSolver solver = LinearSolver::direct;  ///< of an implicit scheme
+    double solver_tolerance = 1e-3;              ///< of conjugate gradients
+    int newton_iterations = 1;                   ///< of implicit Euler
+    StepDamping damping{};                       ///< ExplicitOptions::damping of an explicit scheme
+};
+
+/// The scheme, and the solver where there is one; without the step.
+inline std::string name(const Candidate& candidate) {
+    std::string text = name(candidate.scheme);
+    if (!is_implicit(candidate.scheme)) return text;
+    if (candidate.solver == LinearSolver::conjugate_gradient)
+        return text + " by conjugate gradients";
+    return text + " by sparse Cholesky";
+}
+
+namespace tradeoff_detail {
+
+/// The stepper of each method; Solver is that of an implicit one.
+template <class Descriptor, class System, class Solver>
+struct StepperOf;
+template <class System, class Solver>
+struct StepperOf<method::ExplicitEuler, System, Solver> {
+    using type = ExplicitEuler<System>;
+};
+template <class System, class Solver>
+struct StepperOf<method::SymplecticEuler, System, Solver> {
+    using type = SymplecticEuler<System>;
+};
+template <class System, class Solver>
+struct StepperOf<method::VelocityVerlet, System, Solver> {
+    using type = VelocityVerlet<System>;
+};
+template <class System, class Solver>
+struct StepperOf<method::ImplicitEuler, System, Solver> {
+    using type = ImplicitEuler<System, Solver>;
+};
+template <class System, class Solver>
+struct StepperOf<method::Bdf2, System, Solver> {
+    using type = Bdf2<System, Solver>;
+};
+template <class System, class Solver>
+struct StepperOf<method::GraphInertia, System, Solver> {
+    using type = GraphInertia<System>;
+};
+
+/// The stepper of `candidate`, which has this descriptor and this solver.
+template <class Descriptor, class Solver, class System>
+auto make_stepper(const System& system, const Candidate& candidate) {
+    using Stepper = typename StepperOf<Descriptor, System, Solver>::type;
+    if constexpr (Descriptor::method == Method::graph_inertia) {
+        return Stepper(system);
+    } else if constexpr (!Descriptor::is_implicit) {
+        return Stepper(system, ExplicitOptions{1, candidate.damping});
+    } else if constexpr (Descriptor::method == Method::implicit_euler) {
+        typename Stepper::Options options;
+        options.newton_iterations = candidate.newton_iterations;
+        return Stepper(system, options);
+    } else {
+        return Stepper(system);
+    }
+}
+
+}  // namespace tradeoff_detail
+
+/// action(stepper) with the stepper of `candidate` on `system`, as fresh from its constructor.
+template <class System, class Action>
+void with_stepper(const System& system, const Candidate& candidate, Action&& action) {
+    using Scalar = typename System::Scalar;
+    using Direct = Eigen::SimplicialLLT<SparseMatrix<Scalar>, Eigen::Lower, BlockOrdering<>>;
+    using Gradients = ConjugateGradient<Scalar, System::Dim>;
+    method::visit(candidate.scheme, [&](auto descriptor) {
+        using Descriptor = decltype(descriptor);
+        if constexpr (Descriptor::method == Method::graph_inertia &&
+                      !model_detail::is_spring_system_v<System>) {
+            fail("with_stepper: ", Descriptor::name, " needs the springs of a SpringSystem");
+        } else {
+            if constexpr (Descriptor::is_implicit) {
+                if (candidate.solver == LinearSolver::conjugate_gradient) {
+                    auto stepper =
+                        tradeoff_detail::make_stepper<Descriptor, Gradients>(system, candidate);
+                    stepper.configure([&](Gradients& solver) {
+                        solver.setTolerance(static_cast<Scalar>(candidate.solver_tolerance));
+                    });
+                    return action(stepper);
+                }
+            }
+            auto stepper = tradeoff_detail::make_stepper<Descriptor, Direct>(system, candidate);
+            return action(stepper);
+        }
+    });
+}
+
+}  // namespace taut

@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "../mass_scaling/detail/low_modes.hpp"
+#include "../stability/spring_pencil.hpp"
+#include "../accuracy/accuracy.hpp"
+#include "candidate.hpp"
+
+// The errors of accuracy.hpp, measured: a stepper is started in one mode and its swing is fitted.
+
+namespace taut {
+
+/// A mode of vibration as linear theory has it.
+struct Mode {
+    double omega = 0;       ///< √k, rad/s
+    double zeta = 0;        ///< uᵀDu/(2ω)
+    Eigen::VectorXd shape;  ///< u, one entry for each free degree of freedom, uᵀMu = 1
+};
+
+namespace tradeoff_detail {
+
+/// The multiplier μ, Im μ ≥ 0, that evenly spaced samples of one swing follow: least squares on
+/// a_{j+1} = t·a_j − q·a_{j−1} (R. de Prony, 1795). Nothing where the fit has real roots.
+template <class Real = double>  // a template: only its callers compile the expressions
+std::optional<std::complex<double>> fitted_multiplier(const VectorX<Real>& samples) {
+    const Index rows = samples.size() - 2;
+    if (rows < 2 || !samples.allFinite()) return std::nullopt;
+    // In ε = μ − 1, from second and first differences, so that slow swings lose no digits.
+    const VectorX<Real> value = samples.segment(1, rows);
+    const VectorX<Real> first = value - samples.head(rows);
+    const VectorX<Real> second = samples.tail(rows) - value - first;
+    // a_{j+1} − 2a_j + a_{j−1} = a(a_j − a_{j−1}) + b·a_j with q = 1 + a, t = 2 + a + b, by Gram
+    // and Schmidt.
+    const double share = value.dot(first) / value.squaredNorm();
+    const VectorX<Real> rest = first - share * value;
+    const double a = rest.dot(second) / rest.squaredNorm();
+    const double b = value.dot(second - a * first) / value.squaredNorm();
+    const double q = 1 + a;
+    const double half = (2 + a + b) / 2;
+    // q − half² without cancellation for slow swings.
+    const double under = -b - (a + b) * (a + b) / 4;
+    if (!(under > 0) || !std::isfinite(q)) return std::nullopt;
+    return std::complex<double>(half, std::sqrt(under));
+}
+
+}  // namespace tradeoff_detail
+
+/// Up to `count` of the lowest modes above the zero modes at a pose, K⁺ for K, ascending.
+/// Dense eigenvectors for small scenes, Krylov vectors for large ones: numerical, no proof.
+template <class Scalar, int Dim, class... Laws>
+std::vector<Mode> lowest_modes(const SpringSystem<Scalar, Dim, Laws...>& system,
+                               const State<Scalar, Dim>& state, Index count) {
+    const auto pencil =
+        SpringPencil<Dim>::at_pose(system, state.x.template cast<TangentReal<Scalar>>());
+    std::vector<Mode> modes;
+    const Eigen::MatrixXd shapes = stability_detail::low_modes(pencil);
+    Eigen::VectorXd y;
+    for (Index j = 0; j < std::min<Index>(count, shapes.cols()); ++j) {
+        Mode mode;
+        mode.shape = shapes.col(j);
+        pencil.multiply(matrices::K_plus, mode.shape, y);
+        mode.omega = std::sqrt(std::max(0.0, mode.shape.dot(y)));
+        pencil.multiply(matrices::D, mode.shape, y);
+        mode.zeta = mode.shape.dot(y) / (2 * mode.omega);
+        modes.push_back(std::move(mode));
+    }
+    return modes;
+}
+
+namespace tradeoff_detail {
+
+/// The swing that steps from `state` take, `swing_of(state)` of it at even times, fitted. Nothing
+/// where a step fails or the steps do not swing.
+/// @param most_steps  the swing is followed for less than a period where that would take more
+template <class System, class SwingOf>
+std::optional<ModeError> fitted_mode_error(const System& system, typename System::State state,
+                                           SwingOf&& swing_of, const Mode& mode,
+                                           const Candidate& candidate, Index most_steps) {
+    constexpr Index samples = 26;
+    constexpr Index settling = 40;  // the second multiplier of BDF2 shrinks by 3 and more a step
+    const auto h = static_cast<typename System::Scalar>(candidate.h);
+    const double z = mode.omega * static_cast<double>(h);
+    const Index stride = std::clamp<Index>(static_cast<Index>(0.5 / z), 1,
+                                           std::max<Index>(1, (most_steps - settling) / samples));
+    Eigen::VectorXd swing(samples);
+    bool alive = true;
+    with_stepper(system, candidate, [&](auto& stepper) {
+        alive = static_cast<bool>(stepper.step(state, h, settling));
+        for (Index j = 0; alive && j < samples; ++j) {
+            swing[j] = swing_of(state);
+            alive = static_cast<bool>(stepper.step(state, h, stride));
+        }
+    });
+    if (!alive) return std::nullopt;
+    const auto mu = fitted_multiplier<double>(swing);
+    if (!mu) return std::nullopt;
+    const std::complex<double> rate = std::log(*mu) / (static_cast<double>(stride) * z);
+    const double frequency = std::sqrt(std::max(0.0, (1 - mode.zeta) * (1 + mode.zeta)));
+    return ModeError{-rate.real() / std::abs(rate) - mode.zeta, frequency / rate.imag() - 1};
+}
+
+}  // namespace tradeoff_detail
+
+/// What the steps of `candidate` do to one mode of a linear system without load: started in the
+/// mode's shape, its swing is projected on the mode and fitted. Nothing where a step fails or the
+/// steps do not swing, and for graph inertia, which needs springs.
+/// @param most_steps  the swing is followed for less than a period where that would take more
+template <class Scalar>
+std::optional<ModeError> measured_mode_error(const LinearSystem<Scalar>& system, const Mode& mode,
+                                             const Candidate& candidate, Index most_steps = 4000) {
+    if (candidate.scheme == Method::graph_inertia) return std::nullopt;
+    if (candidate.damping.look_ahead > 0) {  // a linear system's steps have none of their own
+        Candidate damped = candidate;
+        damped.damping.look_ahead = 0;
+        const auto alpha = static_cast<Scalar>(candidate.damping.look_ahead * candidate.h);
+        return measured_mode_error(
+            LinearSystem<Scalar>(system.mass(), system.damping() + alpha * system.stiffness(),
+                                 system.stiffness()),
+            mode, damped, most_steps);
+    }
+    const Eigen::VectorXd weights = system.mass().template cast<double>().cwiseProduct(mode.shape);
+    auto state = system.initial_state();
+    state.x = mode.shape.template cast<Scalar>().transpose();
+    const auto swing_of = [&](const auto& at) {
+        return weights.dot(at.x.transpose().template cast<double>());
+    };
+    return tradeoff_detail::fitted_mode_error(system, state, swing_of, mode, candidate, most_steps);
+}
+
+/// The same of springs at rest, as a swing so small that they stay linear: each particle sets out
+/// from its place at `rest` by its share of the shape times `amplitude`, m·√kg.
+template <class Scalar, int Dim, class... Laws>
+std::optional<ModeError> measured_mode_error(const SpringSystem<Scalar, Dim, Laws...>& system,
+                                             const State<Scalar, Dim>& rest, const Mode& mode,
+                                             const Candidate& candidate, double amplitude,
+                                             Index most_steps = 4000) {
+    const FreeParticles free(system);
+    State<Scalar, Dim> state = rest;
+    state.v.setZero();
+    const auto shape = [&](Index j) { return mode.shape.template segment<Dim>(Dim * j); };
+    for (Index j = 0; j < free.count(); ++j)
+        state.x.col(free[j]) += (amplitude * shape(j)).template cast<Scalar>();
+    const auto swing_of = [&](const auto& at) {
+        double sum = 0;
+        for (Index j = 0; j < free.count(); ++j) {
+            const Index i = free[j];
+            const auto moved = (at.x.col(i) - rest.x.col(i)).template cast<double>();
+            sum += static_cast<double>(system.mass(i)) * moved.dot(shape(j));
+        }
+        return sum / amplitude;
+    };
+    return tradeoff_detail::fitted_mode_error(system, state, swing_of, mode, candidate, most_steps);
+}
+
+}  // namespace taut

@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "../stability/any_pose.hpp"
+#include "../stability/rayleigh_design.hpp"
+#include "choose.hpp"
+#include "cost.hpp"
+#include "graph_inertia_plans.hpp"
+#include "../resolution/resolution.hpp"
+
+namespace taut {
+
+/// What recommend() compares: symplectic Euler by the recipe, graph inertia, and implicit Euler
+/// with both solvers; BDF2 with both where accuracy is asked for, and not where stability is all
+/// that counts, for one of its linearised steps may gain energy.
+inline std::vector<Candidate> recommended_candidates(const Goal& goal) {
+    // What is left of a linear solve must not blur the mode errors that the goal admits.
+    const double tolerance = goal.accuracy ? 1e-6 : 1e-3;
+    std::vector<Candidate> candidates;
+    Candidate symplectic;
+    symplectic.damping = recipe.damping;
+    candidates.push_back(symplectic);
+    candidates.push_back({Scheme::graph_inertia});
+    for (const Scheme scheme : {Scheme::implicit_euler, Scheme::bdf2}) {
+        if (scheme == Scheme::bdf2 && !goal.accuracy) continue;
+        for (const auto solver : {LinearSolver::conjugate_gradient, LinearSolver::direct}) {
+            candidates.push_back({scheme, 0, solver, tolerance});
+        }
+    }
+    return candidates;
+}
+
+/// Explicit, implicit, or which springs implicit? The plans that reach a goal, without their costs:
+/// explicit steps at recipe.safety of any_pose_limit [T23], which with recipe.damping kept the
+/// energy of the scenes tried: measured, not proved; implicit ones, linearised stable at any pose,
+/// as large as the frame; and none above its accurate_step [T25]. The damping that accuracy is
+/// predicted with is the scene's Rayleigh damping; dampers on springs are not in it.
+///
+/// Graph inertia is tried at up to three steps: the largest that make at most 1/16, 1/4 and 1/2 of
+/// the springs implicit, are larger than the explicit ones, and whose price at the pose of
+/// `state` is admitted (inertia_price [T33] and what the step does itself): by Goal::accuracy for
+/// the ten lowest modes and all up to Goal::up_to_frequency, or else 5 % of the periods of the ten
+/// lowest. Those above the twenty lowest, which are all that is known, count as slowed in
+/// proportion to ω². Not for springs that turn slack or buckle, which feed it with energy
+/// (measured), nor above 20 000 particles, where the modes take longer than all else.
+template <class Scalar, int Dim, class... Laws>
+std::vector<Plan> feasible_plans(const SpringSystem<Scalar, Dim, Laws...>& system,
+                                 const State<Scalar, Dim>& state, const Goal& goal,
+                                 const std::vector<Candidate>& candidates) {
+    double zeta = 0;
+    if (goal.accuracy) {
+        require_positive("recommend", "Goal::up_to_frequency", goal.up_to_frequency);
+        // An overdamped mode has no period to err in: judge by the strongest damping with one.
+        zeta = std::min(0.95, damping_ratio(system.rayleigh(), goal.up_to_frequency));
+    }
+    const auto limit = static_cast<double>(any_pose_limit(system).certified);
+    std::vector<Plan> plans;
+    for (const Candidate& candidate : candidates) {
+        const method::AnyPose safe = method::visit(
+            candidate.scheme, [](auto descriptor) { return decltype(descriptor)::any_pose; });
+        if (candidate.scheme == Scheme::graph_inertia) {
+            if (!(limit > 0)) continue;
+            const auto most =
+                static_cast<Index>(std::min(1e15, std::ceil(goal.frame / (recipe.safety * limit))));
+            tradeoff_detail::GraphInertiaPlans<Scalar, Dim, Laws...> inertia(system, state, goal);
+            for (const Plan& plan : inertia.plans(candidate, most)) plans.push_back(plan);
+        } else if (safe == method::AnyPose::every_step) {
+            plans.push_back(
+                plan_for(candidate, std::numeric_limits<double>::infinity(), goal, zeta));
+        } else if (safe == method::AnyPose::limited && limit > 0) {
+            const double share = share_of_limit(recipe.safety, candidate.damping);
+            plans.push_back(plan_for(candidate, share * limit, goal, zeta));
+        }
+    }
+    return plans;
+}
+
+/// The same at the pose in which the system was built.
+template <class Scalar, int Dim, class... Laws>
+std::vector<Plan> feasible_plans(const SpringSystem<Scalar, Dim, Laws...>& system, const Goal& goal,
+                                 const std::vector<Candidate>& candidates) {
+    return feasible_plans(system, system.initial_state(), goal, candidates);
+}
+
+namespace tradeoff_detail {
+
+/// Measures the cost of each plan by a few steps from `state`, s a frame.
+template <class System>
+void measure_costs(const System& system, const typename System::State& state,
+                   const Calibration& calibration, std::vector<Plan>& plans) {
+    // A factorisation of a large scene takes seconds: one step shows that it is far behind.
+    constexpr double far = 5;
+    double least = std::numeric_limits<double>::infinity();
+    for (Plan& plan : plans) {
+        const auto substeps = static_cast<double>(plan.substeps);
+        plan.cost = substeps *
+                    step_cost(system, state, plan.candidate, calibration, far * least / substeps);
+        least = std::min(least, plan.cost);
+    }
+}
+
+/// CPU s of lifting positions once.
+template <class System>
+double lift_cost(const Coarsening<System>& coarsening, const Calibration& calibration) {
+    const auto moved = coarsening.system.initial_state().v;
+    double least = std::numeric_limits<double>::infinity();
+    for (int repeat = 0; repeat < 3; ++repeat) {
+        const double start = calibration.clock();
+        const auto lifted = coarsening.lifted(moved);
+        // What depends on the result cannot be left out.
+        const double nothing = static_cast<double>(lifted(0, 0)) * 0;
+        least = std::min(least, calibration.clock() - start + nothing);
+    }
+    return least;
+}
+
+/// Appends the plans of a coarser network that meets the goal's resolution, if there is one.
+/// @returns what resolve() says
+template <class System>
+std::string add_coarser_plans(const System& system, const typename System::State& state,
+                              const Goal& goal, const std::vector<Candidate>& candidates,
+                              const Calibration& calibration, std::vector<Plan>& plans) {
+    const auto found = resolve(system, state, goal.resolution->duration, goal.resolution->error);
+    if (!found.coarsening) return found.why;
+    const auto& coarse = found.coarsening->system;
+    const auto start = found.coarsening->restricted(state);
+    std::vector<Plan> coarser = feasible_plans(coarse, start, goal, candidates);
+    measure_costs(coarse, start, calibration, coarser);
+    const double lift = lift_cost(*found.coarsening, calibration);
+    for (Plan& plan : coarser) {
+        plan.particles = coarse.size();
+        plan.cost += lift;
+        plans.push_back(plan);
+    }
+    return found.why;
+}
+
+}  // namespace tradeoff_detail
+
+/// The integrator, solver, step and substeps that reach a goal at the least cost on this machine:
+/// feasible_plans(), each timed by a few steps from `state` on a copy, then choose().
+///
+///     taut::Goal goal;                                  // 1/60 s a frame, stable is enough
+///     auto advice = taut::recommend(cloth, state, goal);
+///     advice.pick.candidate.h, advice.why
+///
+/// With Goal::resolution it chooses the number of particles, too: where resolve() finds a coarser
+/// network that meets that goal, plans of it, with the cost of lifting once a frame, are compared
+/// with those of the scene. Plan::particles then says how many, for coarsen().
+///
+/// Costs are those of the code as compiled and of the machine as busy as it is; everything else is
+/// deterministic.
+/// @throws (fail) what feasible_plans(), choose() and resolve() refuse
+template <class Scalar, int Dim, class... Laws>
+Recommendation recommend(const SpringSystem<Scalar, Dim, Laws...>& system,
+                         const State<Scalar, Dim>& state, const Goal& goal,
+                         const std::vector<Candidate>& candidates,
+                         const Calibration& calibration = {}) {
+    std::vector<Plan> plans = feasible_plans(system, state, goal, candidates);
+    tradeoff_detail::measure_costs(system, state, calibration, plans);
+    std::string resolution;
+    if (goal.resolution) {
+        if constexpr ((CoarseLaw<Laws>::known && ...)) {
+            resolution = " " + tradeoff_detail::add_coarser_plans(system, state, goal, candidates,
+                                                                  calibration, plans);
+        } else {
+            fail("recommend: Goal::resolution needs taut::CoarseLaw for every law of the system");
+        }
+    }
+    Recommendation answer = choose(std::move(plans), goal);
+    answer.why += resolution;
+    return answer;
+}
+
+/// The same among recommended_candidates(goal).
+template <class Scalar, int Dim, class... Laws>
+Recommendation recommend(const SpringSystem<Scalar, Dim, Laws...>& system,
+                         const State<Scalar, Dim>& state, const Goal& goal,
+                         const Calibration& calibration = {}) {
+    return recommend(system, state, goal, recommended_candidates(goal), calibration);
+}
+
+}  // namespace taut

@@ -1,0 +1,231 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <taut/lammps/lammps_dump.hpp>
+#include <vector>
+
+#include "../support/catch.hpp"
+#include "../support/message.hpp"
+#include "../support/random.hpp"
+#include "../support/temporary_file.hpp"
+#include "../support/tolerance.hpp"
+
+namespace taut_test::lammps_dump_test {
+
+using taut::DumpStatus;
+using taut::LammpsDump;
+
+namespace {
+
+std::string exact(double number) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.17g", number);
+    return text;
+}
+
+struct Layout {
+    bool sorted = true;
+    bool velocities = true;
+    bool units = true;
+    bool extra = false;      // columns that nobody asked for, and others in another order
+    bool unwrapped = false;  // xu for x
+};
+
+/// A frame as LAMMPS 2022-01 writes it by dump custom.
+template <class State>
+std::string frame(const State& state, const Layout& layout, Random& random) {
+    const Index n = state.x.cols();
+    const std::string u = layout.unwrapped ? "u" : "";
+    const auto axes = [](const std::string& before, const std::string& after) {
+        return " " + before + "x" + after + " " + before + "y" + after + " " + before + "z" + after;
+    };
+    std::string text;
+    if (layout.units) text += "ITEM: UNITS\nsi\n";
+    text += "ITEM: TIME\n" + exact(static_cast<double>(state.time)) + "\nITEM: TIMESTEP\n100\n";
+    text += "ITEM: NUMBER OF ATOMS\n" + std::to_string(n) + "\nITEM: BOX BOUNDS ss ss ss\n";
+    for (int d = 0; d < 3; ++d) text += "-1.0e+00 1.0e+00\n";
+    const std::string v = layout.velocities ? axes("v", "") : "";
+    text += layout.extra ? "ITEM: ATOMS type" + v + " id" + axes("", u) + " mol \n"
+                         : "ITEM: ATOMS id" + axes("", u) + v + " \n";
+    std::vector<Index> order;
+    for (Index i = 0; i < n; ++i) order.push_back(i);
+    for (Index i = n - 1; !layout.sorted && i > 0; --i) {
+        std::swap(order[static_cast<std::size_t>(i)],
+                  order[static_cast<std::size_t>(random.below(i + 1))]);
+    }
+    for (const Index i : order) {
+        const auto triple = [&](const auto& values) {
+            std::string three;
+            for (int d = 0; d < 3; ++d) {
+                const double number =
+                    d < State::Dim ? static_cast<double>(values(d < State::Dim ? d : 0, i)) : 0.0;
+                three += " " + exact(number);
+            }
+            return three;
+        };
+        const std::string id = std::to_string(i + 1);
+        const std::string speed = layout.velocities ? triple(state.v) : "";
+        text += layout.extra ? "1" + speed + " " + id + triple(state.x) + " 1 \n"
+                             : id + triple(state.x) + speed + " \n";
+    }
+    return text;
+}
+
+template <class State>
+State random_frame(Random& random, Index n, double time) {
+    State state;
+    state.x = random.points<typename State::Scalar, State::Dim>(n, -2, 2);
+    state.v = random.points<typename State::Scalar, State::Dim>(n, -2, 2);
+    state.x /= 3;  // numbers that need all their digits
+    state.time = static_cast<typename State::Scalar>(time / 3);
+    return state;
+}
+
+void put(const TemporaryFile& file, const std::string& text) {
+    file.write(text.data(), text.size());
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("lammps_dump: frames are read back to the bit, in any layout", "[io]",
+                   (Case<float, 1>), (Case<float, 2>), (Case<double, 1>), (Case<double, 2>),
+                   (Case<double, 3>)) {
+    using State = taut::State<typename TestType::Scalar, TestType::Dim>;
+    const TemporaryFile file("layout_" + std::to_string(sizeof(typename TestType::Scalar)) +
+                             std::to_string(TestType::Dim) + ".dump");
+    Random random(1);
+    for (int bits = 0; bits < 32; ++bits) {
+        const Layout layout{(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0, (bits & 8) != 0,
+                            (bits & 16) != 0};
+        std::vector<State> frames;
+        std::string text;
+        for (int f = 0; f < 3; ++f) {
+            frames.push_back(random_frame<State>(random, 6, f));
+            text += frame(frames.back(), layout, random);
+            if (!layout.velocities) frames.back().v.setZero();
+        }
+        put(file, text);
+        LammpsDump<typename TestType::Scalar, TestType::Dim> dump(file.path, 6);
+        State state;
+        for (const State& expected : frames) {
+            REQUIRE(dump.read(state));
+            CHECK(state.x == expected.x);
+            CHECK(state.v == expected.v);
+            CHECK(state.time == expected.time);
+            CHECK(dump.has_velocities() == layout.velocities);
+        }
+        CHECK(dump.read(state).status == DumpStatus::end);
+        CHECK(dump.read(state).status == DumpStatus::end);
+        CHECK(dump.frames() == 3);
+        CHECK(state.x == frames.back().x);
+    }
+}
+
+TEST_CASE("lammps_dump: a file cut anywhere gives whole frames and then says so",
+          "[io][bad_input]") {
+    const TemporaryFile file("cut.dump");
+    Random random(2);
+    using State = taut::State<double, 3>;
+    const State first = random_frame<State>(random, 4, 0),
+                second = random_frame<State>(random, 4, 1);
+    const std::string one = frame(first, {}, random);
+    const std::string all = one + frame(second, {}, random);
+    for (std::size_t size = 0; size < all.size(); ++size) {
+        put(file, all.substr(0, size));
+        LammpsDump<double, 3> dump(file.path, 4);
+        State state = second;
+        state.time = -1;
+        Index frames = 0;
+        while (dump.read(state)) ++frames;
+        CAPTURE(size);
+        REQUIRE(frames == (size >= one.size() ? 1 : 0));
+        REQUIRE(dump.read(state).status ==
+                (size == one.size() ? DumpStatus::end : DumpStatus::cut));
+        // What was not read as a whole has changed nothing.
+        REQUIRE(state.x == (frames > 0 ? first.x : second.x));
+        REQUIRE(state.time == (frames > 0 ? first.time : -1));
+    }
+}
+
+TEST_CASE("lammps_dump: a last line of any length that has no end is cut", "[io][bad_input]") {
+    const TemporaryFile file("tail.dump");
+    Random random(4);
+    using State = taut::State<double, 3>;
+    const std::string one = frame(random_frame<State>(random, 4, 0), {}, random);
+    for (std::size_t length = 1; length < 1100; ++length) {
+        put(file, one + std::string(length, 'x'));
+        LammpsDump<double, 3> dump(file.path, 4);
+        State state;
+        REQUIRE(dump.read(state));
+        CAPTURE(length);
+        REQUIRE(dump.read(state).status == DumpStatus::cut);
+    }
+}
+
+TEST_CASE("lammps_dump: bad input: foreign lines are named", "[io][bad_input]") {
+    const TemporaryFile file("foreign.dump");
+    Random random(3);
+    using State = taut::State<double, 2>;
+    const std::string good = frame(random_frame<State>(random, 3, 0), {}, random);
+    const auto refused = [&](const std::string& text, DumpStatus status, long long line,
+                             std::initializer_list<const char*> words) {
+        put(file, text);
+        LammpsDump<double, 2> dump(file.path, 3);
+        State state;
+        const auto report = dump.read(state);
+        CHECK(report.status == status);
+        CHECK(report.line == line);
+        CHECK(missing(report.message(), words).empty());
+        CHECK(missing(report.message(), {file.path.c_str()}).empty());
+        CHECK(state.x.size() == 0);
+        CHECK(dump.read(state).status == status);
+    };
+    const auto with = [&](const std::string& old, const std::string& fresh) {
+        std::string text = good;
+        const auto at = text.find(old);
+        REQUIRE(at != text.npos);
+        return text.replace(at, old.size(), fresh);
+    };
+    const auto foreign = DumpStatus::foreign;
+    refused("v 0 0 0\n", foreign, 1, {"\"v 0 0 0\"", "no item"});
+    refused(std::string("PK\003\004\0\0\0\n", 8), foreign, 1, {"no text"});
+    refused(std::string(1 << 17, 'x'), foreign, 1, {"no text"});
+    refused("\xff\xfe\n", foreign, 1, {"\"??\""});
+    refused(with("ITEM: UNITS\nsi", "ITEM: UNITS\nreal"), foreign, 2, {"neither si nor lj"});
+    refused(with("ITEM: TIME\n0", "ITEM: TIME\n0s"), foreign, 4, {"time is no number"});
+    refused(with("ITEM: TIME\n0\n", ""), foreign, 11, {"no ITEM: TIME"});
+    refused(with("ATOMS\n3", "ATOMS\n4"), foreign, 8, {"\"4\" particles", "has 3"});
+    refused(with("ATOMS\n3", "ATOMS\n99999999999999999999"), foreign, 8, {"has 3"});
+    refused(with("ITEM: NUMBER OF ATOMS\n3\n", ""), foreign, 11, {"no NUMBER OF ATOMS"});
+    refused(with("id x y z", "id xs ys zs"), foreign, 13, {"columns", "id xs ys"});
+    refused(with("ATOMS id x", "ATOMS type x"), foreign, 13, {"columns"});
+    refused(with(" y z", " x z"), foreign, 13, {"columns"});
+    refused(with("vx vy", "vx vz"), foreign, 13, {"columns"});
+    refused(with("\n2 ", "\n1 "), foreign, 15, {"id 1 comes twice"});
+    refused(with("\n2 ", "\n0 "), foreign, 15, {"id 0 is no particle", "1 to 3"});
+    refused(with("\n3 ", "\n4 "), foreign, 16, {"id 4 is no particle"});
+    refused(with("\n2 ", "\n2.5 "), foreign, 15, {"whole number"});
+    refused(with("\n2 ", "\n2 1 "), foreign, 15, {"too many columns"});
+    refused(with("\n2 ", "\n2 x "), foreign, 15, {"no number"});
+    refused(with("\n3 ", "\n3 nan "), DumpStatus::not_finite, 16, {"not finite"});
+    refused(with("\n3 ", "\n3 -inf "), DumpStatus::not_finite, 16, {"not finite"});
+    refused(with("\n3 ", "\n3\n"), foreign, 16, {"no number"});
+
+    // What overflows a float is no frame of floats.
+    put(file, with("\n3 ", "\n3 1e39 "));
+    LammpsDump<float, 2> narrow(file.path, 3);
+    taut::State<float, 2> state;
+    CHECK(narrow.read(state).status == DumpStatus::not_finite);
+
+    LammpsDump<double, 2> nowhere("no/such.dump", 3);
+    State none;
+    CHECK(nowhere.read(none).status == DumpStatus::not_opened);
+    CHECK(nowhere.read(none).message() == "no/such.dump: cannot be opened");
+    CHECK(missing(message_of([&] { LammpsDump<double, 2>(file.path, 0); }), {"particles is 0"})
+              .empty());
+}
+
+}  // namespace taut_test::lammps_dump_test

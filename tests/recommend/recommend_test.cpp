@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#include <string>
+#include <taut/model/tension_only.hpp>
+#include <taut/lattice/chain.hpp>
+#include <taut/scene/cloth.hpp>
+#include <taut/scene/with_law.hpp>
+#include <taut/recommend/recommend.hpp>
+
+#include "../support/catch.hpp"
+#include "../support/message.hpp"
+
+namespace taut_test::recommend_test {
+
+using taut::Candidate;
+using taut::Goal;
+using taut::Scheme;
+
+namespace {
+
+using taut::Index;
+using Cloth = taut::SpringSystem<double, 3>;
+
+Cloth cloth(double stiffness) {
+    taut::ClothOptions options;
+    options.rows = options.columns = 5;
+    options.stretch = stiffness;
+    options.bend = stiffness / 10;
+    return taut::hanging_cloth<double>(options);
+}
+
+/// Of methods other than graph inertia.
+Index others(const std::vector<taut::Plan>& plans) {
+    return std::count_if(plans.begin(), plans.end(), [](const taut::Plan& plan) {
+        return plan.candidate.scheme != Scheme::graph_inertia;
+    });
+}
+
+/// A clock that ticks once a look: every batch of steps takes one second by it.
+double ticking() {
+    static double now = 0;
+    return now += 1;
+}
+
+}  // namespace
+
+TEST_CASE("feasible_plans: explicit steps are by the recipe, all are accurate", "[tradeoff]") {
+    Goal goal;
+    goal.accuracy = taut::ModeTolerance{0.03, 0.03};
+    for (const double frequency : {1.0, 30.0, 400.0}) {
+        goal.up_to_frequency = frequency;
+        for (const double stiffness : {10.0, 1e4, 1e7}) {
+            const Cloth scene = cloth(stiffness);
+            const auto limit = taut::any_pose_limit(scene);
+            const auto plans =
+                taut::feasible_plans(scene, goal, taut::recommended_candidates(goal));
+            CHECK(others(plans) == 5);
+            for (const auto& plan : plans) {
+                if (plan.candidate.scheme == Scheme::graph_inertia) continue;
+                const double h = plan.candidate.h;
+                INFO(name(plan.candidate) << ", h = " << h);
+                CHECK_THAT(h * static_cast<double>(plan.substeps), WithinRel(goal.frame, 1e-12));
+                if (!is_implicit(plan.candidate.scheme))
+                    CHECK(h <= taut::recipe.safety * limit.certified);
+                const double added = plan.candidate.damping.look_ahead;
+                CHECK(added ==
+                      (is_implicit(plan.candidate.scheme) ? 0 : taut::recipe.damping.look_ahead));
+                CHECK(goal.accuracy->admits(
+                    taut::mode_error(plan.candidate.scheme, h * frequency, 0, added)));
+            }
+        }
+    }
+}
+
+TEST_CASE("feasible_plans: the scene's damping counts", "[tradeoff]") {
+    Goal goal;
+    goal.accuracy = taut::ModeTolerance{0.03, 0.03};
+    goal.up_to_frequency = 20;
+    Cloth scene = cloth(1e5);
+    scene.set_rayleigh({4, 0});  // a damping ratio of 0.1 at 20 rad/s
+    for (const auto& plan : taut::feasible_plans(scene, goal, taut::recommended_candidates(goal))) {
+        if (plan.candidate.scheme == Scheme::graph_inertia) continue;
+        const auto expected = taut::mode_error(plan.candidate.scheme, plan.candidate.h * 20, 0.1,
+                                               plan.candidate.damping.look_ahead);
+        CHECK(plan.error.artificial_damping == expected.artificial_damping);
+        CHECK(plan.error.period_error == expected.period_error);
+        CHECK(goal.accuracy->admits(plan.error));
+    }
+    // A mode too damped to swing has plans all the same.
+    scene.set_rayleigh({400, 0});
+    CHECK(others(taut::feasible_plans(scene, goal, taut::recommended_candidates(goal))) == 5);
+}
+
+TEST_CASE("feasible_plans: the explicit plan keeps the energy of a net that only pulls",
+          "[tradeoff]") {
+    const auto net = taut::with_law<taut::TensionOnly>(cloth(1000));
+    const auto plans = taut::feasible_plans(net, {}, taut::recommended_candidates({}));
+    const taut::Plan& plan = plans.front();
+    const Candidate& candidate = plan.candidate;
+    REQUIRE(candidate.scheme == Scheme::symplectic_euler);
+    CHECK(plan.bound == taut::StepBound::stability);
+    auto state = net.initial_state();
+    const double energy = net.energy(state);
+    taut::with_stepper(net, candidate, [&](auto& stepper) {
+        double kinetic = 0;
+        for (int frame = 0; frame < 600; ++frame) {
+            REQUIRE(stepper.step(state, candidate.h, plan.substeps));
+            kinetic = std::max(kinetic, net.kinetic_energy(state));
+            REQUIRE(net.energy(state) <= energy + 0.01 * kinetic);
+        }
+    });
+}
+
+TEST_CASE("recommend: where all steps cost the same, the fewest win", "[tradeoff]") {
+    taut::Calibration calibration;
+    calibration.clock = &ticking;
+    Goal stable;
+    Goal accurate;
+    accurate.accuracy = taut::ModeTolerance{};
+    accurate.up_to_frequency = 100;
+    for (const double stiffness : {1.0, 1e3, 1e6}) {
+        const Cloth scene = cloth(stiffness);
+        const auto start = scene.initial_state();
+        for (const Goal& goal : {stable, accurate}) {
+            const auto answer = taut::recommend(scene, start, goal, calibration);
+            Index fewest = answer.pick.substeps;
+            for (const auto& plan : answer.plans) fewest = std::min(fewest, plan.substeps);
+            CHECK_THAT(answer.pick.cost, WithinRel(0.5 * static_cast<double>(fewest), 1e-12));
+            CHECK(answer.pick.substeps == fewest);
+            CHECK(others(answer.plans) == (goal.accuracy ? 5 : 3));
+            CHECK(missing(answer.why, {"takes", "next comes"}) == "");
+        }
+        CHECK(start.x == scene.initial_state().x);
+        CHECK(start.v == scene.initial_state().v);
+    }
+}
+
+TEST_CASE("recommend: the pick keeps its word when stepped", "[tradeoff]") {
+    Goal goal;
+    for (const double stiffness : {10.0, 1e3, 1e6}) {
+        const Cloth scene = cloth(stiffness);
+        const auto answer = taut::recommend(scene, scene.initial_state(), goal);
+        auto state = scene.initial_state();
+        taut::with_stepper(scene, answer.pick.candidate, [&](auto& stepper) {
+            for (int frame = 0; frame < 60; ++frame) {
+                REQUIRE(stepper.step(state, answer.pick.candidate.h, answer.pick.substeps));
+            }
+        });
+        CHECK_THAT(state.time, WithinRel(1.0, 1e-9));
+        CHECK(state.x.cwiseAbs().maxCoeff() < 10);
+        CHECK(std::isfinite(answer.pick.cost));
+        CHECK(answer.pick.cost > 0);
+    }
+}
+
+TEST_CASE("recommend: scenes at the edge", "[tradeoff]") {
+    Goal goal;
+    Cloth dust;
+    dust.add_particle({0, 0, 0}, 1);
+    const auto alone = taut::recommend(dust, dust.initial_state(), goal);
+    CHECK(alone.pick.substeps == 1);  // nothing limits a step
+    Cloth held = cloth(100);
+    for (Index i = 0; i < held.size(); ++i) held.pin(i);
+    CHECK(taut::recommend(held, held.initial_state(), goal).pick.substeps == 1);
+    const auto flat = taut::chain<float, 2>();
+    CHECK(taut::recommend(flat, flat.initial_state(), goal).plans.size() == 3);
+}
+
+TEST_CASE("step_cost: a step that fails costs infinity", "[tradeoff]") {
+    const Cloth scene = cloth(100);
+    const auto start = scene.initial_state();
+    CHECK(std::isinf(taut::step_cost(scene, start, Candidate{Scheme::symplectic_euler, -1})));
+    CHECK(taut::step_cost(scene, start, Candidate{Scheme::symplectic_euler, 1e-4}) > 0);
+}
+
+TEST_CASE("recommend: wrong input is named", "[tradeoff]") {
+    const Cloth scene = cloth(100);
+    Goal goal;
+    goal.accuracy = taut::ModeTolerance{};
+    CHECK(missing(message_of([&] { (void)taut::recommend(scene, scene.initial_state(), goal); }),
+                  {"Goal::up_to_frequency is 0"}) == "");
+}
+
+TEST_CASE("recommend: the number of particles is chosen where the goal leaves it open",
+          "[tradeoff]") {
+    taut::ClothOptions options;
+    options.rows = options.columns = 40;
+    const auto scene = taut::hanging_cloth<double>(options);
+    const auto state = scene.initial_state();
+    taut::Calibration quick;
+    quick.seconds = 1e-3;
+    Goal goal;
+    CHECK(taut::recommend(scene, state, goal, quick).pick.particles == 0);
+    goal.resolution = taut::FreeResolution{0.1, 0.3};
+    const auto advice = taut::recommend(scene, state, goal, quick);
+    INFO(advice.why);
+    const auto found = taut::resolve(scene, state, 0.3, 0.1);
+    REQUIRE(found.coarsening);
+    CHECK(advice.pick.particles == found.coarsening->system.size());
+    const auto words = "on " + std::to_string(advice.pick.particles) + " particles";
+    CHECK(missing(advice.why, {words.c_str(), "next comes", "times cheaper than all 1600"}) == "");
+    // Every plan is safe on the network that it is for.
+    for (const auto& plan : advice.plans) {
+        if (plan.candidate.scheme != Scheme::symplectic_euler) continue;
+        const auto limit = plan.particles > 0 ? taut::any_pose_limit(found.coarsening->system)
+                                              : taut::any_pose_limit(scene);
+        CHECK(plan.candidate.h <= limit.certified);
+    }
+    goal.resolution->error = 1e-6;
+    const auto all = taut::recommend(scene, state, goal, quick);
+    CHECK(all.pick.particles == 0);
+    CHECK(missing(all.why, {"own 1600 particles are needed"}) == "");
+    goal.resolution->error = 0;
+    CHECK(missing(message_of([&] { taut::recommend(scene, state, goal, quick); }),
+                  {"resolve", "goal is 0"}) == "");
+}
+
+}  // namespace taut_test::recommend_test
