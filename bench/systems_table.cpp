@@ -53,7 +53,7 @@ void modal_row(const char* name, const taut::LinearSystem<double>& linear, const
 void modal() {
     Cloth::State pose;
     const auto net = bench::hanging_net(100, 50, pose);
-    const auto linear = net.linearize(pose);
+    const auto linear = taut::linearize(net, pose);
     taut::ModalBasis basis;
     Stopwatch analysis;
     analysis.run([&] { require(bool(taut::modal_analysis(linear, 50, basis))); });

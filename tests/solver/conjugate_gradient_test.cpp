@@ -3,6 +3,7 @@
 #include <Eigen/SparseCholesky>
 #include <limits>
 #include <taut/integrator/implicit_euler.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/solver/conjugate_gradient.hpp>
 

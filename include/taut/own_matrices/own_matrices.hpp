@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Systems that are given as matrices M, D, K.
+// Systems that are given as matrices M, D, K, and springs as such matrices.
 
 #include "linear_system.hpp"
+#include "linearize.hpp"
 #include "matrix_pencil.hpp"
