@@ -20,7 +20,7 @@
 #include "solver/conjugate_gradient.hpp"
 #include "stability/any_pose.hpp"
 #include "stability/energy_limit.hpp"
-#include "stability/rayleigh_design.hpp"
+#include "stability/rayleigh.hpp"
 #include "stability/stability.hpp"
 
 #if defined(TAUT_COMPILED)

@@ -3,6 +3,7 @@
 #include <taut/stability/rayleigh.hpp>
 
 #include "../support/catch.hpp"
+#include "../support/message.hpp"
 #include "../support/stability_scenes.hpp"
 #include "../support/tolerance.hpp"
 
@@ -325,6 +326,33 @@ TEST_CASE("rayleigh: wrong input is refused", "[stability]") {
         CHECK_THROWS_AS(window(0.1, 0, 0, bad), std::invalid_argument);
     }
     CHECK_THROWS_AS(window(0.1, 0, 2, 1), std::invalid_argument);
+}
+
+TEST_CASE("rayleigh: the damping ratio falls like 1/omega by d0 and grows like omega by alpha",
+          "[stability]") {
+    constexpr double rounding = Tolerance<double>::rounding;
+    Random random(1101);
+    for (int repeat = 0; repeat < 500; ++repeat) {
+        const double omega = log_uniform(random, 1e-2, 1e4);
+        const double zeta = log_uniform(random, 1e-4, 2);
+        const double spread = log_uniform(random, 1.01, 1e3);
+        const taut::RayleighDamping by_mass{2 * zeta * omega, 0};
+        const taut::RayleighDamping by_stiffness{0, 2 * zeta / omega};
+        CHECK_THAT(damping_ratio(by_mass, omega), WithinRel(zeta, rounding));
+        CHECK_THAT(damping_ratio(by_mass, spread * omega), WithinRel(zeta / spread, rounding));
+        CHECK_THAT(damping_ratio(by_stiffness, omega), WithinRel(zeta, rounding));
+        CHECK_THAT(damping_ratio(by_stiffness, spread * omega), WithinRel(zeta * spread, rounding));
+        // The mode's own ratio: d/(2ω) of ẍ + dẋ + ω²x with d = d0 + αω².
+        const taut::RayleighDamping both{by_mass.mass_proportional,
+                                         by_stiffness.stiffness_proportional};
+        CHECK_THAT(damping_ratio(both, omega), WithinRel(2 * zeta, rounding));
+    }
+    for (const double bad : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+        CHECK(missing(message_of([&] {
+                          (void)taut::damping_ratio({1, 1}, bad);
+                      }),
+                      {"damping_ratio", "omega"}) == "");
+    }
 }
 
 }  // namespace taut_test::rayleigh_test

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "../graph_inertia/inertia_price.hpp"
-#include "../stability/rayleigh_design.hpp"
+#include "../stability/rayleigh.hpp"
 #include "choose.hpp"
 
 namespace taut {

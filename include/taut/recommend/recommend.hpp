@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "../stability/any_pose.hpp"
-#include "../stability/rayleigh_design.hpp"
+#include "../stability/rayleigh.hpp"
 #include "choose.hpp"
 #include "cost.hpp"
 #include "graph_inertia_plans.hpp"

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "../method/mode.hpp"
+#include "../method/visit.hpp"
+#include "../model/damping.hpp"
 
 namespace taut {
 
@@ -139,6 +140,15 @@ inline AlphaWindow rayleigh_window(Method method, double h, double d0, double k_
         using Limit = typename decltype(descriptor)::Limit;
         return stability_detail::window_by(Limit{}, h, d0, k_min, k_max, compression);
     });
+}
+
+/// ζ = d0/(2ω) + αω/2, the damping ratio of Rayleigh damping at angular frequency ω, rad/s, which
+/// must be finite and > 0.
+inline double damping_ratio(const RayleighDamping& rayleigh, double omega) {
+    if (!(omega > 0) || !std::isfinite(omega)) {
+        fail("damping_ratio: omega is ", omega, "; it must be finite and > 0");
+    }
+    return rayleigh.mass_proportional / (2 * omega) + rayleigh.stiffness_proportional * omega / 2;
 }
 
 }  // namespace taut

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../../method/visit.hpp"
+#include "../../method/mode.hpp"
 #include "../../stability/detail/growth.hpp"
 
 // What a limit still claims where K or D could not be shown to be positive semi-definite.
