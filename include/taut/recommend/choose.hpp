@@ -63,8 +63,8 @@ inline Plan plan_for(Candidate candidate, double safe, const Goal& goal, double 
     require_positive("plan_for", "Goal::frame", goal.frame);
     if (!(safe > 0)) fail("plan_for: safe is ", safe, "; it must be > 0");
     const double infinity = std::numeric_limits<double>::infinity();
-    const double added = is_implicit(candidate.scheme) ? 0 : candidate.damping.look_ahead;
-    const double accurate = goal.accuracy ? accurate_step(candidate.scheme, *goal.accuracy,
+    const double added = is_implicit(candidate.method) ? 0 : candidate.damping.look_ahead;
+    const double accurate = goal.accuracy ? accurate_step(candidate.method, *goal.accuracy,
                                                           goal.up_to_frequency, zeta, added)
                                           : infinity;
     Plan plan;
@@ -78,7 +78,7 @@ inline Plan plan_for(Candidate candidate, double safe, const Goal& goal, double 
     candidate.h = goal.frame / count;
     plan.candidate = candidate;
     if (goal.accuracy) {
-        plan.error = mode_error(candidate.scheme, candidate.h * goal.up_to_frequency, zeta, added);
+        plan.error = mode_error(candidate.method, candidate.h * goal.up_to_frequency, zeta, added);
     }
     return plan;
 }
@@ -103,7 +103,7 @@ inline std::string describe(const Plan& plan) {
     char buffer[64];
     std::snprintf(buffer, sizeof buffer, " (%lld x %.3g s, ", static_cast<long long>(plan.substeps),
                   plan.candidate.h);
-    const bool inertia = plan.candidate.scheme == Method::graph_inertia;
+    const bool inertia = plan.candidate.method == Method::graph_inertia;
     const auto on =
         plan.particles > 0 ? "on " + std::to_string(plan.particles) + " particles, " : "";
     return (inertia ? "graph inertia" : name(plan.candidate)) + buffer + on +

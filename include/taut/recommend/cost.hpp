@@ -49,7 +49,7 @@ double step_cost(const System& system, const typename System::State& state,
             taken += batch;
             before = last;
             last = elapsed / static_cast<double>(batch);
-            if (batch == 1 && last > hopeless && is_implicit(candidate.scheme)) break;
+            if (batch == 1 && last > hopeless && is_implicit(candidate.method)) break;
         }
         if (!alive) before = last = std::numeric_limits<double>::infinity();
     });

@@ -27,11 +27,11 @@ inline std::vector<Candidate> recommended_candidates(const Goal& goal) {
     Candidate symplectic;
     symplectic.damping = recipe.damping;
     candidates.push_back(symplectic);
-    candidates.push_back({Scheme::graph_inertia});
-    for (const Scheme scheme : {Scheme::implicit_euler, Scheme::bdf2}) {
-        if (scheme == Scheme::bdf2 && !goal.accuracy) continue;
+    candidates.push_back({Method::graph_inertia});
+    for (const Method method : {Method::implicit_euler, Method::bdf2}) {
+        if (method == Method::bdf2 && !goal.accuracy) continue;
         for (const auto solver : {LinearSolver::conjugate_gradient, LinearSolver::direct}) {
-            candidates.push_back({scheme, 0, solver, tolerance});
+            candidates.push_back({method, 0, solver, tolerance});
         }
     }
     return candidates;
@@ -64,8 +64,8 @@ std::vector<Plan> feasible_plans(const SpringSystem<Scalar, Dim, Laws...>& syste
     std::vector<Plan> plans;
     for (const Candidate& candidate : candidates) {
         const method::AnyPose safe = method::visit(
-            candidate.scheme, [](auto descriptor) { return decltype(descriptor)::any_pose; });
-        if (candidate.scheme == Scheme::graph_inertia) {
+            candidate.method, [](auto descriptor) { return decltype(descriptor)::any_pose; });
+        if (candidate.method == Method::graph_inertia) {
             if (!(limit > 0)) continue;
             const auto most =
                 static_cast<Index>(std::min(1e15, std::ceil(goal.frame / (recipe.safety * limit))));
