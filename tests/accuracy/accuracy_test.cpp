@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <taut/lattice/chain.hpp>
 #include <taut/method/mode.hpp>
-#include <taut/recommend/mode_probe.hpp>
+#include <taut/tradeoff/mode_probe.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/message.hpp"

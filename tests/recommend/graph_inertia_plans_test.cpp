@@ -3,7 +3,7 @@
 #include <taut/model/tension_only.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/scene/with_law.hpp>
-#include <taut/recommend/mode_probe.hpp>
+#include <taut/tradeoff/mode_probe.hpp>
 #include <taut/recommend/recommend.hpp>
 
 #include "../support/catch.hpp"

@@ -181,38 +181,4 @@ TEST_CASE("recommend: wrong input is named", "[tradeoff]") {
                   {"Goal::up_to_frequency is 0"}) == "");
 }
 
-TEST_CASE("recommend: the number of particles is chosen where the goal leaves it open",
-          "[tradeoff]") {
-    taut::ClothOptions options;
-    options.rows = options.columns = 40;
-    const auto scene = taut::hanging_cloth<double>(options);
-    const auto state = scene.initial_state();
-    taut::Calibration quick;
-    quick.seconds = 1e-3;
-    Goal goal;
-    CHECK(taut::recommend(scene, state, goal, quick).pick.particles == 0);
-    goal.resolution = taut::FreeResolution{0.1, 0.3};
-    const auto advice = taut::recommend(scene, state, goal, quick);
-    INFO(advice.why);
-    const auto found = taut::resolve(scene, state, 0.3, 0.1);
-    REQUIRE(found.coarsening);
-    CHECK(advice.pick.particles == found.coarsening->system.size());
-    const auto words = "on " + std::to_string(advice.pick.particles) + " particles";
-    CHECK(missing(advice.why, {words.c_str(), "next comes", "times cheaper than all 1600"}) == "");
-    // Every plan is safe on the network that it is for.
-    for (const auto& plan : advice.plans) {
-        if (plan.candidate.method != Method::symplectic_euler) continue;
-        const auto limit = plan.particles > 0 ? taut::any_pose_limit(found.coarsening->system)
-                                              : taut::any_pose_limit(scene);
-        CHECK(plan.candidate.h <= limit.certified);
-    }
-    goal.resolution->error = 1e-6;
-    const auto all = taut::recommend(scene, state, goal, quick);
-    CHECK(all.pick.particles == 0);
-    CHECK(missing(all.why, {"own 1600 particles are needed"}) == "");
-    goal.resolution->error = 0;
-    CHECK(missing(message_of([&] { taut::recommend(scene, state, goal, quick); }),
-                  {"resolve", "goal is 0"}) == "");
-}
-
 }  // namespace taut_test::recommend_test

@@ -17,19 +17,12 @@
 
 namespace taut {
 
-/// How far positions may be from the scene's own, where recommend() may choose fewer particles.
-struct FreeResolution {
-    double error = 0.03;  ///< of the scene's size, as of resolve()
-    double duration = 1;  ///< s, for which it holds
-};
-
 /// What a scene is simulated for.
 struct Goal {
     double frame = 1.0 / 60;                ///< s; steps divide it evenly
     std::optional<ModeTolerance> accuracy;  ///< none: stable is enough
     double up_to_frequency = 0;             ///< rad/s: the modes that `accuracy` is about
     double budget = std::numeric_limits<double>::infinity();  ///< CPU s a frame
-    std::optional<FreeResolution> resolution;  ///< none: the particles that there are
 };
 
 /// What keeps a step from being larger.
@@ -48,8 +41,7 @@ struct Plan {
     Candidate candidate;
     Index substeps = 1;  ///< a frame; candidate.h is frame/substeps
     StepBound bound = StepBound::frame;
-    ModeError error;      ///< predicted at Goal::up_to_frequency; 0 without a goal of accuracy
-    Index particles = 0;  ///< of a coarser network, coarsen(system, particles); 0: the scene itself
+    ModeError error;       ///< predicted at Goal::up_to_frequency; 0 without a goal of accuracy
     AddedInertia inertia;  ///< of graph inertia, whose error is the worst up to that frequency
     double cost = std::numeric_limits<double>::infinity();  ///< CPU s a frame; infinity: it fails
 };
@@ -104,10 +96,8 @@ inline std::string describe(const Plan& plan) {
     std::snprintf(buffer, sizeof buffer, " (%lld x %.3g s, ", static_cast<long long>(plan.substeps),
                   plan.candidate.h);
     const bool inertia = plan.candidate.method == Method::graph_inertia;
-    const auto on =
-        plan.particles > 0 ? "on " + std::to_string(plan.particles) + " particles, " : "";
-    return (inertia ? "graph inertia" : name(plan.candidate)) + buffer + on +
-           milliseconds(plan.cost) + " a frame)";
+    return (inertia ? "graph inertia" : name(plan.candidate)) + buffer + milliseconds(plan.cost) +
+           " a frame)";
 }
 constexpr const char* reason(StepBound bound) {
     switch (bound) {

@@ -3,17 +3,12 @@
 #pragma once
 
 #include <algorithm>
-#include <ctime>
 #include <limits>
 
+#include "../core/clock.hpp"
 #include "candidate.hpp"
 
 namespace taut {
-
-/// Processor time of this process, s.
-inline double cpu_seconds() {
-    return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
-}
 
 /// How costs are measured.
 struct Calibration {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -13,7 +12,6 @@
 #include "choose.hpp"
 #include "cost.hpp"
 #include "graph_inertia_plans.hpp"
-#include "../resolution/resolution.hpp"
 
 namespace taut {
 
@@ -106,42 +104,6 @@ void measure_costs(const System& system, const typename System::State& state,
     }
 }
 
-/// CPU s of lifting positions once.
-template <class System>
-double lift_cost(const Coarsening<System>& coarsening, const Calibration& calibration) {
-    const auto moved = coarsening.system.initial_state().v;
-    double least = std::numeric_limits<double>::infinity();
-    for (int repeat = 0; repeat < 3; ++repeat) {
-        const double start = calibration.clock();
-        const auto lifted = coarsening.lifted(moved);
-        // What depends on the result cannot be left out.
-        const double nothing = static_cast<double>(lifted(0, 0)) * 0;
-        least = std::min(least, calibration.clock() - start + nothing);
-    }
-    return least;
-}
-
-/// Appends the plans of a coarser network that meets the goal's resolution, if there is one.
-/// @returns what resolve() says
-template <class System>
-std::string add_coarser_plans(const System& system, const typename System::State& state,
-                              const Goal& goal, const std::vector<Candidate>& candidates,
-                              const Calibration& calibration, std::vector<Plan>& plans) {
-    const auto found = resolve(system, state, goal.resolution->duration, goal.resolution->error);
-    if (!found.coarsening) return found.why;
-    const auto& coarse = found.coarsening->system;
-    const auto start = found.coarsening->restricted(state);
-    std::vector<Plan> coarser = feasible_plans(coarse, start, goal, candidates);
-    measure_costs(coarse, start, calibration, coarser);
-    const double lift = lift_cost(*found.coarsening, calibration);
-    for (Plan& plan : coarser) {
-        plan.particles = coarse.size();
-        plan.cost += lift;
-        plans.push_back(plan);
-    }
-    return found.why;
-}
-
 }  // namespace tradeoff_detail
 
 /// The integrator, solver, step and substeps that reach a goal at the least cost on this machine:
@@ -151,13 +113,9 @@ std::string add_coarser_plans(const System& system, const typename System::State
 ///     auto advice = taut::recommend(cloth, state, goal);
 ///     advice.pick.candidate.h, advice.why
 ///
-/// With Goal::resolution it chooses the number of particles, too: where resolve() finds a coarser
-/// network that meets that goal, plans of it, with the cost of lifting once a frame, are compared
-/// with those of the scene. Plan::particles then says how many, for coarsen().
-///
 /// Costs are those of the code as compiled and of the machine as busy as it is; everything else is
 /// deterministic.
-/// @throws (fail) what feasible_plans(), choose() and resolve() refuse
+/// @throws (fail) what feasible_plans() and choose() refuse
 template <class Scalar, int Dim, class... Laws>
 Recommendation recommend(const SpringSystem<Scalar, Dim, Laws...>& system,
                          const State<Scalar, Dim>& state, const Goal& goal,
@@ -165,18 +123,7 @@ Recommendation recommend(const SpringSystem<Scalar, Dim, Laws...>& system,
                          const Calibration& calibration = {}) {
     std::vector<Plan> plans = feasible_plans(system, state, goal, candidates);
     tradeoff_detail::measure_costs(system, state, calibration, plans);
-    std::string resolution;
-    if (goal.resolution) {
-        if constexpr ((CoarseLaw<Laws>::known && ...)) {
-            resolution = " " + tradeoff_detail::add_coarser_plans(system, state, goal, candidates,
-                                                                  calibration, plans);
-        } else {
-            fail("recommend: Goal::resolution needs taut::CoarseLaw for every law of the system");
-        }
-    }
-    Recommendation answer = choose(std::move(plans), goal);
-    answer.why += resolution;
-    return answer;
+    return choose(std::move(plans), goal);
 }
 
 /// The same among recommended_candidates(goal).

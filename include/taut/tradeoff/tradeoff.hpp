@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "../stability/any_pose.hpp"
-#include "../recommend/cost.hpp"
+#include "../core/clock.hpp"
 #include "extrapolation.hpp"
-#include "../recommend/mode_probe.hpp"
+#include "mode_probe.hpp"
 #include "pareto.hpp"
 #include "trajectory.hpp"
 

@@ -13,7 +13,7 @@
 #include "../mass_scaling/detail/low_modes.hpp"
 #include "../stability/spring_pencil.hpp"
 #include "../accuracy/accuracy.hpp"
-#include "candidate.hpp"
+#include "../recommend/candidate.hpp"
 
 // The errors of accuracy.hpp, measured: a stepper is started in one mode and its swing is fitted.
 
