@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// Needs the modules contact, mass_scaling, tight.
+
 #include <cmath>
 #include <cstdint>
 #include <utility>

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// Needs the module mesh_files.
+
 #include <cmath>
 #include <string>
 #include <utility>

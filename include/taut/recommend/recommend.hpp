@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// Needs the modules accuracy, bdf2, graph_inertia.
+
 #include <algorithm>
 #include <limits>
 #include <utility>

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// Needs the modules accuracy, mass_scaling, recommend.
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
