@@ -10,6 +10,7 @@
 #include <taut/contact/contact.hpp>
 #include <taut/equilibrium/equilibrium.hpp>
 #include <taut/taut.hpp>
+#include <taut/accuracy/accuracy.hpp>
 
 namespace {
 

@@ -4,6 +4,10 @@
 
 #include <memory>
 #include <taut/modal/modal_analysis.hpp>
+#include <taut/bdf2/bdf2.hpp>
+#include <taut/equilibrium/equilibrium.hpp>
+#include <taut/mass_scaling/mass_scaling.hpp>
+#include <taut/projective/projective.hpp>
 
 #include "soup.hpp"
 

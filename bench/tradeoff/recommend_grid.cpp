@@ -14,6 +14,7 @@
 #include <taut/recommend/recommend.hpp>
 #include <taut/taut.hpp>
 #include <vector>
+#include <taut/tradeoff/tradeoff.hpp>
 
 #include "../measure.hpp"
 #include "../outcome.hpp"

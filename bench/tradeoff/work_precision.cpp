@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
-#include <taut/lattice/lattice.hpp>
 #include <taut/projective/projective.hpp>
 #include <taut/recommend/recommend.hpp>
 #include <taut/taut.hpp>

@@ -3,6 +3,10 @@
 
 // The steppers that solve linear systems, compiled beside those that do not.
 
+#include <taut/bdf2/bdf2.hpp>
+#include <taut/graph_inertia/graph_inertia.hpp>
+#include <taut/projective/projective.hpp>
+
 #include "any_solver.hpp"
 #include "stepping.hpp"
 

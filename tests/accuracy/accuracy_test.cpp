@@ -3,6 +3,7 @@
 #include <taut/lattice/chain.hpp>
 #include <taut/method/mode.hpp>
 #include <taut/tradeoff/mode_probe.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/message.hpp"

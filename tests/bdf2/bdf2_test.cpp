@@ -7,6 +7,7 @@
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/model/spring_system.hpp>
 #include <taut/solver/conjugate_gradient.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <vector>
 
 #include "../support/catch.hpp"
@@ -277,7 +278,8 @@ TEST_CASE("bdf2: conjugate gradients take the direct solver's steps, and their c
     CHECK(distance(by_factors.v, by_gradients.v) <= 1e-9 * largest(by_factors.v));
 
     const auto chain = stiff_chain();
-    Bdf2<System, Solver> capped(chain);
+    using Chain = std::decay_t<decltype(chain)>;
+    Bdf2<Chain, taut::ConjugateGradient<double, 1>> capped(chain);
     capped.configure([](auto& solver) { solver.setTolerance(1e-13); });
     auto state = chain.initial_state();
     const auto before = state;

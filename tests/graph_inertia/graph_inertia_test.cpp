@@ -4,6 +4,7 @@
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/model/state_view.hpp>
 #include <taut/stability/any_pose.hpp>
+#include <taut/wind/wind.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/check_stepper.hpp"

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <taut/integrator/explicit_euler.hpp>
 #include <taut/model/spring_system.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/check_stepper.hpp"

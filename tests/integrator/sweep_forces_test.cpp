@@ -6,6 +6,7 @@
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/integrator/velocity_verlet.hpp>
 #include <taut/scene/cloth.hpp>
+#include <taut/wind/wind.hpp>
 
 #include <cmath>
 #include <stdexcept>

@@ -10,6 +10,7 @@
 #include <taut/model/buckling.hpp>
 #include <taut/model/tension_only.hpp>
 #include <taut/scene/cloth.hpp>
+#include <taut/wind/wind.hpp>
 #include <vector>
 
 #include "../support/catch.hpp"

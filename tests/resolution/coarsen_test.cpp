@@ -7,6 +7,7 @@
 #include <set>
 #include <taut/model/tension_only.hpp>
 #include <taut/resolution/coarsen.hpp>
+#include <taut/wind/wind.hpp>
 #include <utility>
 #include <vector>
 

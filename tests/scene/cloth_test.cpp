@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <taut/scene/cloth.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <vector>
 
 #include "../support/catch.hpp"

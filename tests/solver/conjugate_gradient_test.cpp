@@ -184,12 +184,12 @@ TEST_CASE("conjugate_gradient: the cap of iterations is reported and the state u
     const auto chain = stiff_chain();
     using System = std::decay_t<decltype(chain)>;
     auto state = chain.initial_state();
-    ImplicitEuler<System, ConjugateGradient<double, 3>> stepper(chain);
+    ImplicitEuler<System, ConjugateGradient<double, 1>> stepper(chain);
     REQUIRE(stepper.step(state, 1e-8, 3));
     const auto before = state;
     stepper.configure([](auto& solver) { solver.setTolerance(1e-13); });
     CHECK(stepper.step(state, 1.0).status == Status::not_converged);
-    CHECK(stepper.solver().iterations() == 4 * 3 * chain.size());
+    CHECK(stepper.solver().iterations() == 8 * chain.size());
     CHECK(same_bits(state, before));
     stepper.configure([](auto& solver) { solver.setTolerance(1e-3); });
     CHECK(stepper.step(state, 1e-8));

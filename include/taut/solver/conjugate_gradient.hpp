@@ -19,7 +19,7 @@ namespace taut {
 ///
 /// Stops when ‖b − A x‖ ≤ tolerance·‖b‖, or where rounding leaves it above: error() is the true
 /// one. A direction p with pᵀAp ≤ 0 shows an indefinite matrix and is reported as
-/// Eigen::NumericalIssue; four times as many iterations as unknowns as Eigen::NoConvergence.
+/// Eigen::NumericalIssue; eight times as many iterations as unknowns as Eigen::NoConvergence.
 /// @tparam Dim  the matrix consists of full Dim × Dim blocks; 1 fits every matrix
 template <class Scalar_, int Dim>
 class ConjugateGradient {
@@ -138,7 +138,7 @@ auto ConjugateGradient<Scalar_, Dim>::solve_from_x(const Vector& b) const -> con
         r_ = b;
         error_ = r_.norm() / norm;
     }
-    const Index cap = 4 * b.size();
+    const Index cap = 8 * b.size();
     while (!(error_ <= tolerance_)) {
         if (fast_usable_) {
             improve_fast(b, norm, cap);
@@ -171,7 +171,7 @@ void ConjugateGradient<Scalar_, Dim>::improve_fast(const Vector& b, Scalar norm,
         // A little more than is asked for, in place of a second cycle; but not so much that the
         // recurrence has drifted away. On some matrices it never comes down.
         const Scalar goal = std::max(Scalar(0.9) * tolerance_ * norm / size, Scalar(1e-5));
-        const Index most = iterations_ + std::clamp(cap / 4, Index(1), Index(500));
+        const Index most = iterations_ + std::clamp(b.size(), Index(1), Index(500));
         fast_usable_ = fast_.run(rounded_, static_cast<Fast>(goal), std::min(cap, most),
                                  iterations_) != Eigen::NumericalIssue;
         if (!fast_usable_) return;
