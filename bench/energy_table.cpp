@@ -11,6 +11,7 @@
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/stability/energy_limit.hpp>
 #include <taut/stability/lanczos.hpp>
+#include <taut/tight/tight.hpp>
 #include <utility>
 
 #include "../tests/support/energy_networks.hpp"

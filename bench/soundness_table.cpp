@@ -14,6 +14,7 @@
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/taut.hpp>
 #include <taut/tight/dense.hpp>
+#include <taut/tight/tight.hpp>
 #include <tuple>
 #include <vector>
 
@@ -90,7 +91,7 @@ void conditioned_pairs() {
         const double condition = extreme(p, p) * extreme(q, q) / (extreme(p, 1) * extreme(q, 1));
         const taut::Stability<double> stability(system);
         for (const double tightness : {0.0, 1e-4}) {
-            const auto limit = stability.max_step(Method::symplectic_euler, tightness);
+            const auto limit = taut::max_step(stability, Method::symplectic_euler, tightness);
             const double lower = std::max(limit.certified, limit.certified_up_to);
             std::printf("| %lld | %.1e | %g | %s | %.6f | %.6f | %.1e |\n",
                         static_cast<long long>(A.rows()), condition, tightness,
@@ -221,7 +222,7 @@ void random_trial(std::mt19937& random, Tally& symplectic, Tally& narrowed, Tall
         const long double h = true_symplectic(stability.pencil());
         const Truth truth{h, h};
         symplectic.add(limit.certified, limit.refuted, truth);
-        const auto narrow = stability.max_step(Method::symplectic_euler, 1e-4);
+        const auto narrow = taut::max_step(stability, Method::symplectic_euler, 1e-4);
         narrowed.add(narrow.certified, narrow.refuted, truth);
     }
     const auto by_explicit = stability.max_step(Method::explicit_euler);

@@ -15,6 +15,7 @@
 #include <taut/bdf2/bdf2.hpp>
 #include <taut/contact/contact.hpp>
 #include <taut/modal/modal_dynamics.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/projective/projective.hpp>
 #include <taut/taut.hpp>
 #include <utility>
@@ -190,7 +191,7 @@ void modes(const std::string& folder) {
     Table table(folder, "modal.csv", "force,r,relative_error");
     Cloth::State pose;
     const auto net = bench::hanging_net(12, 8, pose);
-    const auto linear = net.linearize(pose);
+    const auto linear = taut::linearize(net, pose);
     taut::ModalBasis all;
     if (!taut::modal_analysis(linear, linear.size(), all)) std::exit(1);
     taut::Points<double, 3> wind = taut::Points<double, 3>::Zero(3, net.size());

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <taut/mass_scaling/mass_scaling.hpp>
 #include <taut/taut.hpp>
+#include <taut/tight/tight.hpp>
 
 using taut::Method;
 
@@ -21,12 +22,13 @@ int main() {
                 limit.refuted, name(limit.cause));
 
     std::printf("And to six digits?\n");
-    const auto narrow = stability.max_step(Method::symplectic_euler, 1e-6);
+    const auto narrow = taut::max_step(stability, Method::symplectic_euler, 1e-6);
     std::printf("  %.9e s is proved, %.9e s is not\n", narrow.certified, narrow.refuted);
 
     std::printf("Is my step safe?\n");
-    std::printf("  1e-4 s: %s\n",
-                stability.certify(Method::symplectic_euler, 1e-4).proved ? "proved" : "not proved");
+    std::printf("  1e-4 s: %s\n", taut::certify(stability, Method::symplectic_euler, 1e-4).proved
+                                      ? "proved"
+                                      : "not proved");
 
     std::printf("How many substeps does a frame of 1/60 s need?\n");
     const auto substeps = stability.substeps(Method::symplectic_euler, 1.0 / 60);

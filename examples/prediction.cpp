@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <stdexcept>
 #include <string>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <utility>
 #include <taut/own_matrices/own_matrices.hpp>
 
@@ -128,7 +129,7 @@ Limited find_limit(const char* label, const example::System& system, Method meth
     const taut::Stability<double> stability(system, pose);
     const auto limit = stability.max_step(method);
     require_steps(label, limit);
-    const auto linear = system.linearize(pose);
+    const auto linear = taut::linearize(system, pose);
     return {
         {linear.mass(), linear.damping(), linear.stiffness()}, limit, stability.limiting_mode()};
 }

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 #include <taut/own_matrices/own_matrices.hpp>
+#include <taut/tight/tight.hpp>
 
 #include "common/lammps_files.hpp"
 #include "common/main.hpp"
@@ -57,16 +58,18 @@ void analyse(const taut::Stability<double>& stability, const Options& options, P
              Findings& found) {
     progress.at(options.proof ? "narrowing the limits by factorisations" : "bounding the limits");
     found.degrees_of_freedom = stability.size();
-    found.spectrum = stability.stiffness_spectrum(options.zero_modes);
+    found.spectrum = stability.stiffness_spectrum();
+    if (options.zero_modes) found.zero_modes = taut::count_zero_modes(stability);
     const double tightness = options.proof ? proof_tightness : 0;
-    found.explicit_euler = stability.max_step(Method::explicit_euler, tightness);
-    found.symplectic_euler = stability.max_step(Method::symplectic_euler, tightness);
-    found.implicit_euler = stability.max_step(Method::implicit_euler, tightness);
+    found.explicit_euler = taut::max_step(stability, Method::explicit_euler, tightness);
+    found.symplectic_euler = taut::max_step(stability, Method::symplectic_euler, tightness);
+    found.implicit_euler = taut::max_step(stability, Method::implicit_euler, tightness);
     if (options.proof) {
         // The wanted step, or the largest that the bracket says can be had.
         const double h =
             options.want_step > 0 ? options.want_step : found.symplectic_euler.certified;
-        if (h > 0 && std::isfinite(h)) found.proof = stability.certify(Method::symplectic_euler, h);
+        if (h > 0 && std::isfinite(h))
+            found.proof = taut::certify(stability, Method::symplectic_euler, h);
     }
     const auto limiting_mode = [&]() -> const taut::LimitingMode& {
         if (!found.limiting_mode) {

@@ -11,6 +11,7 @@
 #include <taut/equilibrium/equilibrium.hpp>
 #include <taut/taut.hpp>
 #include <taut/accuracy/accuracy.hpp>
+#include <taut/tight/tight.hpp>
 
 namespace {
 
@@ -43,7 +44,7 @@ void not_finite_at_once() {
     auto state = net.initial_state();
     const taut::Stability<double> stability(net, state);
     const double h = 1.0 / 60;
-    const double factor = stability.spectral_radius(Method::symplectic_euler, h);
+    const double factor = taut::spectral_radius(stability, Method::symplectic_euler, h);
     state.v(2, 70) = 1e-3;
     taut::SymplecticEuler stepper(net);
     int frames = 0;
@@ -62,7 +63,7 @@ void saw_tooth() {
     auto still = net.initial_state();
     expect(bool(taut::static_equilibrium(net, still)), "the cloth comes to rest");
     const taut::Stability<double> stability(net, still);
-    const auto limit = stability.max_step(Method::symplectic_euler, 1e-3);
+    const auto limit = taut::max_step(stability, Method::symplectic_euler, 1e-3);
     for (const double h : {0.99 * limit.certified, 1.01 * limit.refuted}) {
         auto state = still;
         state.v(0, 70) = 1e-9;
@@ -87,7 +88,7 @@ void grows_in_swings() {
     for (const double h : {0.02, 0.002}) {
         const taut::Stability<double> stability(net, net.initial_state());
         const auto growth = [&](Method method) {  // in a second
-            return std::pow(stability.spectral_radius(method, h), 1 / h);
+            return std::pow(taut::spectral_radius(stability, method, h), 1 / h);
         };
         std::printf("%.3f s: x%.2f a second by explicit, x%.2f by symplectic Euler\n", h,
                     growth(Method::explicit_euler), growth(Method::symplectic_euler));
@@ -283,7 +284,7 @@ void crumples() {
     auto state = net.initial_state();
     state.x.row(0) *= 0.95;
     const taut::Stability<double> stability(net, state);
-    const auto limit = stability.max_step(Method::symplectic_euler, 1e-3);
+    const auto limit = taut::max_step(stability, Method::symplectic_euler, 1e-3);
     state.x(2, 5) = 1e-6;
     const double start = net.energy(state);
     double highest = 0, rise = 0;

@@ -7,6 +7,7 @@
 #include <taut/method/visit.hpp>
 #include <taut/stability/any_pose.hpp>
 #include <taut/stability/stability.hpp>
+#include <taut/tight/tight.hpp>
 
 #include "claims.hpp"
 #include "random_scene.hpp"
@@ -205,7 +206,7 @@ void judge_stability(Draw& draw, Judge& judge, const taut::Stability<Scalar>& st
                                 Method::implicit_euler, Method::graph_inertia}) {
         const std::string label = taut::name(method);
         const auto bound = stability.max_step(method);
-        const auto narrow = stability.max_step(method, tightness);
+        const auto narrow = taut::max_step(stability, method, tightness);
         judge.limit(method, label + ", by bounds", bound);
         judge.limit(method, label + ", narrowed", narrow);
         const auto from = static_cast<double>(bound.certified);
@@ -214,7 +215,7 @@ void judge_stability(Draw& draw, Judge& judge, const taut::Stability<Scalar>& st
                          : from > 0     ? from * draw.uniform(1, 3)
                          : std::isfinite(to) ? to * draw.uniform(0.3, 1)
                                              : 1;
-        if (h > 0 && std::isfinite(h) && stability.certify(method, h).proved)
+        if (h > 0 && std::isfinite(h) && taut::certify(stability, method, h).proved)
             judge.certifies(method, label + ", certify: proved", h, 0);
     }
     const auto spectrum = stability.stiffness_spectrum();

@@ -79,7 +79,7 @@ inline bool judge_seed(bool springs, std::uint32_t seed, Tally& tally) {
             say("from springs");
             const auto scene =
                 random_scene<SpringSystem<double, 2, Hookean, TensionOnly, Buckling>>(draw);
-            judge_matrices(draw, tally, scene.system.linearize(scene.state));
+            judge_matrices(draw, tally, taut::linearize(scene.system, scene.state));
         } else if (kind == 1) {
             say("float");
             judge_matrices(draw, tally, random_linear<float>(draw));

@@ -142,7 +142,7 @@ public:
         // Whole nets of up to 16 rows; of larger ones a strip of two columns, which has the modes.
         judged_ = net(cell, cell.n > 16 ? 2 : cell.n, rest_);
         relax(cell, judged_, rest_);
-        const auto loaded = judged_.linearize(rest_);
+        const auto loaded = taut::linearize(judged_, rest_);
         linear_.emplace(loaded.mass(), loaded.damping(), loaded.stiffness());
         modes_ = row_modes(cell, judged_, *linear_, goal.up_to_frequency);
     }

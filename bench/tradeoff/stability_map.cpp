@@ -13,6 +13,7 @@
 #include <taut/tight/dense.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/taut.hpp>
+#include <taut/tight/tight.hpp>
 
 namespace {
 
@@ -59,7 +60,7 @@ double growth(const Cloth& cloth, const Cloth::State& start, double h, Index ste
 /// Off rest along every stiff mode; mechanisms, which no force moves, are left alone.
 Cloth::State disturbed(const Cloth& cloth) {
     auto state = cloth.initial_state();
-    const taut::LinearSystem<double> linear = cloth.linearize(state);
+    const taut::LinearSystem<double> linear = taut::linearize(cloth, state);
     const Eigen::VectorXd push =
         linear.stiffness() * taut::stability_detail::scattered_vector(linear.size());
     auto u = linear.to_free(state);
@@ -111,7 +112,7 @@ void print_multipliers() {
         const double alpha = 8e-4;
         const Cloth cloth = scene(alpha);
         const taut::Stability<double> stability(cloth, cloth.initial_state());
-        const auto limit = stability.max_step(method, 1e-6);
+        const auto limit = taut::max_step(stability, method, 1e-6);
         const taut::DenseAnalysis<> dense(stability.pencil());
         for (const double part : {0.99, 1.01}) {
             const double h = part * (part < 1 ? limit.certified : limit.refuted);

@@ -12,6 +12,7 @@
 #include <taut/mass_scaling/mass_scaling.hpp>
 #include <taut/resolution/resolution.hpp>
 #include <taut/taut.hpp>
+#include <taut/tight/tight.hpp>
 #include <vector>
 
 // What stability_report finds.
@@ -39,13 +40,13 @@ Verdict judge(const taut::Stability<double>& stability, const taut::StepLimit<do
     using Standing = Verdict::Standing;
     if (h <= limit.certified) return {h, Standing::certified};
     if (h < limit.refuted) {
-        const bool proved = stability.certify(Method::symplectic_euler, h).proved;
+        const bool proved = taut::certify(stability, Method::symplectic_euler, h).proved;
         return {h, proved ? Standing::certified : Standing::undecided};
     }
     const taut::LimitingMode& limiting = mode();
     return {h, Standing::refuted,
             std::max(taut::spectral_radius(Method::symplectic_euler, limiting.k, limiting.d, h),
-                     stability.spectral_radius(Method::symplectic_euler, h))};
+                     taut::spectral_radius(stability, Method::symplectic_euler, h))};
 }
 
 inline const char* name(Verdict::Standing standing) {
@@ -135,6 +136,7 @@ struct Findings {
     std::optional<taut::Index> particles;
     std::optional<taut::Index> springs;
     taut::StiffnessSpectrum spectrum;
+    std::optional<taut::Index> zero_modes;  // where asked for
     taut::StepLimit<double> explicit_euler;
     taut::StepLimit<double> symplectic_euler;
     taut::StepLimit<double> implicit_euler;

@@ -70,7 +70,7 @@ inline Json to_json(const Findings& found, double d0) {
     json["degrees_of_freedom"] = found.degrees_of_freedom;
     json["particles"] = optional_json(found.particles);
     json["springs"] = optional_json(found.springs);
-    json["zero_modes"] = optional_json(found.spectrum.zero_modes);
+    json["zero_modes"] = optional_json(found.zero_modes);
     json["k_min"] = bracket(found.spectrum.k_min);
     json["k_max"] = bracket(found.spectrum.k_max);
     json["explicit_euler"] = limit_json(found.explicit_euler);

@@ -213,9 +213,9 @@ inline void print_table(const Findings& found, double d0) {
     const auto& k = found.spectrum;
     std::printf("Eigenvalues of K/M: k_min in [%.4g, %.4g], k_max in [%.6g, %.6g] 1/s^2\n",
                 k.k_min.lower, k.k_min.upper, k.k_max.lower, k.k_max.upper);
-    if (k.zero_modes) {
+    if (found.zero_modes) {
         std::printf("Zero modes (rigid motions and mechanisms): %lld\n",
-                    static_cast<long long>(*k.zero_modes));
+                    static_cast<long long>(*found.zero_modes));
     }
     std::printf("Explicit Euler at h = %.4e s with d0 = %g 1/s: ", found.window_step, d0);
     if (found.window.empty != taut::EmptyWindow::none) {

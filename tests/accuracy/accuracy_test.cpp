@@ -119,7 +119,7 @@ TEMPLATE_TEST_CASE("accuracy: predicted against measured on every mode of a chai
     auto chain = taut::chain<Scalar, 1>(options);
     chain.set_rayleigh({Scalar(0.3), Scalar(1e-3)});
     const auto rest = chain.initial_state();
-    const auto loaded = chain.linearize(rest);
+    const auto loaded = taut::linearize(chain, rest);
     const taut::LinearSystem<Scalar> linear(loaded.mass(), loaded.damping(), loaded.stiffness());
     const auto modes = taut::lowest_modes(chain, rest, 6);
     REQUIRE(modes.size() == 6);

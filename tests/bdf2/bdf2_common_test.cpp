@@ -3,6 +3,7 @@
 // What all steppers promise, for BDF2: tests in bdf2_test.cpp are its own.
 #include <taut/bdf2/bdf2.hpp>
 #include <taut/model/spring_system.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/check_stepper.hpp"

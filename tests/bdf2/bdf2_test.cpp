@@ -6,6 +6,7 @@
 #include <taut/bdf2/bdf2.hpp>
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/model/spring_system.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/solver/conjugate_gradient.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
 #include <vector>

@@ -3,5 +3,6 @@
 // EXPECT: taut::ImplicitEuler: a GeneralLinearSystem needs an unsymmetric solver
 
 #include <taut/integrator/implicit_euler.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 
 void step(const taut::GeneralLinearSystem<double>& system) { taut::ImplicitEuler stepper(system); }

@@ -4,6 +4,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <taut/integrator/implicit_euler.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 
 using System = taut::GeneralLinearSystem<double>;
 

@@ -5,6 +5,7 @@
 
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/model/spring_system.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 
 class NoTension : public taut::Hookean {
     using Hookean::tension;  // private: as good as absent
@@ -14,7 +15,7 @@ void use(taut::SpringSystem<double, 3, NoTension>& system) {
     system.add_spring<NoTension>(0, 1, {10});
     auto state = system.initial_state();
     system.energy(state);
-    system.linearize(state);
+    taut::linearize(system, state);
     taut::SymplecticEuler stepper(system);
     if (!stepper.step(state, 0.01)) return;
 }

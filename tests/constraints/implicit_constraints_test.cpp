@@ -5,6 +5,7 @@
 #include <limits>
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/model/spring_system.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/solver/conjugate_gradient.hpp>
 
 #include "../support/catch.hpp"
@@ -105,7 +106,7 @@ TEST_CASE("implicit_constraints: constraints of a linear system, and their relea
     const auto springs = random_system<double, 2>(random);
     auto pose = springs.initial_state();
     pose.x *= 3;
-    const auto linear = springs.linearize(pose);
+    const auto linear = taut::linearize(springs, pose);
     auto u = linear.initial_state();
     ImplicitEuler stepper(linear);
     stepper.constraints().fix(4);

@@ -12,6 +12,7 @@
 #endif
 #ifdef CONSUMER_MODAL
 #include <taut/modal/modal_analysis.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #endif
 
 int main() {
@@ -28,7 +29,8 @@ int main() {
 #endif
 #ifdef CONSUMER_MODAL
     taut::ModalBasis modes;
-    if (auto report = taut::modal_analysis(cloth.linearize(state), 4, modes); !report) return 1;
+    if (auto report = taut::modal_analysis(taut::linearize(cloth, state), 4, modes); !report)
+        return 1;
 #endif
     std::printf("t = %g s, lowest z = %g m\n", state.time, state.x.row(2).minCoeff());
 }

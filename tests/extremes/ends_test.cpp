@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/stability/any_pose.hpp>
 #include <taut/stability/stability.hpp>
+#include <taut/tight/tight.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/message.hpp"
@@ -97,10 +99,10 @@ TEMPLATE_TEST_CASE("ends: damping whose square vanishes or overflows", "[extreme
             for (const Method method : {Method::explicit_euler, Method::symplectic_euler}) {
                 INFO(name(method) << ", tightness " << tightness);
                 const Real truth = limit_of(method, 0, static_cast<Real>(d0));
-                check_contains(springs.max_step(method, tightness), truth, width);
+                check_contains(taut::max_step(springs, method, tightness), truth, width);
                 if (!in_range) continue;
                 const Stability<Scalar> matrices(bare);
-                check_contains(matrices.max_step(method, tightness), truth, width);
+                check_contains(taut::max_step(matrices, method, tightness), truth, width);
             }
             check_contains(taut::any_pose_limit(system, tightness), 2 / static_cast<Real>(d0),
                            width);
@@ -133,7 +135,8 @@ TEMPLATE_TEST_CASE("ends: springs whose squared length vanishes", "[extremes]", 
         const Real truth = 2 / std::sqrt(4 * static_cast<Real>(k));
         const Stability<Scalar> stability(system, system.initial_state());
         for (const double tightness : {0.0, 1e-6}) {
-            check_contains(stability.max_step(Method::symplectic_euler, tightness), truth, 1e-5);
+            check_contains(taut::max_step(stability, Method::symplectic_euler, tightness), truth,
+                           1e-5);
         }
     }
 }
@@ -219,7 +222,7 @@ TEMPLATE_TEST_CASE("ends: nets at rest are certified on both sides of every kink
         auto state = system.initial_state();
         const Stability<Scalar> stability(system, state);
         for (const double tightness : {0.0, 1e-6}) {
-            const auto limit = stability.max_step(Method::symplectic_euler, tightness);
+            const auto limit = taut::max_step(stability, Method::symplectic_euler, tightness);
             INFO("system " << repeat << ", tightness " << tightness << ": "
                            << static_cast<double>(limit.certified) << ", "
                            << static_cast<double>(limit.refuted));
@@ -228,7 +231,7 @@ TEMPLATE_TEST_CASE("ends: nets at rest are certified on both sides of every kink
             CHECK(static_cast<Real>(limit.refuted) <= truth * 2);
         }
         const auto beyond = static_cast<double>(truth * 1.0001L);
-        CHECK_FALSE(stability.certify(Method::symplectic_euler, beyond).proved);
+        CHECK_FALSE(taut::certify(stability, Method::symplectic_euler, beyond).proved);
     }
 }
 
@@ -252,7 +255,7 @@ TEMPLATE_TEST_CASE("ends: explicit Euler at a kink holds on the slack side, too"
         const Real taut = limit_of(Method::explicit_euler, static_cast<Real>(k), d);
         const Stability<TestType> stability(system, state);
         for (const double tightness : {0.0, 1e-6}) {
-            const auto limit = stability.max_step(Method::explicit_euler, tightness);
+            const auto limit = taut::max_step(stability, Method::explicit_euler, tightness);
             INFO("system " << repeat << ", tightness " << tightness << ": "
                            << static_cast<double>(limit.certified) << " of "
                            << static_cast<double>(slack) << " slack, " << static_cast<double>(taut)
@@ -280,11 +283,12 @@ TEMPLATE_TEST_CASE("ends: a stepper's own 1/m and d0 stay within the certified s
         const Real truth = limit_of(Method::symplectic_euler, held_k, held_d);
         const Stability<TestType> stability(system, system.initial_state());
         for (const double tightness : {0.0, 1e-6}) {
-            check_contains(stability.max_step(Method::symplectic_euler, tightness), truth, 1e-5);
+            check_contains(taut::max_step(stability, Method::symplectic_euler, tightness), truth,
+                           1e-5);
         }
         CHECK(static_cast<Real>(taut::any_pose_limit(system).certified) <= truth);
         const auto beyond = static_cast<double>(truth * (1 + 1e-15L));
-        CHECK_FALSE(stability.certify(Method::symplectic_euler, beyond).proved);
+        CHECK_FALSE(taut::certify(stability, Method::symplectic_euler, beyond).proved);
     }
 }
 

@@ -5,6 +5,7 @@
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/projective/projective.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/stability/any_pose.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
@@ -51,8 +52,8 @@ TEST_CASE("assigned system: every stepper follows", "[integrator]") {
     check_follows<taut::ExplicitEuler<Cloth>>(soft, stiff, 1e-5);
     check_follows<taut::ImplicitEuler<Cloth>>(soft, stiff, 1e-2);
     check_follows<taut::ProjectiveDynamics<Cloth>>(soft, stiff, 1e-2);
-    const auto soft_matrices = soft.linearize(soft.initial_state());
-    const auto stiff_matrices = stiff.linearize(stiff.initial_state());
+    const auto soft_matrices = taut::linearize(soft, soft.initial_state());
+    const auto stiff_matrices = taut::linearize(stiff, stiff.initial_state());
     using Linear = taut::LinearSystem<double>;
     check_follows<taut::ImplicitEuler<Linear>>(soft_matrices, stiff_matrices, 1e-2);
     check_follows<taut::Bdf2<Linear>>(soft_matrices, stiff_matrices, 1e-2);

@@ -35,7 +35,7 @@ TEST_CASE("explicit_euler: a step satisfies its own update equation", "[integrat
 
 TEST_CASE("explicit_euler: on a linear system a step is I + hC", "[integrator]") {
     const auto springs = linear_scene<double, 2>(true);
-    const auto linear = springs.linearize(springs.initial_state());
+    const auto linear = taut::linearize(springs, springs.initial_state());
     Random random(2);
     auto u = random_state(random, linear);
     const auto before = u;

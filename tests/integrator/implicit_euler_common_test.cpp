@@ -3,6 +3,7 @@
 // What all steppers promise, for implicit Euler: tests in implicit_euler_test.cpp are its own.
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/model/spring_system.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/check_stepper.hpp"

@@ -10,6 +10,7 @@
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/integrator/velocity_verlet.hpp>
 #include <taut/model/state_view.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
 #include <utility>
@@ -123,7 +124,7 @@ TEST_CASE("state_view: steppers with a history or a budget", "[integrator]") {
     auto state = cloth.initial_state();
     state.v.row(1).setLinSpaced(-1, 1);
     check_view<double, taut::ProjectiveDynamics<Cloth<double>>>(cloth, state, 1e-2);
-    const auto linear = cloth.linearize(state);
+    const auto linear = taut::linearize(cloth, state);
     using Linear = taut::LinearSystem<double>;
     auto small = linear.initial_state();
     small.v.setLinSpaced(-1, 1);

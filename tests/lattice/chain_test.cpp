@@ -55,7 +55,7 @@ double worst(const Eigen::VectorXd& measured, const std::vector<double>& expecte
 template <class Scalar, int Dim>
 Eigen::VectorXd measured(const ChainOptions& options) {
     const auto system = taut::chain<Scalar, Dim>(options);
-    return stiffness_eigenvalues(system.linearize(system.initial_state()));
+    return stiffness_eigenvalues(taut::linearize(system, system.initial_state()));
 }
 
 const auto all_ends = {ChainEnds::fixed_fixed, ChainEnds::fixed_free, ChainEnds::free_free,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <taut/mass_scaling/mass_scaling.hpp>
 #include <taut/stability/stability.hpp>
+#include <taut/tight/tight.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/message.hpp"
@@ -85,8 +86,8 @@ TEST_CASE("mass_scaling: with the mass added the step is certified", "[stability
                 }
                 if (h > limit.refuted * (1 + 1e-9)) CHECK(added.total > 0);
                 const Stability<double> heavier(with_added(damped, added), state);
-                CHECK(heavier.certify(Method::symplectic_euler, h).proved);
-                CHECK(heavier.certify(Method::velocity_verlet, h).proved);
+                CHECK(taut::certify(heavier, Method::symplectic_euler, h).proved);
+                CHECK(taut::certify(heavier, Method::velocity_verlet, h).proved);
             });
         });
     }
@@ -173,8 +174,8 @@ TEST_CASE("mass_scaling: float, and nothing free", "[stability]") {
     const auto added = added_mass(cloth, state, h);
     check_account(cloth, added);
     // The masses round to float: a step less by that much is certified.
-    CHECK(Stability<float>(with_added(cloth, added), state)
-              .certify(Method::symplectic_euler, h * (1 - 1e-6))
+    CHECK(taut::certify(Stability<float>(with_added(cloth, added), state), Method::symplectic_euler,
+                        h * (1 - 1e-6))
               .proved);
     for (Index i = 0; i < cloth.size(); ++i) cloth.pin(i);
     const auto none = added_mass(cloth, state, h);

@@ -6,6 +6,7 @@
 #include <taut/modal/modal_dynamics.hpp>
 #include <taut/model/spring_system.hpp>
 #include <taut/lattice/chain.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "../support/catch.hpp"
@@ -198,7 +199,7 @@ TEMPLATE_TEST_CASE("modal_dynamics: on springs it moves the free particles about
     const auto springs = random_system<double, 3>(random, options);
     auto pose = springs.initial_state();
     pose.x = 3 * pose.x;  // stretched
-    const auto linear = springs.linearize(pose);
+    const auto linear = taut::linearize(springs, pose);
     ModalDynamics<TestType, 3> modal(linear, pose, dense_basis(linear, linear.size()));
     auto state = pose;
     state.x.rightCols(6) += random.points<double, 3>(6, -0.01, 0.01);
@@ -222,7 +223,7 @@ TEST_CASE("modal_dynamics: a free chain drifts and falls exactly, however large 
     auto chain = taut::chain<double, 1>({6, taut::ChainEnds::free_free, 2, 50});
     chain.set_gravity(Eigen::Matrix<double, 1, 1>(-3.0));
     const auto pose = chain.initial_state();
-    const auto linear = chain.linearize(pose);
+    const auto linear = taut::linearize(chain, pose);
     auto basis = dense_basis(linear, 6);
     basis.k[0] = 0;
     CHECK(basis.rigid() == 1);
@@ -276,7 +277,7 @@ TEMPLATE_TEST_CASE(
     "[integrator]", float, double) {
     const auto chain = taut::chain<double, 1>({6, taut::ChainEnds::fixed_free, 2, 50});
     const auto pose = chain.initial_state();
-    const auto linear = chain.linearize(pose);
+    const auto linear = taut::linearize(chain, pose);
     auto basis = dense_basis(linear, 6);
     basis.d.setConstant(3);
     basis.shapes.row(2) *= 1e-30;

@@ -8,6 +8,7 @@
 #include <taut/scene/cloth.hpp>
 #include <taut/modal/modal_analysis.hpp>
 #include <taut/equilibrium/equilibrium.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <vector>
 
 #include "../support/catch.hpp"
@@ -36,7 +37,7 @@ taut::LinearSystem<double> hanging_strip() {
     state.x.row(2) = -state.x.row(1);  // hanging straight down
     state.x.row(1).setZero();
     REQUIRE(taut::static_equilibrium(cloth, state));
-    return cloth.linearize(state);
+    return taut::linearize(cloth, state);
 }
 
 /// Orthonormal in M, eigenvectors of K, with the damping and the load that go with them.
@@ -84,7 +85,7 @@ TEST_CASE("modal_analysis: a long chain has its closed form, and a free one its 
     const Index n = 400;
     for (const auto ends : {taut::ChainEnds::fixed_fixed, taut::ChainEnds::free_free}) {
         const auto chain = taut::chain<double, 1>({n, ends, 0.5, 200});
-        const auto system = chain.linearize(chain.initial_state());
+        const auto system = taut::linearize(chain, chain.initial_state());
         ModalBasis basis;
         REQUIRE(taut::modal_analysis(system, 10, basis));
         const bool free = ends == taut::ChainEnds::free_free;
@@ -107,7 +108,7 @@ TEST_CASE("modal_analysis: every mechanism of a flat net counts as rigid", "[sol
     options.rows = options.columns = 10;
     options.pin_corners = false;
     const auto cloth = taut::hanging_cloth<double>(options);
-    const auto system = cloth.linearize(cloth.initial_state());
+    const auto system = taut::linearize(cloth, cloth.initial_state());
     ModalBasis basis;
     REQUIRE(taut::modal_analysis(system, 120, basis));
     CHECK(basis.rigid() == 103);
@@ -141,7 +142,7 @@ TEST_CASE("modal_analysis: sixfold eigenvalues of a symmetric net are found six 
         for (Index j = 1; j <= side; ++j) expected.insert(expected.end(), 3, of_row(i) + of_row(j));
     }
     std::sort(expected.begin(), expected.end());
-    const auto system = net.linearize(net.initial_state());
+    const auto system = taut::linearize(net, net.initial_state());
     REQUIRE(system.size() == 3 * side * side);
     for (const Index count : {Index(4), Index(30), Index(100)}) {
         INFO("count " << count);
@@ -156,7 +157,7 @@ TEST_CASE("modal_analysis: sixfold eigenvalues of a symmetric net are found six 
 
 TEST_CASE("modal_analysis: a count out of range is refused by name", "[solver][bad_input]") {
     const auto chain = taut::chain<double, 1>({5});
-    const auto system = chain.linearize(chain.initial_state());
+    const auto system = taut::linearize(chain, chain.initial_state());
     ModalBasis basis;
     for (const Index count : {Index(0), Index(6), Index(-1)}) {
         CHECK(missing(message_of([&] { (void)taut::modal_analysis(system, count, basis).status; }),

@@ -4,8 +4,10 @@
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/integrator/velocity_verlet.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/stability/stability.hpp>
+#include <taut/tight/tight.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/message.hpp"
@@ -109,13 +111,13 @@ TEMPLATE_TEST_CASE("graph_damping: linearize and the analysis see the matrix tha
         auto system = random_system<double, Dim, Hookean, TensionOnly>(random, options);
         system.set_graph_damping(random.uniform(0.001, 0.1));
         const auto state = random_state(random, system);
-        const auto linear = system.linearize(state);
+        const auto linear = taut::linearize(system, state);
         const Exact e = exact_matrices(system, state.x);
         const RealMatrix D = linear.damping().toDense().template cast<Real>();
         CHECK(static_cast<double>((D - e.D).norm()) <= 1e-13 * static_cast<double>(e.D.norm()));
         const taut::Stability<double> stability(system, state);
         for (const Method method : {Method::symplectic_euler, Method::explicit_euler}) {
-            const auto limit = stability.max_step(method, 1e-4);
+            const auto limit = taut::max_step(stability, method, 1e-4);
             const Multipliers multipliers(e);
             if (limit.certified > 0) {
                 CHECK(multipliers.induced_radius(method, limit.certified) <=

@@ -102,7 +102,7 @@ TEMPLATE_TEST_CASE("spring_system: a spring of zero length pulls with nothing an
     CHECK(largest(flat_force(system, state)) == 0);
     CHECK(static_cast<double>(system.potential_energy(state)) ==
           25.0 * static_cast<double>(rest_length));
-    const auto linear = system.linearize(state);
+    const auto linear = taut::linearize(system, state);
     Eigen::MatrixXd expected(2 * Dim, 2 * Dim);
     const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(Dim, Dim);
     expected << 50 * one, -50 * one, -50 * one, 50 * one;
@@ -145,8 +145,8 @@ TEMPLATE_TEST_CASE("spring_system: duplicate springs add up", "[model]", float, 
     const auto state = random_state(random, twice);
     const double rounding = 100 * Tolerance<TestType>::rounding;
     CHECK(distance(flat_force(twice, state), flat_force(once, state)) <= rounding);
-    const auto a = twice.linearize(state);
-    const auto b = once.linearize(state);
+    const auto a = taut::linearize(twice, state);
+    const auto b = taut::linearize(once, state);
     CHECK(distance(Eigen::Matrix<TestType, -1, -1>(a.stiffness()),
                    Eigen::Matrix<TestType, -1, -1>(b.stiffness())) <= rounding);
     CHECK(distance(Eigen::Matrix<TestType, -1, -1>(a.damping()),
@@ -178,8 +178,8 @@ TEMPLATE_TEST_CASE("spring_system: float and double agree", "[model]", (Case<flo
         CHECK(distance(flat_force(narrow, narrow_state), f) < tolerance * largest(f));
         CHECK_THAT(static_cast<double>(narrow.energy(narrow_state)),
                    Catch::Matchers::WithinRel(wide.energy(wide_state), Tolerance<float>::rounding));
-        const auto a = narrow.linearize(narrow_state);
-        const auto b = wide.linearize(wide_state);
+        const auto a = taut::linearize(narrow, narrow_state);
+        const auto b = taut::linearize(wide, wide_state);
         const Eigen::MatrixXd K(b.stiffness());
         const Eigen::MatrixXd D(b.damping());
         CHECK(distance(Eigen::MatrixXf(a.stiffness()), K) < tolerance * largest(K));

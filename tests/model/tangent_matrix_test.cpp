@@ -85,7 +85,7 @@ TEST_CASE("tangent_matrix: values are written in place, and the pattern is that 
         CHECK(A.valuePtr() == values);
         CHECK(A.nonZeros() == entries);
     }
-    const auto linear = system.linearize(system.initial_state());
+    const auto linear = taut::linearize(system, system.initial_state());
     CHECK(linear.stiffness().nonZeros() == entries);
     CHECK(linear.damping().nonZeros() == entries);
 }

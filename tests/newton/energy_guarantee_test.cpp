@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "energy_guarantee.hpp"
 
+#include <taut/own_matrices/own_matrices.hpp>
+
 namespace taut_test::energy_guarantee_test {
 
 using taut::energy_never_rises_v;

@@ -3,6 +3,7 @@
 // Implicit Euler solved by Newton's method, and what its factorisations cost.
 #include <cmath>
 #include <taut/integrator/implicit_euler.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/solver/conjugate_gradient.hpp>
 
 #include "../support/catch.hpp"
@@ -154,7 +155,7 @@ TEST_CASE("implicit_newton: one iteration is the linearised step, and matrices n
     REQUIRE(one.step(by_one, 0.01, 3));
     CHECK(same_bits(linearised, by_one));
 
-    const auto linear = system.linearize(start);
+    const auto linear = taut::linearize(system, start);
     auto u = linear.initial_state();
     auto w = u;
     ImplicitEuler plain(linear);
@@ -210,7 +211,7 @@ TEST_CASE("implicit_euler: matrices are factorised once for each of the last two
           "[integrator]") {
     Random random(7);
     const auto springs = random_system<double, 3>(random);
-    const auto linear = springs.linearize(springs.initial_state());
+    const auto linear = taut::linearize(springs, springs.initial_state());
     auto u = linear.initial_state();
     ImplicitEuler stepper(linear);
     for (const auto& [h, expected] : returning_steps) {

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/stability/stability.hpp>
+#include <taut/tight/tight.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/random.hpp"
@@ -35,7 +37,7 @@ TEST_CASE("admitted growth counts D and K where both lack in one vector", "[stab
         const long double rate = lacks_d / 2 + std::sqrt(lacks_d * lacks_d / 4 + lacks_k);
         for (const Method method :
              {Method::symplectic_euler, Method::explicit_euler, Method::implicit_euler}) {
-            const auto limit = stability.max_step(method, 1e-3);
+            const auto limit = taut::max_step(stability, method, 1e-3);
             if (limit.growth_rate > 0 || !(limit.certified_up_to > 0)) continue;
             CAPTURE(taut::name(method), delta, epsilon, limit.admitted_growth);
             ++admitted;
@@ -67,7 +69,7 @@ TEST_CASE("admitted growth counts D - hK beside a spring compressed by rounding"
             pair(heavy, 1, 1 - by);
             system.set_graph_damping(0.3 * std::sqrt(light / k));
             const taut::Stability<double> stability(system, system.initial_state());
-            const auto limit = stability.max_step(Method::explicit_euler, 1e-3);
+            const auto limit = taut::max_step(stability, Method::explicit_euler, 1e-3);
             CHECK(limit.growth_rate == 0);
             CHECK(limit.certified_up_to > 0);
             return limit.admitted_growth;

@@ -3,6 +3,7 @@
 #include <limits>
 #include <taut/own_matrices/linear_system.hpp>
 #include <taut/model/spring_system.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/dense.hpp"
@@ -285,7 +286,7 @@ TEMPLATE_TEST_CASE("linear_system: to_free and from_free are each other's invers
     const auto pose = random_state(random, system);
     auto state = random_state(random, system);
     state.time = 3;
-    const auto linear = system.linearize(pose);
+    const auto linear = taut::linearize(system, pose);
     CHECK(linear.size() == Dim * 6);
 
     const auto u = linear.to_free(state);
@@ -314,7 +315,7 @@ TEMPLATE_TEST_CASE(
     const auto system = random_system<double, Dim>(random, options);
     auto state = random_state(random, system);
     state.v.setZero();
-    const auto linear = system.linearize(state);
+    const auto linear = taut::linearize(system, state);
     const auto free = free_dofs(system);
     const auto error = [&](double size) {
         Random again(6);
@@ -337,7 +338,7 @@ TEST_CASE("linear_system: bad input: to_free and from_free of the wrong system o
           "[model][bad_input]") {
     Random random(7);
     const auto system = random_system<double, 2>(random);
-    const auto linear = system.linearize(system.initial_state());
+    const auto linear = taut::linearize(system, system.initial_state());
     const LinearSystem<double> own(mass, {}, sparse<double>(K));
     auto state = system.initial_state();
     CHECK(missing(message_of([&] { static_cast<void>(own.to_free(state)); }),

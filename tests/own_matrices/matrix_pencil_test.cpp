@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include <taut/own_matrices/matrix_pencil.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/tolerance.hpp"
@@ -160,7 +161,7 @@ TEST_CASE("matrix_pencil: the bound is sharp where no sign cancels", "[stability
     taut::ChainOptions row;
     row.masses = 6;
     const auto chain = taut::chain<double, 1>(row);
-    const auto system = chain.linearize(chain.initial_state());
+    const auto system = taut::linearize(chain, chain.initial_state());
     const RealVector k = exact_eigenvalues(exact_matrices(system), matrices::K_plus);
     CHECK_THAT(MatrixPencil(system).upper_bound(matrices::K_plus),
                WithinRel(static_cast<double>(k[5]), 0.01));
@@ -238,7 +239,7 @@ TEST_CASE("matrix_pencil: diagonal dominance needs no factorisation, and is not 
     options.ends = taut::ChainEnds::free_free;
     options.stiffness = 0.1;
     const auto chain = taut::chain<double, 1>(options);
-    CHECK(MatrixPencil(chain.linearize(chain.initial_state())).stiffness_semidefinite());
+    CHECK(MatrixPencil(taut::linearize(chain, chain.initial_state())).stiffness_semidefinite());
     // One ulp less is indefinite.
     for (const double less : {0x1p-52, 0x1p-53, 1e-12}) {
         Eigen::Matrix3d K;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include <taut/stability/any_pose.hpp>
+#include <taut/tight/tight.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/laws.hpp"

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include <set>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/scene/with_law.hpp>
 #include <taut/stability/stability.hpp>
+#include <taut/tight/tight.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/tolerance.hpp"
@@ -142,7 +144,7 @@ TEST_CASE("blame: max_stiffness_scale is certified, and little more is", "[stabi
                 }
                 REQUIRE(std::isfinite(scale));
                 const auto softer = scaled(system, 0.999 * scale, 1);
-                CHECK(Stability<double>(softer, state).certify(method, h).proved);
+                CHECK(taut::certify(Stability<double>(softer, state), method, h).proved);
                 const auto stiffer = scaled(system, 1.05 * scale, 1);
                 CHECK(Stability<double>(stiffer, state).max_step(method).certified < h);
                 if (part < 1) CHECK(scale >= 1 - 1e-6);
@@ -167,8 +169,8 @@ TEST_CASE("blame: min_mass_scale is certified, and little less is", "[stability]
                     continue;
                 }
                 REQUIRE(scale > 0);
-                CHECK(Stability<double>(scaled(system, 1, 1.001 * scale), state)
-                          .certify(method, h)
+                CHECK(taut::certify(Stability<double>(scaled(system, 1, 1.001 * scale), state),
+                                    method, h)
                           .proved);
                 CHECK(Stability<double>(scaled(system, 1, scale / 1.05), state)
                           .max_step(method)
@@ -189,13 +191,13 @@ TEST_CASE("blame: beyond the refuted ratio no scale is certified", "[stability]"
     const double h = 0.8 * limit.certified;
     const double stiffer = stability.max_stiffness_scale(Method::symplectic_euler, h);
     CHECK_THAT(stiffer, WithinRel(1 / 0.64, 1e-3));
-    CHECK_FALSE(Stability<double>(scaled(cloth, 1.01 * ratio * stiffer, 1), state)
-                    .certify(Method::symplectic_euler, h)
+    CHECK_FALSE(taut::certify(Stability<double>(scaled(cloth, 1.01 * ratio * stiffer, 1), state),
+                              Method::symplectic_euler, h)
                     .proved);
     const double lighter = stability.min_mass_scale(Method::symplectic_euler, h);
     CHECK_THAT(lighter, WithinRel(0.64, 1e-3));
-    CHECK_FALSE(Stability<double>(scaled(cloth, 1, lighter / ratio / 1.01), state)
-                    .certify(Method::symplectic_euler, h)
+    CHECK_FALSE(taut::certify(Stability<double>(scaled(cloth, 1, lighter / ratio / 1.01), state),
+                              Method::symplectic_euler, h)
                     .proved);
 }
 
@@ -323,10 +325,8 @@ TEST_CASE("blame: substeps", "[stability]") {
         CHECK(*count >= 1);
         CHECK(frame / static_cast<double>(*count) <= certified * (1 + 1e-15));
         if (*count > 1) CHECK(frame / static_cast<double>(*count - 1) > certified * (1 - 1e-12));
-        CHECK(stability
-                  .certify(Method::symplectic_euler,
-                           frame / static_cast<double>(*count) * (1 - 1e-15))
-                  .proved);
+        const double h = frame / static_cast<double>(*count) * (1 - 1e-15);
+        CHECK(taut::certify(stability, Method::symplectic_euler, h).proved);
     }
     CHECK(*stability.substeps(Method::implicit_euler, 10) == 1);
     CHECK_FALSE(stability.substeps(Method::explicit_euler, 0.01).has_value());

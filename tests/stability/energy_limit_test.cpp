@@ -4,6 +4,7 @@
 #include <taut/integrator/velocity_verlet.hpp>
 #include <taut/stability/any_pose.hpp>
 #include <taut/stability/energy_limit.hpp>
+#include <taut/tight/tight.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/energy_networks.hpp"

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/stability/stability.hpp>
+#include <taut/tight/tight.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/random.hpp"
@@ -49,14 +51,14 @@ TEMPLATE_TEST_CASE("explicit Euler: a negative D counts beside a buckled K at ev
             }
         };
         for (const double tightness : {0.0, 1e-3}) {
-            const auto limit = stability.max_step(Method::explicit_euler, tightness);
+            const auto limit = taut::max_step(stability, Method::explicit_euler, tightness);
             const bool strictly = limit.certified > 0;
             const auto h = static_cast<double>(strictly ? limit.certified : limit.certified_up_to);
             if (h > 0) check(h, strictly ? 0 : limit.admitted_growth);
             if (tightness > 0) ++(h > 0 ? claimed : refused);
         }
         const double tried = d / k * random.uniform(0.01, 0.99);
-        if (stability.certify(Method::explicit_euler, tried).proved) check(tried, 0);
+        if (taut::certify(stability, Method::explicit_euler, tried).proved) check(tried, 0);
     }
     CHECK(claimed > 30);
     CHECK(refused > 50);

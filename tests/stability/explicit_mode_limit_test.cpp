@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/stability/stability.hpp>
+#include <taut/tight/tight.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/laws.hpp"
@@ -94,14 +96,14 @@ TEMPLATE_TEST_CASE("explicit Euler: a negative K or D is not nothing to limit", 
         const taut::Stability<TestType> stability(
             taut::LinearSystem<TestType>(taut::VectorX<TestType>::Ones(1), D, K));
         for (const double tightness : {0.0, 1e-3}) {
-            const auto limit = stability.max_step(Method::explicit_euler, tightness);
+            const auto limit = taut::max_step(stability, Method::explicit_euler, tightness);
             CAPTURE(K.coeff(0, 0), D.coeff(0, 0), tightness);
             REQUIRE_FALSE(limit.unbounded());
             const auto h = static_cast<Real>(limit.certified);
             REQUIRE(4 - 2 * h * D.coeff(0, 0) + h * h * K.coeff(0, 0) >= 0);
             REQUIRE((which == 1 || limit.certified == 0));
         }
-        REQUIRE_FALSE(stability.certify(Method::explicit_euler, 1e200).proved);
+        REQUIRE_FALSE(taut::certify(stability, Method::explicit_euler, 1e200).proved);
     }
 }
 
@@ -130,7 +132,7 @@ TEMPLATE_TEST_CASE("explicit Euler: what rounding leaves of a slack string refut
                                  ? 2 / system.rayleigh().mass_proportional
                                  : std::numeric_limits<double>::infinity();
         for (const double tightness : {0.0, 1e-3}) {
-            const auto limit = stability.max_step(Method::explicit_euler, tightness);
+            const auto limit = taut::max_step(stability, Method::explicit_euler, tightness);
             CAPTURE(truth, tightness);
             REQUIRE(static_cast<double>(limit.refuted) >= truth);
             REQUIRE(static_cast<double>(limit.certified) <= truth);
@@ -161,7 +163,7 @@ TEST_CASE("explicit Euler: one mode near critical damping is neither certified n
                         d0 + static_cast<Real>(alpha) * (static_cast<Real>(stiffness) / m));
         const taut::Stability<double> stability(system, system.initial_state());
         for (const double tightness : {0.0, 1e-9}) {
-            const auto limit = stability.max_step(Method::explicit_euler, tightness);
+            const auto limit = taut::max_step(stability, Method::explicit_euler, tightness);
             CAPTURE(m, stiffness, d0, alpha, tightness);
             REQUIRE(limit.certified <= truth);
             REQUIRE(limit.refuted >= truth);

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/stability/stability.hpp>
+#include <taut/tight/tight.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/random.hpp"
@@ -34,7 +36,7 @@ TEMPLATE_TEST_CASE("implicit Euler: a D that is semi-definite but for rounding c
             2 / (exact_delta + std::sqrt(exact_delta * exact_delta + 4 * exact_kappa));
         const taut::Stability<TestType> stability(system);
         for (const double tightness : {0.0, 1e-3}) {
-            const auto limit = stability.max_step(Method::implicit_euler, tightness);
+            const auto limit = taut::max_step(stability, Method::implicit_euler, tightness);
             const auto h = static_cast<double>(limit.certified_up_to);
             CAPTURE(m, exact_delta, exact_kappa, singular, tightness);
             REQUIRE(limit.certified == 0);

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include <Eigen/QR>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/stability/stability.hpp>
+#include <taut/tight/tight.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/tolerance.hpp"
@@ -168,7 +170,7 @@ TEST_CASE("limits: dampers without stiffness, at any strength", "[stability]") {
             Eigen::Vector2d(1, 1), sparse(D), Eigen::SparseMatrix<double>(2, 2)));
         INFO("D = diag(1, 2) * " << d);
         for (const double tightness : {0.0, 1e-6}) {
-            const auto limit = stability.max_step(Method::explicit_euler, tightness);
+            const auto limit = taut::max_step(stability, Method::explicit_euler, tightness);
             CHECK(limit.certified <= 1 / d);
             CHECK(limit.certified >= (1 - 2e-4) / d);
             CHECK(limit.refuted >= (1 - 1e-15) / d);

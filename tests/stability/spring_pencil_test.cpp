@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/stability/lanczos.hpp>
 #include <taut/stability/spring_pencil.hpp>
 
@@ -131,7 +132,7 @@ TEMPLATE_TEST_CASE("spring_pencil: multiply, quadratic, assemble and linearize()
                   std::abs(v.dot(exact * v) - static_cast<Real>(q.value)));
             CHECK(q.lower() <= q.upper());
 
-            const auto linear = system.linearize(system.initial_state());
+            const auto linear = taut::linearize(system, system.initial_state());
             CHECK((linear.mass() == pencil.mass()));
             const Eigen::MatrixXd K(linear.stiffness());
             const Eigen::MatrixXd D(linear.damping());

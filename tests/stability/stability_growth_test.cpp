@@ -4,6 +4,7 @@
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/integrator/velocity_verlet.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/stability/stability.hpp>
 
 #include "../support/catch.hpp"

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include <stdexcept>
 #include <set>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/stability/stability.hpp>
+#include <taut/tight/tight.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/methods.hpp"
@@ -107,17 +109,18 @@ TEST_CASE("stability: certify proves up to certified and nothing that is refuted
             const auto limit = c.stability.max_step(method);
             if (limit.certified > 0) {
                 const double h = limit.unbounded() ? 1e3 : limit.certified;
-                const auto certificate = c.stability.certify(method, h);
+                const auto certificate = taut::certify(c.stability, method, h);
                 CHECK(certificate.proved);
                 CHECK(certificate.step == h);
                 CHECK(certificate.method == method);
-                CHECK(c.stability.certify(method, 0.1 * h).proved);
+                CHECK(taut::certify(c.stability, method, 0.1 * h).proved);
             }
             if (std::isfinite(limit.refuted)) {
-                CHECK_FALSE(c.stability.certify(method, 1.001 * limit.refuted + 1e-300).proved);
+                CHECK_FALSE(
+                    taut::certify(c.stability, method, 1.001 * limit.refuted + 1e-300).proved);
             }
             for (const double h : {0.0, -1.0, std::nan("")})
-                CHECK_THROWS_AS(c.stability.certify(method, h), std::invalid_argument);
+                CHECK_THROWS_AS(taut::certify(c.stability, method, h), std::invalid_argument);
         }
     }
 }
@@ -132,7 +135,7 @@ TEST_CASE("stability: spectral_radius is that of the transition matrix", "[stabi
                 const double h = z / multipliers.omega();
                 INFO(c.text << ", " << name(method) << ", z = " << z);
                 const auto truth = static_cast<double>(multipliers.radius(method, h));
-                const double radius = c.stability.spectral_radius(method, h);
+                const double radius = taut::spectral_radius(c.stability, method, h);
                 // √eps where two multipliers meet. The velocity of a zero mode may count as 1 or
                 // not.
                 if (truth > 1 + 1e-6 || multipliers.zero_modes() == 0) {
@@ -209,7 +212,7 @@ TEST_CASE("stability: causes", "[stability]") {
         pulled.x *= 1.5;
         const taut::Stability<double> stability(damped, pulled);
         for (const double tightness : {0.0, 0.1}) {
-            const auto limit = stability.max_step(Method::explicit_euler, tightness);
+            const auto limit = taut::max_step(stability, Method::explicit_euler, tightness);
             expect(limit, Cause::undamped_modes);
             CHECK(limit.certified == 0);
             if (tightness > 0) CHECK(limit.refuted < 1e-8);  // dense eigenvalues cannot tell more
@@ -282,8 +285,7 @@ TEST_CASE("stability: the spectrum's brackets hold, and zero modes are counted",
     for (const auto& c : stability_cases<double>(false)) {
         INFO(c.text);
         const Exact& e = c.exact;
-        const auto spectrum = c.stability.stiffness_spectrum(true);
-        CHECK_FALSE(c.stability.stiffness_spectrum().zero_modes.has_value());
+        const auto spectrum = c.stability.stiffness_spectrum();
         CHECK(c.stability.size() == e.size());
         if (e.size() == 0) {
             CHECK(spectrum.k_max.upper == 0);
@@ -298,7 +300,7 @@ TEST_CASE("stability: the spectrum's brackets hold, and zero modes are counted",
         CHECK(spectrum.k_max.lower >= 0.98L * largest);
         CHECK(spectrum.k_min.lower == 0);
         CHECK(spectrum.k_min.upper >= k[0] - noise);
-        CHECK(*spectrum.zero_modes ==
+        CHECK(taut::count_zero_modes(c.stability) ==
               (k.array() <= 1e-10L * static_cast<Real>(spectrum.k_max.upper)).count());
 
         const auto mode = c.stability.limiting_mode();
@@ -349,7 +351,7 @@ TEST_CASE("stability: wrong input is refused", "[stability]") {
     auto state = cloth.initial_state();
     const taut::Stability<double> stability(cloth, state);
     for (const double h : {0.0, -1.0, infinity, std::nan("")}) {
-        CHECK_THROWS_AS(stability.spectral_radius(Method::explicit_euler, h),
+        CHECK_THROWS_AS(taut::spectral_radius(stability, Method::explicit_euler, h),
                         std::invalid_argument);
         CHECK_THROWS_AS(stability.rayleigh_window(Method::explicit_euler, h),
                         std::invalid_argument);

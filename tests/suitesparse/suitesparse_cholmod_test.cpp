@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <Eigen/SparseCholesky>
 #include <taut/integrator/implicit_euler.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/suitesparse/cholmod.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
@@ -21,7 +22,7 @@ TEST_CASE("cholmod: is a symmetric Solver", "[solver]") {
 
 TEST_CASE("cholmod: solves what Eigen's LLT solves", "[solver]") {
     const auto cloth = taut::hanging_cloth<double>({12, 9});
-    const auto linear = cloth.linearize(cloth.initial_state());
+    const auto linear = taut::linearize(cloth, cloth.initial_state());
     Sparse A = linear.stiffness();
     A.diagonal() += linear.mass() * 1e4;
     Random random(1);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <Eigen/SparseLU>
 #include <taut/integrator/implicit_euler.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/suitesparse/umfpack.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
 

@@ -137,7 +137,7 @@ void check_bad_input() {
     Random random(21);
     const auto springs = random_system<Scalar, 2>(random);
     check_bad_steps<Stepper>(springs, random_state(random, springs));
-    const auto linear = springs.linearize(springs.initial_state());
+    const auto linear = taut::linearize(springs, springs.initial_state());
     check_bad_steps<Stepper>(linear, random_state(random, linear));
 }
 
@@ -210,7 +210,7 @@ void check_linear_scene() {
         auto state = random_state(random, springs);
         state.v.col(3).setZero();  // the pinned one
         state.x.col(3) = springs.initial_state().x.col(3);
-        const auto linear = springs.linearize(springs.initial_state());
+        const auto linear = taut::linearize(springs, springs.initial_state());
         auto u = linear.to_free(state);
         Stepper through_springs(springs);
         Stepper through_matrices(linear);

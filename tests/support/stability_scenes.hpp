@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <taut/lattice/chain.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/scene/with_law.hpp>
 #include <taut/stability/stability.hpp>
@@ -146,7 +147,7 @@ StabilityCase<Scalar> stability_case(std::string text, const System& system,
                             system.revision(),
                             std::nullopt};
     if (system.pinned_count() < system.size()) {
-        const auto linear = system.linearize(state);
+        const auto linear = taut::linearize(system, state);
         c.linear.emplace(linear.mass(), linear.damping(), linear.stiffness());
     }
     return c;

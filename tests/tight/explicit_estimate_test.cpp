@@ -3,6 +3,7 @@
 #include <taut/tight/dense.hpp>
 #include <taut/tight/explicit_estimate.hpp>
 #include <taut/stability/stability.hpp>
+#include <taut/tight/tight.hpp>
 
 #include "../support/catch.hpp"
 #include "../stability/wild_system.hpp"
@@ -79,21 +80,21 @@ TEST_CASE("explicit_estimate: Stability gives it beside the bracket, and only th
     const auto method = taut::Method::explicit_euler;
     const auto by_bounds = stability.max_step(method);
     CHECK(by_bounds.estimate == 0);
-    const auto narrowed = stability.max_step(method, 0.1);
+    const auto narrowed = taut::max_step(stability, method, 0.1);
     CHECK(narrowed.estimate > 0);
     CHECK(narrowed.estimate >= narrowed.certified);
     CHECK(narrowed.estimate <= narrowed.refuted);
-    CHECK(stability.max_step(taut::Method::symplectic_euler, 0.1).estimate == 0);
+    CHECK(taut::max_step(stability, taut::Method::symplectic_euler, 0.1).estimate == 0);
     const auto few = damped_cloth(random, 3, 4);
     const taut::Stability<double> small(few, few.initial_state());
     CHECK(small.max_step(method).estimate == 0);
-    const auto dense = small.max_step(method, 0.1);
+    const auto dense = taut::max_step(small, method, 0.1);
     CHECK(dense.estimate > 0);
     CHECK(dense.estimate <= dense.refuted * (1 + 1e-9));
     CHECK(dense.estimate >= dense.certified * (1 - 1e-9));
     auto rayleigh = taut::hanging_cloth<double>({8, 8});
     rayleigh.set_rayleigh({1, 1e-5});
-    CHECK(taut::Stability<double>(rayleigh, state).max_step(method, 1e-3).estimate == 0);
+    CHECK(taut::max_step(taut::Stability<double>(rayleigh, state), method, 1e-3).estimate == 0);
 }
 
 }  // namespace taut_test::explicit_estimate_test

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/stability/any_pose.hpp>
 #include <taut/stability/stability.hpp>
+#include <taut/tight/tight.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/tolerance.hpp"
@@ -124,8 +126,8 @@ TEMPLATE_TEST_CASE("narrow: chains and rings by their closed forms", "[stability
             const double k = chain_k_max(options);
             INFO(masses << " masses, ends " << static_cast<int>(ends));
             const auto limit_of = [&](Method method) {
-                return taut::Stability<TestType>(chain, chain.initial_state())
-                    .max_step(method, tightness);
+                return taut::max_step(taut::Stability<TestType>(chain, chain.initial_state()),
+                                      method, tightness);
             };
             check_around(limit_of(Method::symplectic_euler), 2 / std::sqrt(k));
             check_around(limit_of(Method::velocity_verlet), 2 / std::sqrt(k));
@@ -169,7 +171,8 @@ TEST_CASE("narrow: grids of zero rest length by their closed form", "[stability]
         // Linear: the same at every pose, and for all of them at once.
         for (const std::uint32_t seed : {1, 2}) {
             const taut::Stability<double> stability(grid, deformed(grid, 1.3, 0.2, seed));
-            check_around(stability.max_step(Method::symplectic_euler, tightness), 2 / std::sqrt(k));
+            check_around(taut::max_step(stability, Method::symplectic_euler, tightness),
+                         2 / std::sqrt(k));
         }
         check_around(taut::any_pose_limit(grid, tightness), 2 / std::sqrt(k));
     }
@@ -180,7 +183,7 @@ TEMPLATE_TEST_CASE("narrow: symplectic Euler, every scene and damping", "[stabil
     for (const auto& c : stability_cases<TestType>(true)) {
         if (c.exact.size() == 0) continue;
         INFO(c.text);
-        const auto limit = c.stability.max_step(Method::symplectic_euler, tightness);
+        const auto limit = taut::max_step(c.stability, Method::symplectic_euler, tightness);
         check_symplectic(limit, c.exact);
         // Never worse than the bound alone.
         const auto bound = c.stability.max_step(Method::symplectic_euler);
@@ -199,8 +202,8 @@ TEMPLATE_TEST_CASE("narrow: random systems over many decades", "[stability][slow
         const auto state = system.initial_state();
         const Exact e = exact_matrices(system, state.x);
         INFO("system " << repeat);
-        const auto limit =
-            taut::Stability<double>(system, state).max_step(Method::symplectic_euler, tightness);
+        const auto limit = taut::max_step(taut::Stability<double>(system, state),
+                                          Method::symplectic_euler, tightness);
         check_symplectic(limit, e);
         const auto any = taut::any_pose_limit(system, tightness);
         CHECK(any.refuted <= any.certified * (1 + tightness) * (1 + 2 * ulp<double>));
@@ -225,7 +228,7 @@ TEST_CASE("narrow: bare matrices, definite and indefinite", "[stability]") {
         const taut::LinearSystem<double> system(mass, sparse(D), sparse(with_spectrum(random, k)));
         const taut::Stability<double> stability(system);
         INFO("system " << repeat << ", " << n << " unknowns");
-        const auto limit = stability.max_step(Method::symplectic_euler, tightness);
+        const auto limit = taut::max_step(stability, Method::symplectic_euler, tightness);
         check_symplectic(limit, exact_matrices(system));
         CHECK((limit.growth_rate > 0) == indefinite);
         if (indefinite) {
@@ -249,12 +252,12 @@ TEMPLATE_TEST_CASE(
         const double truth = definite_limit(e, 1, false) * (1 + 1e-9);
         INFO("system " << repeat << ", limit " << truth);
         for (const Method method : {Method::symplectic_euler, Method::velocity_verlet}) {
-            const auto limit = stability.max_step(method, tightness);
+            const auto limit = taut::max_step(stability, method, tightness);
             CHECK(limit.certified > 0);
             CHECK(static_cast<double>(limit.certified) <= truth);
             CHECK(static_cast<double>(limit.refuted) >= truth * (1 - 2e-9));
             for (double h = truth / 2; h < 3 * static_cast<double>(limit.refuted); h *= 1.25) {
-                if (stability.certify(method, h).proved) CHECK(h <= truth);
+                if (taut::certify(stability, method, h).proved) CHECK(h <= truth);
                 // The first condition alone would prove this step.
                 again += h > truth && margin(e, h) > 1e-6L ? 1 : 0;
             }
@@ -273,10 +276,10 @@ TEMPLATE_TEST_CASE(
     const taut::Stability<Scalar> stability(system, system.initial_state());
     const double truth = 4 / (30 + std::sqrt(900.0 - 4 * 99));
     CHECK_THAT(truth, WithinAbs(0.0763, 1e-4));
-    const auto limit = stability.max_step(Method::symplectic_euler, tightness);
+    const auto limit = taut::max_step(stability, Method::symplectic_euler, tightness);
     CHECK(static_cast<double>(limit.certified) <= truth * (1 + 1e-6));
     for (const double h : {0.54, 1.0, 1.9})
-        CHECK_FALSE(stability.certify(Method::symplectic_euler, h).proved);
+        CHECK_FALSE(taut::certify(stability, Method::symplectic_euler, h).proved);
 }
 
 TEST_CASE("narrow: explicit Euler stays on the safe side of the truth", "[stability][slow]") {
@@ -287,7 +290,7 @@ TEST_CASE("narrow: explicit Euler stays on the safe side of the truth", "[stabil
         const Multipliers multipliers = c.multipliers();
         const double truth = multipliers.explicit_limit();
         const auto bound = c.stability.max_step(Method::explicit_euler);
-        const auto limit = c.stability.max_step(Method::explicit_euler, 1e-4);
+        const auto limit = taut::max_step(c.stability, Method::explicit_euler, 1e-4);
         INFO(c.text << ": " << limit.certified << " <= " << truth << " <= " << limit.refuted);
         CHECK(limit.certified <= truth * (1 + 1e-9));
         CHECK(limit.refuted >= truth * (1 - 1e-6));
@@ -318,15 +321,16 @@ TEST_CASE("narrow: cloths too large for dense eigenvalues", "[stability][slow]")
                                   deformed(cloth, 0.9, 0.01, 2)}) {
             INFO("pose " << pose++);
             const taut::Stability<double> stability(cloth, state);
-            const auto limit = stability.max_step(Method::symplectic_euler, tightness);
+            const auto limit = taut::max_step(stability, Method::symplectic_euler, tightness);
             CHECK(limit.certified > 0);
             CHECK(limit.refuted <= limit.certified * (1 + tightness) * (1 + 2 * ulp<double>));
             const auto bound = stability.max_step(Method::symplectic_euler);
             CHECK(limit.certified >= bound.certified);
             CHECK(limit.refuted <= bound.refuted);
             // certify finds the proof by itself, just below, and none above.
-            CHECK(stability.certify(Method::symplectic_euler, limit.certified * (1 - 1e-5)).proved);
-            CHECK_FALSE(stability.certify(Method::symplectic_euler, limit.refuted).proved);
+            CHECK(taut::certify(stability, Method::symplectic_euler, limit.certified * (1 - 1e-5))
+                      .proved);
+            CHECK_FALSE(taut::certify(stability, Method::symplectic_euler, limit.refuted).proved);
         }
     }
 }
@@ -338,7 +342,7 @@ TEST_CASE("narrow: the tightness is what was asked for", "[stability]") {
     const taut::Stability<double> stability(cloth, deformed(cloth, 1.05, 0.02, 4));
     const Exact e = exact_matrices(cloth, deformed(cloth, 1.05, 0.02, 4).x);
     for (const double asked : {0.1, 1e-2, 1e-4, 1e-6, 1e-7}) {
-        const auto limit = stability.max_step(Method::symplectic_euler, asked);
+        const auto limit = taut::max_step(stability, Method::symplectic_euler, asked);
         CHECK(limit.refuted <= limit.certified * (1 + asked) * (1 + 2 * ulp<double>));
         CHECK(margin(e, limit.certified) >= 0);
         CHECK(margin(e, limit.refuted) <= 0);
@@ -346,12 +350,13 @@ TEST_CASE("narrow: the tightness is what was asked for", "[stability]") {
         CHECK(any.refuted <= any.certified * (1 + asked) * (1 + 2 * ulp<double>));
     }
     // More than can be had: an honest bracket.
-    const auto limit = stability.max_step(Method::symplectic_euler, 1e-15);
+    const auto limit = taut::max_step(stability, Method::symplectic_euler, 1e-15);
     CHECK(margin(e, limit.certified) >= 0);
     CHECK(margin(e, limit.refuted) <= 0);
     CHECK(limit.refuted <= limit.certified * (1 + 1e-6));
     for (const double wrong : {-1e-6, std::nan(""), std::numeric_limits<double>::infinity()}) {
-        CHECK_THROWS_AS(stability.max_step(Method::symplectic_euler, wrong), std::invalid_argument);
+        CHECK_THROWS_AS(taut::max_step(stability, Method::symplectic_euler, wrong),
+                        std::invalid_argument);
         CHECK_THROWS_AS(taut::any_pose_limit(cloth, wrong), std::invalid_argument);
     }
 }

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <vector>
 
-#include "../stability/detail/quick_mode.hpp"
 #include "../stability/detail/symplectic_limit.hpp"
 #include "graph_shares.hpp"
 
@@ -59,10 +58,9 @@ StepLimit<Scalar> graph_inertia_limit(const SpringSystem<Scalar, Dim, Laws...>& 
     const auto laplacian = SpringPencil<1>::any_pose(system);
     const auto rest = laplacian.explicit_part(shares.shares, shares.margin);
     const auto start = [&](double h) {
-        return stability_detail::leading_pair(rest, 2 * h * matrices::D + h * h * matrices::K_plus)
-            .vector;
+        return largest_ritz_pair(rest, 2 * h * matrices::D + h * h * matrices::K_plus).vector;
     };
-    stability_detail::Bounds effort;
+    stability_detail::Effort effort;
     auto bracket = stability_detail::symplectic_limit(rest, effort, 0, start);
     if (shares.margin < 1 && std::isfinite(bracket.refuted)) {
         bracket.refuted =

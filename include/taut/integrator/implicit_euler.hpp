@@ -15,6 +15,10 @@
 #include "detail/step_loop.hpp"
 
 namespace taut {
+
+template <class Scalar>
+class GeneralLinearSystem;
+
 namespace integrator_detail {
 
 template <class Solver, class Vector>

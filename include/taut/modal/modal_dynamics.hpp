@@ -22,7 +22,7 @@ namespace taut {
 /// is what bounds it, so float shapes halve the time.
 ///
 ///     static_equilibrium(net, state);
-///     const auto linear = net.linearize(state);
+///     const auto linear = taut::linearize(net, state);
 ///     if (auto report = modal_analysis(linear, 50, basis); !report) return fail(report);
 ///     ModalDynamics<float, 3> modal(linear, state, basis);
 /// @tparam Shape  of the shapes and the positions

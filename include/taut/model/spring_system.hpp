@@ -16,7 +16,6 @@
 #include "detail/law_check.hpp"
 #include "external_forces.hpp"
 #include "hookean.hpp"
-#include "../own_matrices/linear_system.hpp"
 #include "spring_set.hpp"
 #include "state.hpp"
 #include "tangent_matrix.hpp"
@@ -204,10 +203,6 @@ public:
     Scalar energy(const State& state) const {
         return kinetic_energy(state) + potential_energy(state);
     }
-    /// M, D, K and load of the free degrees of freedom about `state`: K = −∂f/∂x with every
-    /// damping velocity taken as 0, D = −∂f/∂v with Rayleigh on K⁺ [T2], [T28].
-    /// Fails when every particle is pinned.
-    LinearSystem<Scalar> linearize(const State& state) const;
 
     // ---- loops for solvers and analysis ----
 

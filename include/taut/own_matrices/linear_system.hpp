@@ -73,7 +73,7 @@ public:
     /// Writes them back; pinned particles keep what `state` has.
     template <int SpringDim>
     void from_free(const State& u, taut::State<Scalar, SpringDim>& state) const;
-    /// What to_free() and from_free() go by; SpringSystem::linearize sets it.
+    /// What to_free() and from_free() go by; linearize() sets it.
     void set_free_map(FreeMap<Scalar> map) { map_ = std::move(map); }
     /// Empty for matrices of the user's own.
     const FreeMap<Scalar>& free_map() const { return map_; }
@@ -96,7 +96,7 @@ private:
 ///
 /// An asymmetry of a few ulp of the largest entry in either row of a pair, as assembly leaves it,
 /// is averaged away; more is refused, with the entry named. Bring your own matrices, or call
-/// SpringSystem::linearize.
+/// linearize() springs.
 template <class Scalar>
 class LinearSystem : public GeneralLinearSystem<Scalar> {
 public:

@@ -6,9 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "linear_system.hpp"
-#include "../tight/certificate.hpp"
 #include "../stability/pencil.hpp"
+#include "../tight/certificate.hpp"
+#include "detail/unproved.hpp"
+#include "linear_system.hpp"
 
 namespace taut {
 
@@ -30,7 +31,7 @@ public:
     double upper_bound(const Combination& c, double enough = 0) const override;
     double deficit(const Combination& c) const override {
         const double bound = Pencil::deficit(c);
-        Prover<> prover;
+        Prover prover;
         return std::min(bound, proved_deficit(prover, *this, c, bound));
     }
     SparseMatrix<double> assemble(const Combination& c) const override;
@@ -38,6 +39,10 @@ public:
     std::vector<SpringShare> spring_shares(const Eigen::VectorXd&) const override { return {}; }
     std::vector<ParticleShare> particle_shares(const Eigen::VectorXd& u) const override;
     std::shared_ptr<const ScenePencil> scaled(double stiffness, double mass) const override;
+    bool amend(Method method, stability_detail::UnroundedLimit& limit) const override {
+        stability_detail::amend_for_matrices(method, *this, limit);
+        return true;
+    }
 
 private:
     using Matrix = SparseMatrix<double>;
@@ -154,7 +159,7 @@ bool MatrixPencil<Scalar>::proves_semidefinite(const SparseMatrix<Scalar>& A) {
     const auto error = [&](const Eigen::VectorXd& s) {
         return rounding * s.cwiseProduct(rounded.cwiseAbs() * s).maxCoeff();
     };
-    return Prover<>{}(Matrix(rounded), error).proved;
+    return Prover{}(Matrix(rounded), error).proved;
 }
 
 template <class Scalar>
@@ -276,6 +281,12 @@ std::shared_ptr<const ScenePencil> MatrixPencil<Scalar>::scaled(double stiffness
     });
     if (is_rayleigh()) pencil->D_ *= mass;
     return pencil;
+}
+
+/// By which Stability(system) finds its pencil.
+template <class Scalar>
+std::shared_ptr<const ScenePencil> make_pencil(const LinearSystem<Scalar>& system) {
+    return std::make_shared<MatrixPencil<Scalar>>(system);
 }
 
 }  // namespace taut

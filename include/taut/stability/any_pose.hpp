@@ -3,7 +3,6 @@
 #pragma once
 
 #include "../model/spring_system.hpp"
-#include "detail/quick_mode.hpp"
 #include "detail/symplectic_limit.hpp"
 #include "spring_pencil.hpp"
 
@@ -11,15 +10,15 @@ namespace taut {
 
 namespace stability_detail {
 
-template <class Effort, class Scalar, int Dim, class... Laws>
+template <class Scalar, int Dim, class... Laws>
 StepLimit<Scalar> any_pose_bracket(const SpringSystem<Scalar, Dim, Laws...>& system,
-                                   Effort effort) {
+                                   Effort& effort) {
     const auto laplacian = SpringPencil<1>::any_pose(system);
     if (!laplacian.lost().empty()) {
         return rounded<Scalar>({0, infinity, Cause::overflow}, system.revision());
     }
     const auto start = [&](double h) {
-        return leading_pair(laplacian, 2 * h * D + h * h * K_plus).vector;
+        return largest_ritz_pair(laplacian, 2 * h * D + h * h * K_plus).vector;
     };
     return rounded<Scalar>(symplectic_limit(laplacian, effort, 0, start), system.revision());
 }
@@ -38,18 +37,8 @@ StepLimit<Scalar> any_pose_bracket(const SpringSystem<Scalar, Dim, Laws...>& sys
 /// or damping is added, mass removed or a particle unpinned (see StepLimit::step_for).
 template <class Scalar, int Dim, class... Laws>
 StepLimit<Scalar> any_pose_limit(const SpringSystem<Scalar, Dim, Laws...>& system) {
-    return stability_detail::any_pose_bracket(system, stability_detail::Bounds{});
-}
-
-/// The same, narrowed by factorisations of n × n matrices until refuted/certified ≤ 1 + tightness
-/// [T22]. @param tightness  0: as above
-template <class Cholesky = EigenCholesky, class Scalar, int Dim, class... Laws>
-StepLimit<Scalar> any_pose_limit(const SpringSystem<Scalar, Dim, Laws...>& system,
-                                 double tightness) {
-    require_non_negative("any_pose_limit", "tightness", tightness);
-    if (tightness == 0) return any_pose_limit(system);
-    return stability_detail::any_pose_bracket(
-        system, stability_detail::Factorisations<Cholesky>{tightness, {}});
+    stability_detail::Effort bounds;
+    return stability_detail::any_pose_bracket(system, bounds);
 }
 
 }  // namespace taut

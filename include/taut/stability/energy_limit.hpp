@@ -4,7 +4,6 @@
 
 #include "../core/detail/bisection.hpp"
 #include "../model/spring_system.hpp"
-#include "detail/quick_mode.hpp"
 #include "detail/symplectic_limit.hpp"
 #include "spring_pencil.hpp"
 
@@ -64,9 +63,9 @@ inline GraphDampingRange graph_damping_range(double h, double stiffness, double 
 template <class Scalar>
 inline constexpr double energy_margin = 8 * step_rounding<Scalar>;
 
-template <class Effort, class Scalar, int Dim, class... Laws>
+template <class Scalar, int Dim, class... Laws>
 EnergyLimit<Scalar> energy_bracket(const SpringSystem<Scalar, Dim, Laws...>& system,
-                                   Effort effort) {
+                                   Effort& effort) {
     EnergyLimit<Scalar> limit;
     limit.revision = system.revision();
     limit.refuted = std::numeric_limits<Scalar>::infinity();
@@ -80,7 +79,7 @@ EnergyLimit<Scalar> energy_bracket(const SpringSystem<Scalar, Dim, Laws...>& sys
     const auto damped = SpringPencil<1>::any_pose(system, Damping::all_but_graph);
     if (springs.size() > 0) limit.drag = damped.rayleigh().mass_proportional;
     const UnroundedLimit bracket = symplectic_limit(
-        springs, effort, 0, [&](double) { return leading_pair(springs, K_plus).vector; });
+        springs, effort, 0, [&](double) { return largest_ritz_pair(springs, K_plus).vector; });
     if (!(bracket.certified > 0)) return overflow();
     const bool only_drag = damped.is_rayleigh() && damped.rayleigh().stiffness_proportional == 0;
     if (springs.size() > 0 && !only_drag) {
@@ -130,18 +129,8 @@ GraphDampingRange EnergyLimit<Scalar>::alpha(double h) const {
 /// any_pose_limit's answer.
 template <class Scalar, int Dim, class... Laws>
 EnergyLimit<Scalar> energy_limit(const SpringSystem<Scalar, Dim, Laws...>& system) {
-    return stability_detail::energy_bracket(system, stability_detail::Bounds{});
-}
-
-/// The same, with ℓ narrowed by factorisations of n × n matrices [T22].
-/// @param tightness  of ℓ's bracket of steps; 0: as above
-template <class Cholesky = EigenCholesky, class Scalar, int Dim, class... Laws>
-EnergyLimit<Scalar> energy_limit(const SpringSystem<Scalar, Dim, Laws...>& system,
-                                 double tightness) {
-    require_non_negative("energy_limit", "tightness", tightness);
-    if (tightness == 0) return energy_limit(system);
-    return stability_detail::energy_bracket(
-        system, stability_detail::Factorisations<Cholesky>{tightness, {}});
+    stability_detail::Effort bounds;
+    return stability_detail::energy_bracket(system, bounds);
 }
 
 }  // namespace taut

@@ -63,6 +63,20 @@ void add_scaled(Real* y, Real factor, const Real* x, Index n) {
     Eigen::Map<VectorX<Real>>(y, n) += factor * Eigen::Map<const VectorX<Real>>(x, n);
 }
 
+/// The residual of the largest Ritz value over its size, where H, m × m, is tridiagonal.
+/// @param beta  what the last of its `used` columns leaves
+inline double tridiagonal_residual(const std::vector<double>& H, Index m, Index used, double beta) {
+    std::vector<double> d, e;
+    for (Index j = 0; j < used; ++j) {
+        d.push_back(H[j * m + j]);
+        if (j + 1 < used) e.push_back(H[j * m + j + 1]);
+    }
+    std::vector<double> last_row(d.size(), 0);
+    last_row.back() = 1;
+    const auto ritz = tridiagonal_spectrum(std::move(d), std::move(e), std::move(last_row));
+    return beta * std::abs(*ritz.vector(used - 1)) / std::abs(ritz.values.back());
+}
+
 /// Vectors of N numbers, side by side.
 template <class Real>
 class Basis {
@@ -73,11 +87,12 @@ public:
     void set(Index j, const VectorX<Real>& q) {
         std::copy_n(q.data(), size_, numbers_.data() + j * size_);
     }
-    /// w ← w − QQᵀw with the first `used` vectors, which must be orthonormal. @returns  Qᵀw
-    std::vector<Real> remove_from(VectorX<Real>& w, Index used) {
-        std::vector<Real> h;
-        for (Index j = 0; j < used; ++j) h.push_back(dot((*this)[j], w.data(), size_));
-        for (Index j = 0; j < used; ++j) add_scaled(w.data(), -h[j], (*this)[j], size_);
+    /// w ← w − QQᵀw with the vectors from `first` to `used`, which must be orthonormal.
+    /// @returns  Qᵀw with zeros before
+    std::vector<Real> remove_from(VectorX<Real>& w, Index first, Index used) {
+        std::vector<Real> h(static_cast<std::size_t>(used), 0);
+        for (Index j = first; j < used; ++j) h[j] = dot((*this)[j], w.data(), size_);
+        for (Index j = first; j < used; ++j) add_scaled(w.data(), -h[j], (*this)[j], size_);
         return h;
     }
     /// Σ shares_j q_j of the first `used`.
@@ -105,45 +120,54 @@ RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
                            const LanczosOptions& options = {}, const Eigen::VectorXd& start = {}) {
     const Index N = pencil.size();
     const Index m = std::min<Index>(options.basis, N);
-    VectorX<Real> root(N);
-    for (Index i = 0; i < N; ++i) root[i] = std::sqrt(pencil.mass()[i]);
+    VectorX<Real> by_root(N);  // M⁻½
+    for (Index i = 0; i < N; ++i) by_root[i] = 1 / std::sqrt(pencil.mass()[i]);
     stability_detail::Basis<Real> Q(N, m);                      // orthonormal
     std::vector<double> H(static_cast<std::size_t>(m * m), 0);  // QᵀAQ with A = M⁻½SM⁻½
     VectorX<Real> u(N);
     VectorX<Real> w(N);
     VectorX<Real> q = stability_detail::scattered_vector(N);
     if (start.size() == N) {
-        for (Index i = 0; i < N; ++i) q[i] = root[i] * start[i];
+        for (Index i = 0; i < N; ++i) q[i] = start[i] / by_root[i];
     }
     q /= stability_detail::norm(q.data(), N);
     RitzPair pair;
     Index kept = 0;
     for (int run = 0; run <= options.restarts; ++run) {
         Index used = kept;
+        // At a rough tolerance the basis of a first run needs no reorthogonalisation.
+        const bool plain = run == 0 && options.tolerance >= 1e-3;
         double beta = 0;
-        while (used < m) {
+        bool early = false;
+        while (used < m && !early) {
             const Index j = used++;
             Q.set(j, q);
-            for (Index i = 0; i < N; ++i) u[i] = q[i] / root[i];
+            for (Index i = 0; i < N; ++i) u[i] = by_root[i] * q[i];
             pencil.multiply(c, u, w);
             ++pair.products;
-            for (Index i = 0; i < N; ++i) w[i] /= root[i];
-            const std::vector<double> h = Q.remove_from(w, used);
+            for (Index i = 0; i < N; ++i) w[i] *= by_root[i];
+            const std::vector<double> h = Q.remove_from(w, plain && j > 0 ? j - 1 : 0, used);
             double norm = 0;
             for (Index i = 0; i < used; ++i) {
                 H[j * m + i] = H[i * m + j] = h[i];
                 norm = std::hypot(norm, h[i]);
             }
-            // Twice is enough (Parlett): the basis stays orthogonal to rounding.
-            Q.remove_from(w, used);
             beta = stability_detail::norm(w.data(), N);
+            if (!(beta > 0.1 * norm)) {
+                // Twice is enough (Parlett): the basis stays orthogonal to rounding.
+                Q.remove_from(w, 0, used);
+                beta = stability_detail::norm(w.data(), N);
+            }
             if (!(beta > 1e-14 * norm)) {
                 // An invariant subspace, maybe not that of the largest eigenvalue.
                 beta = 0;
                 w = stability_detail::scattered_vector(N, used);
-                for (int pass = 0; pass < 2; ++pass) Q.remove_from(w, used);
+                for (int pass = 0; pass < 2; ++pass) Q.remove_from(w, 0, used);
             }
             q = w / stability_detail::norm(w.data(), N);
+            // H of the first run is tridiagonal, so that what its end will be is cheap to know.
+            early = run == 0 && used >= 8 && used % 2 == 0 &&
+                    stability_detail::tridiagonal_residual(H, m, used, beta) <= options.tolerance;
         }
         std::vector<double> projected;
         for (Index j = 0; j < used; ++j) {
@@ -171,7 +195,7 @@ RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
     const double* shape = Q[kept - 1];
     const double length = stability_detail::norm(shape, N);
     pair.vector.resize(N);
-    for (Index i = 0; i < N; ++i) pair.vector[i] = shape[i] / length / root[i];
+    for (Index i = 0; i < N; ++i) pair.vector[i] = by_root[i] * (shape[i] / length);
     return pair;
 }
 

@@ -13,9 +13,11 @@
 
 #include "../core/error.hpp"
 #include "../core/types.hpp"
+#include "../method/method.hpp"
 #include "../model/combination.hpp"
 #include "../model/damping.hpp"
 #include "../model/tangent_matrix.hpp"
+#include "step_limit.hpp"
 
 namespace taut {
 
@@ -172,6 +174,10 @@ public:
     /// The same scene with K (and αK⁺) times `stiffness` and M (and d0·M) times `mass`; dampers
     /// stay. What is scaled below the normal numbers keeps its allowance for rounding.
     virtual std::shared_ptr<const ScenePencil> scaled(double stiffness, double mass) const = 0;
+    /// Weakens a limit that was found as that of springs, with K⁺, D ⪰ 0, where they are not known
+    /// to be so, and tells of growth. @returns false where nothing but springs stands behind K and
+    /// D
+    virtual bool amend(Method, stability_detail::UnroundedLimit&) const { return false; }
 };
 
 }  // namespace taut

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -132,6 +133,40 @@ Scalar round_up(double value) {
     return static_cast<double>(rounded) >= value
                ? rounded
                : std::nextafter(rounded, std::numeric_limits<Scalar>::infinity());
+}
+
+/// A step limit in double, before it is rounded to a system's Scalar: see StepLimit for the fields.
+struct UnroundedLimit {
+    double certified = 0;                                      ///< s
+    double refuted = std::numeric_limits<double>::infinity();  ///< s
+    Cause cause = Cause::stiffness;
+    double estimate = 0;         ///< s; 0: none
+    double growth_rate = 0;      ///< 1/s
+    double certified_up_to = 0;  ///< s, but for admitted_growth
+    double admitted_growth = 0;  ///< 1/s
+};
+
+/// Whether it says of any step that it is safe, if only but for admitted_growth.
+inline bool claims(const UnroundedLimit& limit) {
+    return limit.certified > 0 || limit.certified_up_to > 0;
+}
+
+/// The limit as Scalars that claim no more. @param revision  of the system that was analysed
+template <class Scalar>
+StepLimit<Scalar> rounded(const UnroundedLimit& limit, std::uint64_t revision) {
+    StepLimit<Scalar> answer;
+    answer.certified = round_down<Scalar>(limit.certified);
+    answer.refuted = round_up<Scalar>(limit.refuted);
+    answer.cause = limit.cause;
+    // Nothing found is no estimate, and none lies where a vector refutes.
+    if (limit.estimate > 0 && std::isfinite(limit.estimate)) {
+        answer.estimate = std::min(static_cast<Scalar>(limit.estimate), answer.refuted);
+    }
+    answer.growth_rate = limit.growth_rate;
+    answer.certified_up_to = round_down<Scalar>(limit.certified_up_to);
+    answer.admitted_growth = limit.admitted_growth;
+    answer.revision = revision;
+    return answer;
 }
 
 }  // namespace stability_detail

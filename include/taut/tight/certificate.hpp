@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "eigen_cholesky.hpp"
 #include "../stability/pencil.hpp"
+#include "eigen_cholesky.hpp"
 
 namespace taut {
 
@@ -34,10 +34,6 @@ inline double cholesky_rounding(Index q) {
 ///
 /// A is first scaled to a diagonal near one by powers of two, which is exact and keeps
 /// definiteness. The pattern is analysed once for matrices that share it.
-/// @tparam Cholesky  EigenCholesky, CholmodCholesky, or another factorisation with their interface.
-///                   Not one whose kernels multiply by an inverted diagonal block: [T22] does not
-///                   cover them.
-template <class Cholesky = EigenCholesky>
 class Prover {
 public:
     /// @param A          symmetric, both triangles, one pattern for all calls; overwritten
@@ -49,14 +45,13 @@ public:
     int factorizations() const { return factorizations_; }
 
 private:
-    Cholesky cholesky_;
+    EigenCholesky cholesky_;
     Index widest_ = 0;  // most nonzeros in a row of the factor; 0: not analysed yet
     int factorizations_ = 0;
 };
 
-template <class Cholesky>
 template <class Error>
-DefinitenessProof Prover<Cholesky>::operator()(SparseMatrix<double>&& A, Error&& max_error) {
+DefinitenessProof Prover::operator()(SparseMatrix<double>&& A, Error&& max_error) {
     DefinitenessProof proof;
     const Index N = A.rows();
     Eigen::VectorXd scale(N);
@@ -90,23 +85,22 @@ DefinitenessProof Prover<Cholesky>::operator()(SparseMatrix<double>&& A, Error&&
 }
 
 /// Proves a matrix that is given exactly, as its stored numbers stand.
-template <class Cholesky = EigenCholesky>
+template <class Real = double>  // a template, as the others below: only its callers compile it
 DefinitenessProof proves_positive_definite(const SparseMatrix<double>& A) {
-    return Prover<Cholesky>{}(SparseMatrix<double>(A), [](const Eigen::VectorXd&) { return 0.0; });
+    return Prover{}(SparseMatrix<double>(A), [](const Eigen::VectorXd&) { return 0.0; });
 }
 
 /// Proves the combination S of a pencil, the rounding of its assembly counted.
-template <class Cholesky>
-DefinitenessProof prove(Prover<Cholesky>& prover, const Pencil& pencil, const Combination& c) {
+template <class Real = double>
+DefinitenessProof prove(Prover& prover, const Pencil& pencil, const Combination& c) {
     return prover(pencil.assemble_least(c),
                   [&](const Eigen::VectorXd& scale) { return pencil.assembly_error(c, scale); });
 }
 
 /// An ε ≥ 0, in the units of M⁻¹S, with S ⪰ −εM proved by factorisation of S + εM: the smallest
 /// that rounding allows, within a factor of 16; infinity when none up to `most` is.
-template <class Cholesky>
-double proved_deficit(Prover<Cholesky>& prover, const Pencil& pencil, const Combination& c,
-                      double most) {
+template <class Real = double>
+double proved_deficit(Prover& prover, const Pencil& pencil, const Combination& c, double most) {
     if (!(most > 0) || !std::isfinite(most)) return std::numeric_limits<double>::infinity();
     for (double epsilon = 1e-14 * most; epsilon <= most; epsilon *= 16) {
         if (prove(prover, pencil, c + epsilon * matrices::M).proved) return epsilon;

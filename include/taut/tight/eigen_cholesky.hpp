@@ -43,7 +43,8 @@ public:
     }
 };
 
-/// The default factorisation behind proofs.
+/// The factorisation behind proofs. Not one whose kernels multiply by an inverted diagonal block:
+/// [T22] does not cover them.
 using EigenCholesky = SimplicialCholesky<double>;
 
 }  // namespace taut

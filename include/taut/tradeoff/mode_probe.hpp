@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "../mass_scaling/detail/low_modes.hpp"
+#include "../own_matrices/linear_system.hpp"
 #include "../stability/spring_pencil.hpp"
 #include "../accuracy/accuracy.hpp"
 #include "../recommend/candidate.hpp"

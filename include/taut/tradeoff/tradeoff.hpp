@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "../own_matrices/linearize.hpp"
 #include "../stability/any_pose.hpp"
 #include "../core/clock.hpp"
 #include "extrapolation.hpp"
@@ -159,7 +160,7 @@ private:
         const auto pencil =
             SpringPencil<Dim>::at_pose(system_, start_.x.template cast<TangentReal<Scalar>>());
         if (pencil.size() == 0 || !pencil.stiffness_semidefinite()) return;
-        const auto linear = system_.linearize(start_);
+        const auto linear = linearize(system_, start_);
         linear_.emplace(linear.mass(), linear.damping(), linear.stiffness());
         modes_ = lowest_modes(system_, start_, options_.modes);
     }

@@ -63,35 +63,4 @@ Scalar SpringSystem<Scalar, Dim, Laws...>::potential_energy(const State& state) 
     return energy;
 }
 
-template <class Scalar, int Dim, class... Laws>
-LinearSystem<Scalar> SpringSystem<Scalar, Dim, Laws...>::linearize(const State& state) const {
-    detail::require_fits("SpringSystem::linearize", state, size());
-    if (!state.finite()) {
-        fail("SpringSystem::linearize: particle ", state.first_not_finite(),
-             " has a position or velocity that is not finite");
-    }
-    if (pinned_count() == size()) {
-        fail("SpringSystem::linearize: none of the ", size(), " particles is free");
-    }
-    const TangentMatrix<Scalar, Dim> tangent(*this);
-    auto K = tangent.zero();
-    auto D = tangent.zero();
-    tangent.assemble(*this, state.x, matrices::K, K);
-    tangent.assemble(*this, state.x, matrices::D, D);
-
-    State still = state;
-    still.v.setZero();
-    Force f;
-    force(still, f);
-    FreeMap<Scalar> map{Dim, tangent.free(), {}};
-    map.free.gather(state.x, map.pose);
-    VectorX<Scalar> mass, load;
-    map.free.gather(f, load);
-    for (Index i = 0; i < size(); ++i) f.col(i).setConstant(mass_[i]);
-    map.free.gather(f, mass);
-    LinearSystem<Scalar> linear(std::move(mass), std::move(D), std::move(K), std::move(load));
-    linear.set_free_map(std::move(map));
-    return linear;
-}
-
 }  // namespace taut

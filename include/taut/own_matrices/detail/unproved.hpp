@@ -6,34 +6,49 @@
 #include <cmath>
 
 #include "../../method/visit.hpp"
-#include "../../stability/detail/effort.hpp"
+#include "../../stability/detail/growth.hpp"
 
 // What a limit still claims where K or D could not be shown to be positive semi-definite.
 
 namespace taut::stability_detail {
 
-template <class Scalar>
-bool claims(const StepLimit<Scalar>& limit) {
-    return limit.certified > 0 || limit.certified_up_to > 0;
+/// The bracket of the largest stable step of implicit Euler. With D ⪰ −δM and K ⪰ −κM, steps are
+/// safe while 1 − hδ − h²κ > 0, and the step matrix turns singular where a vector says so [T21].
+template <class Real = double>  // a template, as the others below: only its callers compile it
+UnroundedLimit implicit_limit(const Pencil& pencil) {
+    const double kappa = std::max(0.0, pencil.upper_bound(-K_plus));
+    if (pencil.projected_semidefinite() || kappa == 0) {
+        return {infinity, infinity, Cause::unconditional};
+    }
+    if (!std::isfinite(kappa)) return {0, infinity, Cause::overflow};
+    const double delta = pencil.damping_semidefinite() ? 0 : pencil.deficit(D);
+    const auto definite_up_to = [delta](double most) {
+        return critical_step(Method::symplectic_euler, most, delta) / 2;
+    };
+    const RitzPair softest = largest_ritz_pair(pencil, -K_plus);
+    const auto [k, d] = quotients(pencil, softest.vector, K_plus);
+    if (k.upper() < 0) {
+        return {definite_up_to(kappa),
+                critical_step(Method::implicit_euler, k.upper(), std::max(0.0, d.upper()))};
+    }
+    return {definite_up_to(pencil.deficit(K_plus)), infinity};
 }
 
 /// Where a matrix is semi-definite only up to `rate`, 1/s, times M, the answer goes to
 /// certified_up_to in place of certified: multipliers stay below 1 + h·rate [T17], those of
 /// implicit Euler below 1/(1 − h·rate), which is less than e^(2h·rate) while h·rate ≤ ½. Rates add
 /// up where they meet in one vector.
-template <class Scalar>
-void admit(Method method, double rate, StepLimit<Scalar>& limit) {
+inline void admit(Method method, double rate, UnroundedLimit& limit) {
     limit.admitted_growth += is_implicit(method) ? 2 * rate : rate;
     const double most = 1 / std::max(limit.admitted_growth, 1e-300);
-    limit.certified_up_to =
-        std::min(std::max(limit.certified, limit.certified_up_to), round_down<Scalar>(most));
+    limit.certified_up_to = std::min(std::max(limit.certified, limit.certified_up_to), most);
     limit.certified = 0;
     limit.cause = Cause::rounding;
 }
 
 /// D ⪰ −δM by rounding is admitted; a δ that is no rounding feeds energy in at every step.
-template <class Scalar>
-void admit_negative_damping(Method method, const Pencil& pencil, StepLimit<Scalar>& limit) {
+template <class Real = double>
+void admit_negative_damping(Method method, const Pencil& pencil, UnroundedLimit& limit) {
     if (pencil.damping_semidefinite()) return;
     const double delta = pencil.deficit(D);
     if (delta == 0) return;
@@ -43,38 +58,31 @@ void admit_negative_damping(Method method, const Pencil& pencil, StepLimit<Scala
     }
     limit.certified = limit.certified_up_to = 0;
     limit.admitted_growth = 0;
-    limit.refuted = std::numeric_limits<Scalar>::infinity();
+    limit.refuted = infinity;
     limit.cause = Cause::damping_unproved;
 }
 
-/// What the physics adds where K is not known to be positive semi-definite [T27]: √κ of the
-/// undamped motion (damping slows the growth but does not remove it), or what could not be
-/// excluded.
-template <class Scalar, class Effort>
-void add_growth(Method method, const Pencil& pencil, StepLimit<Scalar>& limit,
-                [[maybe_unused]] Effort& effort) {
-    if (pencil.stiffness_semidefinite()) return;
-    LanczosOptions options;
-    options.basis = 48;
-    options.tolerance = 1e-4;
-    const RitzPair softest = largest_ritz_pair(pencil, -K, options);
-    const Enclosed k = quotients(pencil, softest.vector, K).k;
-    const double resolution = pencil.resolution();
-    const double meant =
-        resolution > 0 ? resolution * std::max(0.0, pencil.upper_bound(K_plus)) : 0;
-    if (k.upper() < -meant) {
-        limit.growth_rate = std::sqrt(-k.value);
-        if (limit.certified > 0) limit.cause = Cause::buckling;
-        return;
+/// What is left of a limit that was found as that of springs.
+template <class Real = double>
+void amend_for_matrices(Method method, const Pencil& pencil, UnroundedLimit& limit) {
+    if (method::is_limited_by<method::LimitedByIndefiniteness>(method) ||
+        method::is_limited_by<method::LimitedByDrag>(method)) {
+        const UnroundedLimit by_drag = limit;
+        limit = implicit_limit(pencil);
+        if (by_drag.certified < limit.certified) {
+            limit.certified = by_drag.certified;
+            limit.cause = by_drag.cause;
+        }
     }
-    if (!claims(limit)) return;
-    // Not refuted, not proved: K ⪰ −εM is what can be said.
-    double epsilon = pencil.deficit(K);
-    if (!pencil.projected_semidefinite()) return admit(method, std::sqrt(epsilon), limit);
-    if constexpr (Effort::factorises) {
-        epsilon = std::min(epsilon, proved_deficit(effort.prover, pencil, K, epsilon));
+    // An explicit step is claimed by D − hK ⪰ −δM, which needs no D ⪰ 0 beside it unless K is
+    // indefinite: there it says nothing of smaller steps.
+    if (!method::is_limited_by<method::LimitedByDamping>(method) || !claims(limit) ||
+        !pencil.stiffness_semidefinite()) {
+        admit_negative_damping(method, pencil, limit);
     }
-    limit.admitted_growth += std::sqrt(epsilon);
+    if (pencil.stiffness_semidefinite() || finds_growth(pencil, limit) || !claims(limit)) return;
+    // Not refuted, not proved.
+    admit(method, std::sqrt(pencil.deficit(K)), limit);
 }
 
 }  // namespace taut::stability_detail

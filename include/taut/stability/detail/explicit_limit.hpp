@@ -8,8 +8,6 @@
 
 #include "../../core/detail/bisection.hpp"
 #include "../../method/mode.hpp"
-#include "../../tight/dense.hpp"
-#include "../../tight/explicit_estimate.hpp"
 #include "effort.hpp"
 
 // Explicit Euler: D − hK⁺ ≻ 0 and 4M − 2hD + h²K ≻ 0, or mode by mode where M, D and K commute.
@@ -117,91 +115,15 @@ double refuted_explicit(const Pencil& pencil, const RitzPair& stiffest, bool com
     return h;
 }
 
-/// k_max of K'⁺ as a bracket {refuted lower value, proved upper one}, by σM − K⁺ ≻ 0.
-struct ProvedMaximum {
-    double lower = 0;
-    double upper = 0;
-    Eigen::VectorXd vector;
-};
-
-template <class Cholesky>
-ProvedMaximum narrow_maximum(const Pencil& pencil, Prover<Cholesky>& prover, double tightness) {
-    ProvedMaximum k;
-    k.upper = std::max(0.0, pencil.upper_bound(K_plus));
-    // narrow() works on steps: 1/k is a step's square, up to a factor.
-    Bracket inverse{k.upper > 0 ? 1 / k.upper : infinity, infinity, {}};
-    const auto sharpen = [&](Bracket& b, double share) {
-        RitzPair pair = largest_ritz_pair(pencil, K_plus, sharp(share), b.vector);
-        const double value = quotients(pencil, pair.vector, K_plus).k.lower();
-        if (value > 0) b.refuted = std::min(b.refuted, 1 / value);
-        b.vector = std::move(pair.vector);
-    };
-    narrow(inverse, tightness, sharpen,
-           [&](double share) { return prove(prover, pencil, 1 / share * M - K_plus).proved; });
-    k.upper = std::min(k.upper, 1 / inverse.certified * (1 + 4e-16));
-    k.lower = std::isfinite(inverse.refuted) ? 1 / inverse.refuted : 0;
-    k.vector = std::move(inverse.vector);
-    return k;
-}
-
-/// Explicit Euler where M, D and K commute [T9]: near critical damping the step moves faster than
-/// k_max does, so k_max is narrowed until the step's bracket fits.
-/// @param d     a bound on the largest eigenvalue of D', 1/s
-/// @param mode  the stiffest one known
-template <class Cholesky>
-void narrow_commuting(const Pencil& pencil, Factorisations<Cholesky>& effort, double d,
-                      RitzPair mode, UnroundedLimit& limit) {
-    for (double share = effort.tightness; share > 1e-14 && !within(limit, effort.tightness);
-         share /= 16) {
-        auto proved = narrow_maximum(pencil, effort.prover, share);
-        limit.certified = std::max(limit.certified, certified_explicit(pencil, proved.upper, d));
-        if (proved.vector.size() > 0) mode.vector = std::move(proved.vector);
-        limit.refuted = refuted_explicit(pencil, mode, true);
-        if (proved.upper > proved.lower * (1 + share)) break;
-    }
-}
-
-/// Explicit Euler with a D that does not commute: [T17] by two factorisations, as far as D − hK⁺ is
-/// definite up to −δM. Raises `certified` where δ = 0 suffices, else `certified_up_to`
-/// with δ for `admitted_growth`.
-/// @param k     a bound on k_max, 1/s²
-/// @param high  no limit is above this step, s
-template <class Cholesky>
-void narrow_explicit(const Pencil& pencil, Factorisations<Cholesky>& effort, double k, double high,
-                     UnroundedLimit& limit) {
-    Prover<Cholesky>& prover = effort.prover;
-    const auto second = [&](double h) {
-        return prove(prover, pencil, 4 * M - 2 * h * D + h * h * K).proved;
-    };
-    // The largest h with D − hK⁺ ⪰ −δM, δ tiny beside hK⁺.
-    double shown = 0;
-    const auto proves = [&](double h) {
-        const double tiny = 1e-9 * h * k;
-        const bool strict = prove(prover, pencil, D - h * K_plus).proved;
-        const bool weak = strict || prove(prover, pencil, tiny * M + D - h * K_plus).proved;
-        if (!weak || !second(h)) return false;
-        shown = strict ? 0 : tiny;
-        if (strict) limit.certified = h;
-        return true;
-    };
-    // Far below the limit the rounding of D hides so small a δ: a first proof is sought from above.
-    double top = std::min(high, limit.refuted);
-    double low = limit.certified;
-    for (int repeat = 0; low == 0 && repeat < 10; ++repeat) {
-        const double h = top / 16;
-        (proves(h) ? low : top) = h;
-    }
-    if (low == 0) return;
-    detail::Bisection<double> search(low, top, effort.tightness);
-    while (search.open()) search.narrow(proves(search.middle()));
-    if (search.passes() > limit.certified) {
-        limit.certified_up_to = search.passes();
-        limit.admitted_growth = shown;
-    }
+/// Whether M, D and the stepper's K share their eigenvectors: α K⁺ is not a function of an
+/// indefinite K, so there only d0·M commutes with it.
+inline bool commutes(const Pencil& pencil) {
+    return pencil.is_rayleigh() &&
+           (pencil.stiffness_semidefinite() || pencil.rayleigh().stiffness_proportional == 0);
 }
 
 /// The bracket of the largest stable step. @param stiffest  the stiffest mode of K⁺ known
-template <class Effort>
+template <class Real = double>  // a template: only its callers compile it
 UnroundedLimit explicit_limit(const Pencil& pencil, Effort& effort, const RitzPair& stiffest) {
     const double k = pencil.upper_bound(K_plus);
     const double d = pencil.upper_bound(D);
@@ -215,29 +137,10 @@ UnroundedLimit explicit_limit(const Pencil& pencil, Effort& effort, const RitzPa
         const bool vibrates = quotients(pencil, stiffest.vector, K).k.lower() > 0;
         return {0, vibrates ? 0 : infinity, Cause::undamped};
     }
-    // α K⁺ is not a function of an indefinite K, so only d0·M commutes with it.
-    const bool commutes = pencil.is_rayleigh() && (pencil.stiffness_semidefinite() ||
-                                                   pencil.rayleigh().stiffness_proportional == 0);
     UnroundedLimit limit;
     limit.certified = certified_explicit(pencil, k, d);
-    limit.refuted = refuted_explicit(pencil, stiffest, commutes);
-    if constexpr (Effort::factorises) {
-        if (pencil.is_rayleigh() && pencil.stiffness_semidefinite()) {
-            narrow_commuting(pencil, effort, d, stiffest, limit);
-        }
-        if (!commutes && pencil.size() <= DenseAnalysis<>::good_size) {
-            const DenseAnalysis<> dense(pencil, K);
-            limit.refuted = std::min(limit.refuted, dense.explicit_limit_above());
-            limit.estimate = dense.explicit_limit();
-        } else if (!commutes && k > 0) {
-            limit.estimate = explicit_estimate(pencil, k);
-        }
-        if (!within(limit, effort.tightness) && !pencil.is_rayleigh()) {
-            // No limit is above that of the best commuting damping by much [T12].
-            const double high = k > 0 ? 4 / std::sqrt(k) : 4 / d;
-            narrow_explicit(pencil, effort, k, high, limit);
-        }
-    }
+    limit.refuted = refuted_explicit(pencil, stiffest, commutes(pencil));
+    effort.narrow_explicit(pencil, stiffest, limit);
     const bool by_damping = k <= 0 || limit.certified * limit.certified * k < 4 * (1 - 1e-3);
     limit.refuted = std::max(limit.refuted, limit.certified);
     limit.cause = limit.certified > 0

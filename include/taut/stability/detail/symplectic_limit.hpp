@@ -87,27 +87,10 @@ inline Cause symplectic_cause(const Pencil& pencil, double h, const Eigen::Vecto
     return h * pencil.quadratic(D, u).value > m ? Cause::damping : Cause::stiffness;
 }
 
-/// Proves step h, s, stable by factorisations, with the true K [T19]. Needs D ⪰ 0.
-template <class Cholesky>
-bool proves_symplectic(const Pencil& pencil, Prover<Cholesky>& prover, double h) {
-    // With an indefinite K the condition at h says nothing of smaller steps; hD ≺ 4M does.
-    return prove(prover, pencil, 4 * M - 2 * h * D - h * h * K).proved &&
-           (pencil.stiffness_semidefinite() || prove(prover, pencil, 4 * M - h * D).proved);
-}
-
-template <class Cholesky>
-void narrow_symplectic(const Pencil& pencil, Factorisations<Cholesky>& effort, Bracket& bracket) {
-    const auto sharpen = [&](Bracket& b, double share) {
-        sharpen_symplectic(pencil, sharp(share), 0.1 * share, b.refuted, b.vector);
-    };
-    narrow(bracket, effort.tightness, sharpen,
-           [&](double h) { return proves_symplectic(pencil, effort.prover, h); });
-}
-
 /// The bracket of the largest stable step.
 /// @param enough  a bound on k_max, 1/s², that need not be improved
 /// @param start   start(h): N, near the vector on which 2hD + h²K⁺ is largest, to begin a search
-template <class Effort, class Start>
+template <class Start>
 UnroundedLimit symplectic_limit(const Pencil& pencil, Effort& effort, double enough,
                                 Start&& start) {
     Bracket bracket;
@@ -116,7 +99,7 @@ UnroundedLimit symplectic_limit(const Pencil& pencil, Effort& effort, double eno
     if (!(bracket.certified > 0)) return {0, infinity, Cause::overflow};
     bracket.vector = start(bracket.certified);
     bracket.refuted = refuted_symplectic(pencil, bracket.vector);
-    if constexpr (Effort::factorises) narrow_symplectic(pencil, effort, bracket);
+    effort.narrow_symplectic(pencil, bracket);
     return {bracket.certified, bracket.refuted,
             symplectic_cause(pencil, bracket.certified, bracket.vector)};
 }
