@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-// EXPECT: taut::ImplicitEuler: a GeneralLinearSystem needs an unsymmetric solver
+// EXPECT: taut: an implicit step of an unsymmetric system needs an unsymmetric solver
 
 #include <taut/integrator/implicit_euler.hpp>
+#include <taut/own_matrices/linear_system.hpp>
 
 void step(const taut::GeneralLinearSystem<double>& system) { taut::ImplicitEuler stepper(system); }

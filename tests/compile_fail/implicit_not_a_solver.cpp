@@ -3,6 +3,7 @@
 // EXPECT: taut::Solver: needs `factorize(const SparseMatrix&)`
 
 #include <taut/integrator/implicit_euler.hpp>
+#include <taut/own_matrices/linear_system.hpp>
 
 struct Incomplete {
     void analyzePattern(const taut::SparseMatrix<double>&) {}

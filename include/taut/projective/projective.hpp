@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// Needs newton/ as well, for the objective of a step.
+
 #include <type_traits>
 
 #include "../method/implicit_euler.hpp"
