@@ -30,8 +30,6 @@ using Cloth = taut::SpringSystem<double, 3>;
 using State = Cloth::State;
 using Sparse = taut::SparseMatrix<double>;
 using Gradients = taut::ConjugateGradient<double, 3>;
-using JacobiGradients = taut::ConjugateGradient<double, 3, taut::BlockJacobi<double, 3>>;
-using CholeskyGradients = taut::ConjugateGradient<double, 3, taut::IncompleteCholesky<double, 3>>;
 using Projective = taut::ProjectiveDynamics<Cloth>;
 
 constexpr double h = 1.0 / 60;
@@ -85,8 +83,6 @@ void steps(const std::vector<Scene>& scenes) {
         row("ImplicitEuler (SimplicialLLT)", cloth, by(llt));
         taut::ImplicitEuler<Cloth, taut::Cholmod<>> cholmod(cloth);
         row("ImplicitEuler, Cholmod", cloth, by(cholmod));
-        taut::ImplicitEuler<Cloth, JacobiGradients> jacobi(cloth);
-        row("ImplicitEuler, ConjugateGradient 1e-3, block Jacobi", cloth, by(jacobi));
         taut::ImplicitEuler<Cloth, Gradients> gradients(cloth);
         row("ImplicitEuler, ConjugateGradient 1e-3", cloth, by(gradients));
         gradients.configure([](auto& solver) { solver.setTolerance(1e-6); });
@@ -127,7 +123,7 @@ struct DirectSolve {
     }
 };
 
-/// A second of free swing: what a step costs, by each preconditioner.
+/// A second of free swing: what a step costs.
 void gradients_table(const std::vector<Scene>& scenes) {
     std::printf(
         "## Conjugate gradients to 1e-3, a second of free swing in steps of 1/60 s\n\n"
@@ -159,8 +155,6 @@ void gradients_table(const std::vector<Scene>& scenes) {
             std::fflush(stdout);
         };
         by_gradients("TwoLevel", taut::ImplicitEuler<Cloth, Gradients>(cloth));
-        by_gradients("IncompleteCholesky", taut::ImplicitEuler<Cloth, CholeskyGradients>(cloth));
-        by_gradients("BlockJacobi", taut::ImplicitEuler<Cloth, JacobiGradients>(cloth));
     }
     std::printf("\n");
 }

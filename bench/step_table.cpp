@@ -11,7 +11,6 @@
 #include <cstdio>
 #include <malloc.h>
 #include <string>
-#include <taut/lattice/lattice.hpp>
 #include <taut/taut.hpp>
 #include <taut/wind/wind.hpp>
 #include <tuple>

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdio>
 #include <taut/equilibrium/equilibrium.hpp>
-#include <taut/lattice/lattice.hpp>
 #include <taut/newton/newton.hpp>
 #include <taut/taut.hpp>
 #include <utility>

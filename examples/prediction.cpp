@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <taut/own_matrices/own_matrices.hpp>
 
 #include "common/main.hpp"
 #include "common/progress.hpp"

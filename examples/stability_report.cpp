@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <taut/own_matrices/own_matrices.hpp>
 
 #include "common/lammps_files.hpp"
 #include "common/main.hpp"

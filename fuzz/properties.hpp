@@ -7,6 +7,8 @@
 #include <taut/constraints/constraints.hpp>
 #include <taut/modal/modal_analysis.hpp>
 #include <taut/newton/newton.hpp>
+#include <taut/equilibrium/equilibrium.hpp>
+#include <taut/mass_scaling/mass_scaling.hpp>
 #include <taut/projective/projective.hpp>
 
 #include "soup.hpp"

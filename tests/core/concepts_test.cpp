@@ -6,6 +6,7 @@
 #include <taut/core/concepts.hpp>
 #include <taut/model/spring_system.hpp>
 #include <taut/contact/obstacle.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/laws.hpp"

@@ -7,6 +7,7 @@
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/stability/any_pose.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 
 #include "../support/catch.hpp"
 

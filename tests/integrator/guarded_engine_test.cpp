@@ -246,18 +246,4 @@ TEMPLATE_TEST_CASE("guarded: a failure names the particle and leaves the last st
     }
 }
 
-TEST_CASE("guarded: its report tells the particle by its older name, too",
-          "[integrator][bad_input]") {
-    Scene<double> scene(41);
-    scene.spoil();
-    Guarding<double>::Guard guard(scene.system);
-    auto state = scene.state;
-    state.x(0, 2) = std::nan("");
-    CHECK(guard.advance(state, frame).particle == 2);
-    taut::GuardedReport<double> report;
-    for (int i = 0; i < 3 && report; ++i) report = guard.advance(scene.state, frame);
-    CHECK_FALSE(report);
-    CHECK(report.particle == report.where);
-}
-
 }  // namespace taut_test::guarded_engine_test

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/model/spring_system.hpp>
-#include <taut/own_matrices/linear_system.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/scene/cloth.hpp>
 
 #include "../support/catch.hpp"

@@ -11,6 +11,7 @@
 #include <taut/integrator/velocity_verlet.hpp>
 #include <taut/model/state_view.hpp>
 #include <taut/scene/cloth.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <utility>
 #include <vector>
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <taut/lattice/chain.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <vector>
 
 #include "../support/catch.hpp"

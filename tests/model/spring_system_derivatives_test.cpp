@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Force against energy, K and D against force. Other tests of forces: spring_system_force_test.cpp.
 #include <taut/model/spring_system.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/dense.hpp"

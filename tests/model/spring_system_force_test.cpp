@@ -3,6 +3,7 @@
 // Forces and energies. Their derivatives: spring_system_derivatives_test.cpp.
 #include <Eigen/Geometry>
 #include <taut/model/spring_system.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/dense.hpp"

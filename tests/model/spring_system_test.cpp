@@ -3,6 +3,7 @@
 // Building, revisions and bad input. Forces: spring_system_force_test.cpp.
 #include <limits>
 #include <taut/model/spring_system.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <utility>
 #include <vector>
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include <taut/model/tangent_matrix.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <vector>
 
 #include "../support/catch.hpp"

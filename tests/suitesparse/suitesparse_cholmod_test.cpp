@@ -5,6 +5,7 @@
 #include <taut/scene/cloth.hpp>
 #include <taut/solver/sparse_cholesky.hpp>
 #include <taut/suitesparse/cholmod.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/random_system.hpp"

@@ -3,6 +3,7 @@
 #include <Eigen/SparseLU>
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/suitesparse/umfpack.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/random_system.hpp"

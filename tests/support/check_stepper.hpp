@@ -7,6 +7,7 @@
 #include <limits>
 #include <taut/core/status.hpp>
 #include <taut/lattice/chain.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 
 #include "catch.hpp"
 #include "dense.hpp"

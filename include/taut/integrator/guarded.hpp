@@ -308,7 +308,6 @@ void Guarded<Stepper, System>::name_culprits(GuardedReport<Scalar>& report, cons
         }
     }
     if (report.where < 0) report.where = integrator_detail::fastest_particle(*system_, last);
-    report.particle = report.where;
     report.spring = integrator_detail::most_loaded_spring(*system_, last);
 }
 
@@ -350,7 +349,6 @@ auto Guarded<Stepper, System>::advance(State& state, Scalar frame, Respond&& res
     GuardedReport<Scalar> report;
     const Scalar largest = largest_step();
     report.status = refuse(state, frame, largest, report);
-    report.particle = report.where;
     if (!report) return report;
     const double needed = std::ceil(static_cast<double>(frame) / static_cast<double>(largest));
     const bool late = needed > static_cast<double>(options_.max_substeps);

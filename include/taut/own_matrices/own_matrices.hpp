@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// Needs the module tight.
+
 // Systems that are given as matrices M, D, K.
 
 #include "linear_system.hpp"

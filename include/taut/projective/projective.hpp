@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Needs newton/ as well, for the objective of a step.
+// Needs the module newton.
 
 #include <type_traits>
 

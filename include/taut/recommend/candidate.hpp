@@ -19,22 +19,22 @@ namespace taut {
 /// How an implicit step solves its linear system.
 enum class LinearSolver {
     direct,             ///< sparse Cholesky (Eigen::SimplicialLLT, particles ordered)
-    conjugate_gradient  ///< ConjugateGradient with its default, TwoLevel
+    conjugate_gradient  ///< ConjugateGradient
 };
 
 /// One way to advance a scene.
 struct Candidate {
-    Scheme scheme = Scheme::symplectic_euler;
+    Method method = Method::symplectic_euler;
     double h = 0;                                ///< s
-    LinearSolver solver = LinearSolver::direct;  ///< of an implicit scheme
+    LinearSolver solver = LinearSolver::direct;  ///< of an implicit method
     double solver_tolerance = 1e-3;              ///< of conjugate gradients
-    StepDamping damping{};                       ///< ExplicitOptions::damping of an explicit scheme
+    StepDamping damping{};                       ///< ExplicitOptions::damping of an explicit method
 };
 
-/// The scheme, and the solver where there is one; without the step.
+/// The method, and the solver where there is one; without the step.
 inline std::string name(const Candidate& candidate) {
-    std::string text = name(candidate.scheme);
-    if (!is_implicit(candidate.scheme)) return text;
+    std::string text = name(candidate.method);
+    if (!is_implicit(candidate.method)) return text;
     if (candidate.solver == LinearSolver::conjugate_gradient)
         return text + " by conjugate gradients";
     return text + " by sparse Cholesky";
@@ -91,7 +91,7 @@ void with_stepper(const System& system, const Candidate& candidate, Action&& act
     using Scalar = typename System::Scalar;
     using Direct = SparseCholesky<Scalar>;
     using Gradients = ConjugateGradient<Scalar, System::Dim>;
-    method::visit(candidate.scheme, [&](auto descriptor) {
+    method::visit(candidate.method, [&](auto descriptor) {
         using Descriptor = decltype(descriptor);
         if constexpr (Descriptor::method == Method::graph_inertia &&
                       !model_detail::is_spring_system_v<System>) {
