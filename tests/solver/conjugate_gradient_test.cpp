@@ -55,18 +55,10 @@ void check_solves(Random& random, Scalar h) {
         CHECK(std::abs(static_cast<double>(solver.error()) - residual) <=
               Tolerance<Scalar>::rounding);
     }
-    // From the solution there is nothing left to do, and a guess of no use does no harm.
+    // What was solved before changes nothing.
     const taut::VectorX<Scalar> x = solver.solve(b);
-    solver.setTolerance(Scalar(1e-3));
-    solver.solve(b);
-    const Index cold = solver.iterations();
-    CHECK(solver.solveWithGuess(b, x) == x);
-    CHECK(solver.iterations() == 0);
-    for (const Scalar far : {Scalar(1e6), std::numeric_limits<Scalar>::quiet_NaN()}) {
-        solver.solveWithGuess(b, taut::VectorX<Scalar>::Constant(b.size(), far));
-        CHECK(solver.info() == Eigen::Success);
-        CHECK(solver.iterations() == cold);
-    }
+    solver.solve(taut::VectorX<Scalar>::Ones(b.size()));
+    CHECK(solver.solve(b) == x);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// Needs the module constraints.
+
 #include <type_traits>
 
 #include "../constraints/detail/held_particles.hpp"
