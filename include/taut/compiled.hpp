@@ -40,20 +40,14 @@
     KIND StepLimit<SCALAR> Stability<SCALAR>::bracket(                                         \
         Method, stability_detail::Factorisations<EigenCholesky>) const;
 
-#define TAUT_COMPILED_SOLVERS(KIND, SCALAR)                        \
-    KIND class InterleavedLLT<SCALAR>;                             \
-    KIND class TwoLevel<SCALAR, 1>;                                \
-    KIND class TwoLevel<SCALAR, 2>;                                \
-    KIND class TwoLevel<SCALAR, 3>;                                \
-    KIND class ConjugateGradient<SCALAR, 1>;                       \
-    KIND class ConjugateGradient<SCALAR, 2>;                       \
-    KIND class ConjugateGradient<SCALAR, 3>;                       \
-    KIND class ParticleConstraints<SCALAR, 1>;                     \
-    KIND class ParticleConstraints<SCALAR, 2>;                     \
-    KIND class ParticleConstraints<SCALAR, 3>;                     \
-    KIND class integrator_detail::ConstraintProjection<SCALAR, 1>; \
-    KIND class integrator_detail::ConstraintProjection<SCALAR, 2>; \
-    KIND class integrator_detail::ConstraintProjection<SCALAR, 3>; \
+#define TAUT_COMPILED_SOLVERS(KIND, SCALAR)  \
+    KIND class InterleavedLLT<SCALAR>;       \
+    KIND class TwoLevel<SCALAR, 1>;          \
+    KIND class TwoLevel<SCALAR, 2>;          \
+    KIND class TwoLevel<SCALAR, 3>;          \
+    KIND class ConjugateGradient<SCALAR, 1>; \
+    KIND class ConjugateGradient<SCALAR, 2>; \
+    KIND class ConjugateGradient<SCALAR, 3>; \
     KIND class LinearSystem<SCALAR>;
 
 #define TAUT_COMPILED_PENCILS(KIND)                                            \
@@ -101,10 +95,8 @@
     TAUT_COMPILED_STEPPER(KIND, ExplicitEuler<SpringSystem<__VA_ARGS__>>)   \
     TAUT_COMPILED_STEPPER(KIND, VelocityVerlet<SpringSystem<__VA_ARGS__>>)
 
-#define TAUT_COMPILED_IMPLICIT(KIND, SCALAR, DIM, ...)                    \
-    TAUT_COMPILED_STEPPER(KIND, ImplicitEuler<SpringSystem<__VA_ARGS__>>) \
-    TAUT_COMPILED_STEPPER(                                                \
-        KIND, ImplicitEuler<SpringSystem<__VA_ARGS__>, ConjugateGradient<SCALAR, DIM>>)
+#define TAUT_COMPILED_IMPLICIT(KIND, SCALAR, DIM, ...) \
+    TAUT_COMPILED_STEPPER(KIND, ImplicitEuler<SpringSystem<__VA_ARGS__>>)
 
 #define TAUT_COMPILED_GUARD(KIND, STEPPER, SCALAR, ...)                                         \
     KIND class Guarded<STEPPER<SpringSystem<__VA_ARGS__>>>;                                     \

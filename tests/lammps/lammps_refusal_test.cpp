@@ -64,13 +64,7 @@ TEST_CASE("lammps: bad input: what LAMMPS lacks is refused by name, or left out 
             wind.triangles = {{0, 1, 2}};
             wind.density = 1;
             wind.drag = 1;
-            s.set_wind(wind);
-        },
-        out);
-    refused(
-        "set_particle_force",
-        [](System& s) {
-            s.set_particle_force([](const Vector& x, const Vector&, Index) -> Vector { return x; });
+            taut::set_wind(s, wind);
         },
         out);
     refused(

@@ -6,6 +6,7 @@
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/solver/conjugate_gradient.hpp>
+#include <taut/solver/sparse_cholesky.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/message.hpp"
@@ -54,18 +55,10 @@ void check_solves(Random& random, Scalar h) {
         CHECK(std::abs(static_cast<double>(solver.error()) - residual) <=
               Tolerance<Scalar>::rounding);
     }
-    // From the solution there is nothing left to do, and a guess of no use does no harm.
+    // What was solved before changes nothing.
     const taut::VectorX<Scalar> x = solver.solve(b);
-    solver.setTolerance(Scalar(1e-3));
-    solver.solve(b);
-    const Index cold = solver.iterations();
-    CHECK(solver.solveWithGuess(b, x) == x);
-    CHECK(solver.iterations() == 0);
-    for (const Scalar far : {Scalar(1e6), std::numeric_limits<Scalar>::quiet_NaN()}) {
-        solver.solveWithGuess(b, taut::VectorX<Scalar>::Constant(b.size(), far));
-        CHECK(solver.info() == Eigen::Success);
-        CHECK(solver.iterations() == cold);
-    }
+    solver.solve(taut::VectorX<Scalar>::Ones(b.size()));
+    CHECK(solver.solve(b) == x);
 }
 
 }  // namespace
@@ -195,8 +188,7 @@ TEST_CASE("conjugate_gradient: the cap of iterations is reported and the state u
     CHECK(stepper.step(state, 1e-8));
 }
 
-TEST_CASE("conjugate_gradient: a step follows Cholesky's within its tolerance, and starts warm",
-          "[solver][slow]") {
+TEST_CASE("conjugate_gradient: a step follows Cholesky's within its tolerance", "[solver][slow]") {
     const auto cloth = taut::hanging_cloth<double>({16, 16});
     using System = std::decay_t<decltype(cloth)>;
     using Stepper = ImplicitEuler<System, ConjugateGradient<double, 3>>;
@@ -204,23 +196,14 @@ TEST_CASE("conjugate_gradient: a step follows Cholesky's within its tolerance, a
     auto by_factors = by_gradients;
     Stepper gradients(cloth);
     gradients.configure([](auto& solver) { solver.setTolerance(1e-10); });
-    ImplicitEuler factors(cloth);
-    Index warm = 0;
-    Index cold = 0;
+    ImplicitEuler<System, taut::SparseCholesky<double>> factors(cloth);
     for (int i = 0; i < 20; ++i) {
-        auto copy = by_gradients;
         const taut::Report report = gradients.step(by_gradients, 1.0 / 60);
         REQUIRE(report);
         CHECK(report.residual <= 1.1e-10);
         REQUIRE(factors.step(by_factors, 1.0 / 60));
-        Stepper fresh(cloth);
-        fresh.configure([](auto& solver) { solver.setTolerance(1e-10); });
-        REQUIRE(fresh.step(copy, 1.0 / 60));
-        warm += gradients.solver().iterations();
-        cold += fresh.solver().iterations();
     }
     CHECK(distance(by_gradients.x, by_factors.x) <= 1e-6);
-    CHECK(warm < cold);
 }
 
 TEST_CASE("conjugate_gradient: a wrong setting and a matrix without blocks are refused by name",

@@ -15,8 +15,8 @@
 #include "detail/guarded_traits.hpp"
 #include "detail/last_state.hpp"
 #include "detail/refinement.hpp"
+#include "detail/step_loop.hpp"
 #include "detail/work_meter.hpp"
-#include "detail/wrapper.hpp"
 #include "guarded_options.hpp"
 #include "guarded_report.hpp"
 
@@ -87,7 +87,7 @@ public:
         return viewed_.advance(view, [&](State& state) { return advance(state, frame, respond); });
     }
 
-    /// The guarded stepper, to set its constraints or its solver.
+    /// The guarded stepper, to set its solver.
     Stepper& stepper() { return stepper_.get(); }
     /// The guarded stepper, to ask it.
     const Stepper& stepper() const { return stepper_.get(); }

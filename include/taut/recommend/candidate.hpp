@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/SparseCholesky>
 #include <string>
 
 #include "../bdf2/bdf2.hpp"
@@ -13,6 +12,7 @@
 #include "../integrator/velocity_verlet.hpp"
 #include "../method/visit.hpp"
 #include "../solver/conjugate_gradient.hpp"
+#include "../solver/sparse_cholesky.hpp"
 
 namespace taut {
 
@@ -28,7 +28,6 @@ struct Candidate {
     double h = 0;                                ///< s
     LinearSolver solver = LinearSolver::direct;  ///< of an implicit method
     double solver_tolerance = 1e-3;              ///< of conjugate gradients
-    int newton_iterations = 1;                   ///< of implicit Euler
     StepDamping damping{};                       ///< ExplicitOptions::damping of an explicit method
 };
 
@@ -79,10 +78,6 @@ auto make_stepper(const System& system, const Candidate& candidate) {
         return Stepper(system);
     } else if constexpr (!Descriptor::is_implicit) {
         return Stepper(system, ExplicitOptions{1, candidate.damping});
-    } else if constexpr (Descriptor::method == Method::implicit_euler) {
-        typename Stepper::Options options;
-        options.newton_iterations = candidate.newton_iterations;
-        return Stepper(system, options);
     } else {
         return Stepper(system);
     }
@@ -94,7 +89,7 @@ auto make_stepper(const System& system, const Candidate& candidate) {
 template <class System, class Action>
 void with_stepper(const System& system, const Candidate& candidate, Action&& action) {
     using Scalar = typename System::Scalar;
-    using Direct = Eigen::SimplicialLLT<SparseMatrix<Scalar>, Eigen::Lower, BlockOrdering<>>;
+    using Direct = SparseCholesky<Scalar>;
     using Gradients = ConjugateGradient<Scalar, System::Dim>;
     method::visit(candidate.method, [&](auto descriptor) {
         using Descriptor = decltype(descriptor);

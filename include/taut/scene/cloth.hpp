@@ -76,7 +76,7 @@ SpringSystem<Scalar, 3> hanging_cloth(const ClothOptions& options = {}) {
     return system;
 }
 
-/// The triangles of that cloth, two of each square, particle indices: for Wind.
+/// The triangles of that cloth, two of each square, particle indices.
 inline std::vector<Triangle> cloth_triangles(const ClothOptions& options = {}) {
     std::vector<Triangle> triangles;
     for (Index r = 0; r + 1 < options.rows; ++r) {

@@ -10,8 +10,7 @@
 namespace taut {
 
 /// Conjugate gradients, preconditioned by TwoLevel, as a Solver for symmetric positive definite
-/// matrices (M. R. Hestenes, E. Stiefel, 1952): no factorisation, memory linear in springs, and a
-/// start from the last solution where the caller has one.
+/// matrices (M. R. Hestenes, E. Stiefel, 1952): no factorisation, and memory linear in springs.
 ///
 /// In double the iterations run in float, on the residual in double of what they have reached
 /// (iterative refinement: J. H. Wilkinson, "Rounding errors in algebraic processes", 1963), as long
@@ -69,15 +68,7 @@ public:
         info_ = fast_usable_ || factorize_exactly() ? Eigen::Success : Eigen::NumericalIssue;
     }
     /// The solution of A x = b, started from 0; kept until the next solve.
-    const Vector& solve(const Vector& b) const {
-        x_.setZero();
-        return solve_from_x(b);
-    }
-    /// Starts from `guess`, unless its residual is not finite or above 10‖b‖.
-    const Vector& solveWithGuess(const Vector& b, const Vector& guess) const {
-        if (&guess != &x_) x_ = guess;
-        return solve_from_x(b);
-    }
+    const Vector& solve(const Vector& b) const;
 
 private:
     // An iteration waits for memory, which this halves.
@@ -85,7 +76,6 @@ private:
     static constexpr bool mixed = !std::is_same_v<Fast, Scalar>;
 
     bool factorize_exactly() const;
-    const Vector& solve_from_x(const Vector& b) const;
     void improve_fast(const Vector& b, Scalar norm, Index cap) const;
     /// r_ ← b − A x_
     void set_residual(const Vector& b, Scalar norm) const {
@@ -120,24 +110,16 @@ bool ConjugateGradient<Scalar_, Dim>::factorize_exactly() const {
 }
 
 template <class Scalar_, int Dim>
-auto ConjugateGradient<Scalar_, Dim>::solve_from_x(const Vector& b) const -> const Vector& {
+auto ConjugateGradient<Scalar_, Dim>::solve(const Vector& b) const -> const Vector& {
     iterations_ = 0;
     error_ = 0;
+    x_.setZero();
     if (!fast_usable_ && !factorized_) return x_;
     const Scalar norm = b.norm();
     info_ = Eigen::Success;
-    if (norm == 0) {
-        x_.setZero();
-        return x_;
-    }
-    set_residual(b, norm);
-    // A last Δv of a cloth that turns leaves a residual above ‖b‖, and yet saves iterations: what
-    // it leaves is stiff, and the first ones remove it.
-    if (!(error_ <= 10)) {
-        x_.setZero();
-        r_ = b;
-        error_ = r_.norm() / norm;
-    }
+    if (norm == 0) return x_;
+    r_ = b;
+    error_ = norm / norm;  // NaN where b is not finite
     const Index cap = 8 * b.size();
     while (!(error_ <= tolerance_)) {
         if (fast_usable_) {
