@@ -11,7 +11,6 @@
 #include <cstdio>
 #include <malloc.h>
 #include <string>
-#include <taut/lattice/lattice.hpp>
 #include <taut/taut.hpp>
 #include <taut/wind/wind.hpp>
 #include <tuple>
@@ -119,12 +118,7 @@ void compare_kinds(const std::string& label, const Net<double>& net,
     taut::Wind<double> wind;
     wind.velocity = {1, 2, 3};
     wind.triangles = std::move(triangles);
-    with("wind on every triangle", [&](auto& copy) { copy.set_wind(wind); });
-    with("a force on each particle", [](auto& copy) {
-        copy.set_constant_force(0, {0, 0, 1e-3});
-        copy.set_particle_force(
-            [](const auto&, const auto& v, Index) { return (-1e-6 * v).eval(); });
-    });
+    with("wind on every triangle", [&](auto& copy) { taut::set_wind(copy, wind); });
     with("a force of the whole state", [](auto& copy) {
         copy.set_external_force([](const auto& state, auto& f) { f -= 1e-6 * state.v; });
     });

@@ -224,9 +224,8 @@ void modes(const std::string& folder) {
 using Strings = taut::SpringSystem<double, 3, taut::TensionOnly>;
 
 /// A hanging cloth whose springs only pull, from rest, at one step.
-template <class Stepper>
-void string_cloth(Table& table, const char* name, double h,
-                  const typename Stepper::Options& options) {
+template <class Stepper, class... Options>
+void string_cloth(Table& table, const char* name, double h, const Options&... options) {
     Strings cloth;
     const auto hookean = taut::hanging_cloth<double>({12, 12});
     const auto start = hookean.initial_state();
@@ -237,7 +236,7 @@ void string_cloth(Table& table, const char* name, double h,
     hookean.for_each_spring(
         [&](Index a, Index b) { cloth.add_spring<taut::TensionOnly>(a, b, {1000}); });
     cloth.set_gravity(hookean.gravity());
-    Stepper stepper(cloth, options);
+    Stepper stepper(cloth, options...);
     auto state = cloth.initial_state();
     for (int i = 0; i <= 60; ++i) {
         if (i > 0 && !stepper.step(state, h)) return;
@@ -252,7 +251,7 @@ void energies(const std::string& folder) {
     until_solved.iterations = 20000;
     until_solved.tolerance = 1e-8;
     for (const double h : {1.0 / 60, 1.0 / 10, 1.0, 10.0}) {
-        string_cloth<taut::ImplicitEuler<Strings>>(table, "linearised", h, {});
+        string_cloth<taut::ImplicitEuler<Strings>>(table, "linearised", h);
         string_cloth<Solved>(table, "solved", h, until_solved);
     }
 }

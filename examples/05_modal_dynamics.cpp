@@ -21,7 +21,7 @@ int main() {
 
     auto pose = net.initial_state();
     if (!taut::static_equilibrium(net, pose)) return 1;
-    const auto linear = taut::linearize(net, pose);
+    const auto linear = linearize(net, pose);
     taut::ModalBasis basis;
     if (!taut::modal_analysis(linear, 30, basis)) return 1;
     std::printf("%ld modes of %ld: %.2f to %.2f Hz\n", static_cast<long>(basis.size()),

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <taut/equilibrium/equilibrium.hpp>
-#include <taut/lattice/lattice.hpp>
+#include <taut/newton/newton.hpp>
 #include <taut/taut.hpp>
 #include <utility>
 
@@ -122,10 +122,9 @@ double apart(const Eigen::Vector3d& gravity) {
     net.set_gravity(gravity);
     auto ours = net.initial_state();
     auto theirs = ours;
-    taut::ImplicitEuler<Net>::Options options;
-    options.newton_iterations = 100;
+    taut::NewtonEuler<Net>::Options options;
     options.tolerance = 1e-10;
-    taut::ImplicitEuler stepper(net, options);
+    taut::NewtonEuler stepper(net, options);
     for (int i = 0; i < 10; ++i) {
         expect(bool(stepper.step(ours, frame)), "Newton converges");
         PositionBased{1, true, 1000, 0}.step(net, theirs, frame);

@@ -12,6 +12,7 @@
 #include <string>
 #include <taut/own_matrices/own_matrices.hpp>
 #include <utility>
+#include <taut/own_matrices/own_matrices.hpp>
 
 #include "common/main.hpp"
 #include "common/progress.hpp"

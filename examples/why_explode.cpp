@@ -10,6 +10,7 @@
 #include <taut/contact/contact.hpp>
 #include <taut/equilibrium/equilibrium.hpp>
 #include <taut/taut.hpp>
+#include <taut/accuracy/accuracy.hpp>
 #include <taut/tight/tight.hpp>
 
 namespace {
@@ -17,7 +18,6 @@ namespace {
 using Net = taut::SpringSystem<double, 3>;
 using taut::Index;
 using taut::Method;
-using taut::Scheme;
 
 bool all_true = true;
 
@@ -269,8 +269,8 @@ void sags() {
 void goes_dead() {
     const double omega = 6.2832;  // 1 Hz
     std::printf("1 Hz at 1/60 s: implicit Euler damps by %.3f of critical, BDF2 by %.4f\n",
-                taut::artificial_damping(Scheme::implicit_euler, omega / 60),
-                taut::artificial_damping(Scheme::bdf2, omega / 60));
+                taut::artificial_damping(Method::implicit_euler, omega / 60),
+                taut::artificial_damping(Method::bdf2, omega / 60));
     std::printf("alpha of 0.01 s: %.2f of critical at 1 Hz, %.2f at 10 Hz\n",
                 taut::damping_ratio({0, 0.01}, omega), taut::damping_ratio({0, 0.01}, 10 * omega));
 }

@@ -3,7 +3,13 @@
 #pragma once
 
 #include <memory>
+#include <taut/bdf2/bdf2.hpp>
+#include <taut/constraints/constraints.hpp>
 #include <taut/modal/modal_analysis.hpp>
+#include <taut/newton/newton.hpp>
+#include <taut/equilibrium/equilibrium.hpp>
+#include <taut/mass_scaling/mass_scaling.hpp>
+#include <taut/projective/projective.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/tight/tight.hpp>
 
@@ -87,13 +93,13 @@ template <class System>
 void require_wrappers(Bytes& bytes, const System& system, const typename System::State& state,
                       typename System::Scalar h) {
     using Scalar = typename System::Scalar;
-    typename taut::ImplicitEuler<System>::Options newton;
-    newton.newton_iterations = 5;
-    taut::ImplicitEuler<System> nonlinear(system, newton);
+    typename taut::NewtonEuler<System>::Options few_solves;
+    few_solves.iterations = 5;
+    taut::NewtonEuler<System> nonlinear(system, few_solves);
     require_steps(nonlinear, state, h);
     taut::ProjectiveDynamics<System> projective(system);
     require_steps(projective, state, h);
-    taut::ImplicitEuler<System> constrained(system, newton);
+    taut::ConstrainedEuler<System> constrained(system);
     if (system.size() > 0) {
         const Index held = bytes.below(system.size());
         const auto direction = place<Scalar, System::Dim>(bytes);
@@ -111,14 +117,6 @@ void require_wrappers(Bytes& bytes, const System& system, const typename System:
         require(report ? moved.finite() : same(moved, before),
                 "a guarded frame is finite, or taken back");
     }
-    taut::SymplecticEuler<System> stepper(system);
-    typename taut::Adaptive<taut::SymplecticEuler<System>, System>::Options coarse;
-    coarse.max_step = Scalar(0.1);
-    coarse.min_step = Scalar(0.001);
-    taut::Adaptive<taut::SymplecticEuler<System>, System> adaptive(system, stepper, coarse);
-    moved = state;
-    const auto adapted = adaptive.advance(moved, Scalar(0.05));
-    if (adapted) require(moved.finite(), "after an adaptive step the state is finite");
 }
 
 /// Modes that were found can be stepped: finite amplitudes, or a Report and the amplitudes as they

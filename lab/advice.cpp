@@ -34,7 +34,7 @@ lab::Cloth::State moving_state() {
     const taut::Index frames = std::clamp<taut::Index>(20'000 / cloth.size(), 1, 20);
     auto state = cloth.initial_state();
     taut::Candidate candidate;
-    candidate.scheme = taut::Scheme::implicit_euler;
+    candidate.method = taut::Method::implicit_euler;
     candidate.solver = taut::LinearSolver::conjugate_gradient;
     const bool moved = [&] {
         bool good = true;
@@ -59,7 +59,7 @@ int lab_advise() {
     if (cloth.size() > most_direct) {
         candidates.erase(std::remove_if(candidates.begin(), candidates.end(),
                                         [](const taut::Candidate& candidate) {
-                                            return taut::is_implicit(candidate.scheme) &&
+                                            return taut::is_implicit(candidate.method) &&
                                                    candidate.solver == taut::LinearSolver::direct;
                                         }),
                          candidates.end());
@@ -85,7 +85,7 @@ void lab_time_plan(int i, double seconds) {
 
 const LabPlan* lab_plan(int i) {
     const taut::Plan& plan = advice.plans[static_cast<std::size_t>(i)];
-    const taut::Method method = plan.candidate.scheme;
+    const taut::Method method = plan.candidate.method;
     const bool gradients = plan.candidate.solver == taut::LinearSolver::conjugate_gradient;
     answer = {static_cast<double>(method), is_implicit(method) && gradients ? 1.0 : 0.0,
               static_cast<double>(plan.substeps), plan.candidate.h, plan.cost};

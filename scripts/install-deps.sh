@@ -14,7 +14,7 @@ case "${1-}" in
     '') ;;
     --ci) packages="$packages git clang-format-14 clang-16 libclang-rt-16-dev chromium pkgconf doxygen
 libjs-mathjax libboost-dev libmpfr-dev" ;;
-    --bench) packages="$packages libboost-dev libmpfr-dev libbullet-dev libbenchmark-dev libsundials-dev
+    --bench) packages="$packages libboost-dev libmpfr-dev libbullet-dev libsundials-dev
 python3-matplotlib valgrind lammps openmpi-bin" ;;
     *) echo "install-deps: unknown option '$1'; there are --ci and --bench" >&2; exit 1 ;;
 esac

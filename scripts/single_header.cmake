@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Taut contributors
 # SPDX-License-Identifier: MIT
 
-# cmake -D OUTPUT=taut_single.hpp [-D ALSO="solver/cholmod.hpp;..."] -P scripts/single_header.cmake
-# Writes include/taut/taut.hpp, and the opt-in headers of ALSO, with all that they include into one
+# cmake -D OUTPUT=taut_single.hpp [-D ALSO="bdf2/bdf2.hpp;..."] -P scripts/single_header.cmake
+# Writes include/taut/taut.hpp, and the modules' headers of ALSO, with all that they include into one
 # file: each header once, where it is first included. The same sources give the same bytes.
 cmake_minimum_required(VERSION 3.21)
 

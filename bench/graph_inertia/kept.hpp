@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdio>
+#include <taut/graph_inertia/graph_inertia.hpp>
 
 #include "scenes.hpp"
 

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <taut/graph_inertia/graph_inertia.hpp>
+#include <taut/graph_inertia/inertia_price.hpp>
 
 #include "../hanging_net.hpp"
 #include "price.hpp"

@@ -4,6 +4,8 @@
 
 #include <cstdio>
 #include <optional>
+#include <taut/graph_inertia/graph_inertia.hpp>
+#include <taut/graph_inertia/inertia_price.hpp>
 
 #include "../measure.hpp"
 #include "scenes.hpp"

@@ -5,6 +5,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <cstdio>
+#include <taut/graph_inertia/graph_inertia.hpp>
+#include <taut/graph_inertia/graph_inertia_limit.hpp>
 
 #include "scenes.hpp"
 

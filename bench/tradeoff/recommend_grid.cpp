@@ -14,6 +14,7 @@
 #include <taut/recommend/recommend.hpp>
 #include <taut/taut.hpp>
 #include <vector>
+#include <taut/tradeoff/tradeoff.hpp>
 
 #include "../measure.hpp"
 #include "../outcome.hpp"
@@ -25,9 +26,9 @@ using taut::Candidate;
 using taut::Goal;
 using taut::Index;
 using taut::LinearSolver;
+using taut::Method;
 using taut::Mode;
 using taut::Plan;
-using taut::Scheme;
 
 double thread_seconds() { return 1e-3 * bench::now(bench::thread_time); }
 
@@ -168,12 +169,12 @@ public:
         for (const Trial& trial : trials) {
             const auto& c = trial.plan.candidate;
             const auto& p = advice.pick.candidate;
-            if (c.scheme == p.scheme && c.solver == p.solver &&
+            if (c.method == p.method && c.solver == p.solver &&
                 trial.plan.substeps == advice.pick.substeps) {
                 pick = &trial;
             }
-            if (!trial.recommended || c.scheme == Scheme::graph_inertia) continue;
-            double& side = is_implicit(c.scheme) ? implicit_cost : explicit_cost;
+            if (!trial.recommended || c.method == Method::graph_inertia) continue;
+            double& side = is_implicit(c.method) ? implicit_cost : explicit_cost;
             if (!(side <= trial.plan.cost)) side = trial.plan.cost;
         }
         const bool met = meets(pick->plan);
@@ -200,7 +201,7 @@ private:
         for (const Plan& plan : plans) {
             trials.push_back({plan, true});
             trials.back().plan.cost = INFINITY;
-            if (!goal_.accuracy || !is_implicit(plan.candidate.scheme)) continue;
+            if (!goal_.accuracy || !is_implicit(plan.candidate.method)) continue;
             for (const Index fewer : {3 * plan.substeps / 4, plan.substeps / 2}) {
                 if (fewer < 1 || fewer == trials.back().plan.substeps) continue;
                 Trial trial = trials.back();
@@ -241,7 +242,7 @@ private:
     bool meets(const Plan& plan) {
         worst_ = {};
         for (const Mode& mode : modes_) {
-            const bool inertia = plan.candidate.scheme == Scheme::graph_inertia;
+            const bool inertia = plan.candidate.method == Method::graph_inertia;
             const auto error =
                 inertia ? taut::measured_mode_error(judged_, rest_, mode, plan.candidate, 1e-7, 800)
                         : taut::measured_mode_error(*linear_, mode, plan.candidate, 800);

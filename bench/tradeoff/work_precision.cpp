@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
-#include <taut/lattice/lattice.hpp>
 #include <taut/projective/projective.hpp>
 #include <taut/recommend/recommend.hpp>
 #include <taut/taut.hpp>
@@ -25,7 +24,7 @@ using bench::Net;
 using taut::Candidate;
 using taut::Index;
 using taut::LinearSolver;
-using taut::Scheme;
+using taut::Method;
 using Meter = taut::TradeoffMeter<Net>;
 
 double thread_seconds() { return 1e-3 * bench::now(bench::thread_time); }
@@ -67,15 +66,15 @@ Scene skirt(const char* path) {
 void add_taut(Meter& meter, const Scene& scene, double limit) {
     for (int halvings = 0; halvings < 5; ++halvings) {
         const double h = 0.95 * std::ldexp(limit, -halvings);
-        meter.add(Candidate{Scheme::symplectic_euler, h});
-        meter.add(Candidate{Scheme::velocity_verlet, h});
-        if (halvings > 2) meter.add(Candidate{Scheme::explicit_euler, h});
+        meter.add(Candidate{Method::symplectic_euler, h});
+        meter.add(Candidate{Method::velocity_verlet, h});
+        if (halvings > 2) meter.add(Candidate{Method::explicit_euler, h});
     }
     for (double h = 1.0 / 30; h > 0.99 * scene.implicit_least; h /= 2) {
-        meter.add(Candidate{Scheme::implicit_euler, h});
-        meter.add(Candidate{Scheme::implicit_euler, h, LinearSolver::conjugate_gradient, 1e-6});
-        meter.add(Candidate{Scheme::bdf2, h});
-        meter.add(Candidate{Scheme::bdf2, h, LinearSolver::conjugate_gradient, 1e-6});
+        meter.add(Candidate{Method::implicit_euler, h});
+        meter.add(Candidate{Method::implicit_euler, h, LinearSolver::conjugate_gradient, 1e-6});
+        meter.add(Candidate{Method::bdf2, h});
+        meter.add(Candidate{Method::bdf2, h, LinearSolver::conjugate_gradient, 1e-6});
         taut::ProjectiveDynamics<Net> projective(scene.net);
         meter.add("projective_dynamics, 10 iterations", h,
                   [&](Net::State& state, double step, Index count) {

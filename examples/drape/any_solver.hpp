@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <taut/solver/sparse_cholesky.hpp>
 #include <taut/taut.hpp>
-#include <type_traits>
 #include <utility>
 #ifdef DRAPE_CHOLMOD
 #include <taut/suitesparse/cholmod.hpp>
@@ -21,7 +21,7 @@ public:
     using Matrix = taut::SparseMatrix<double>;
     using Vector = Eigen::VectorXd;
 
-    AnySolver() { hold<Eigen::SimplicialLLT<Matrix, Eigen::Lower, taut::BlockOrdering<>>>(); }
+    AnySolver() { hold<taut::SparseCholesky<double>>(); }
     /// @param name       as of the option; one that this program has
     /// @param tolerance  of conjugate gradients
     void choose(const std::string& name, std::optional<double> tolerance) {
@@ -36,10 +36,7 @@ public:
 
     void analyzePattern(const Matrix& A) { held_->analyze(A); }
     void factorize(const Matrix& A) { held_->factorize(A); }
-    Vector solve(const Vector& b) const { return held_->solve(b, Vector()); }
-    Vector solveWithGuess(const Vector& b, const Vector& guess) const {
-        return held_->solve(b, guess);
-    }
+    Vector solve(const Vector& b) const { return held_->solve(b); }
     Eigen::ComputationInfo info() const { return held_->info(); }
 
 private:
@@ -47,19 +44,14 @@ private:
         virtual ~Held() = default;
         virtual void analyze(const Matrix& A) = 0;
         virtual void factorize(const Matrix& A) = 0;
-        virtual Vector solve(const Vector& b, const Vector& guess) = 0;
+        virtual Vector solve(const Vector& b) = 0;
         virtual Eigen::ComputationInfo info() const = 0;
     };
     template <class Solver>
     struct HeldAs final : Held {
         void analyze(const Matrix& A) override { solver.analyzePattern(A); }
         void factorize(const Matrix& A) override { solver.factorize(A); }
-        Vector solve(const Vector& b, const Vector& guess) override {
-            if constexpr (std::is_same_v<Solver, taut::ConjugateGradient<double, 3>>) {
-                if (guess.size() == b.size()) return solver.solveWithGuess(b, guess);
-            }
-            return solver.solve(b);
-        }
+        Vector solve(const Vector& b) override { return solver.solve(b); }
         Eigen::ComputationInfo info() const override { return solver.info(); }
         Solver solver;
     };

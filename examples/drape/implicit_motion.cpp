@@ -3,6 +3,11 @@
 
 // The steppers that solve linear systems, compiled beside those that do not.
 
+#include <taut/bdf2/bdf2.hpp>
+#include <taut/graph_inertia/graph_inertia.hpp>
+#include <taut/newton/newton.hpp>
+#include <taut/projective/projective.hpp>
+
 #include "any_solver.hpp"
 #include "stepping.hpp"
 
@@ -22,10 +27,10 @@ Advance make_implicit_motion(const Options& options, const Scene& scene) {
     if (options.integrator == "bdf2") {
         return plain_or_guarded<taut::Bdf2<Cloth, AnySolver>>(options, scene, choose);
     }
-    using Implicit = taut::ImplicitEuler<Cloth, AnySolver>;
-    typename Implicit::Options newton;
-    if (options.integrator == "newton") newton.newton_iterations = 100;
-    return plain_or_guarded<Implicit>(options, scene, choose, newton);
+    if (options.integrator == "newton") {
+        return plain_or_guarded<taut::NewtonEuler<Cloth, AnySolver>>(options, scene, choose);
+    }
+    return plain_or_guarded<taut::ImplicitEuler<Cloth, AnySolver>>(options, scene, choose);
 }
 
 }  // namespace drape

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <variant>
+#include <taut/contact/contact.hpp>
 
 #include "cloth.hpp"
 

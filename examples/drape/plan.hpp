@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <taut/recommend/recommend.hpp>
 
 #include "cloth.hpp"
 

@@ -14,13 +14,12 @@
 #include "solver/interleaved_llt.hpp"
 #include "stability/any_pose.hpp"
 #include "stability/energy_limit.hpp"
-#include "tight/explicit_estimate.hpp"
 #include "stability/stability.hpp"
 
 // What the library Taut::Compiled holds: explicit instantiations for float and double, two and
 // three dimensions, springs by Hookean, by TensionOnly, and by Hookean with Buckling; Hookean
-// springs in one dimension, and LinearSystem. Its users see them declared by taut.hpp; every other
-// law, scalar or solver is compiled with the program as without it.
+// springs in one dimension. Its users see them declared by taut.hpp; every module, other law,
+// scalar or solver is compiled with the program as without it.
 //
 // KIND is `template` in the library's own sources, `extern template` elsewhere. A system's template
 // arguments come last: its scalar, its dimension, its laws.
@@ -29,32 +28,21 @@
 // like -mavx: a program that does not agree lacks a symbol named compiled_for. TAUT_USER_CONFIG and
 // -fopenmp are those of the library.
 
-#define TAUT_COMPILED_ANALYSIS(KIND, SCALAR)                                                   \
-    KIND class MatrixPencil<SCALAR>;                                                           \
-    KIND struct SpringSet<SCALAR, Hookean>;                                                    \
-    KIND struct SpringSet<SCALAR, TensionOnly>;                                                \
-    KIND struct SpringSet<SCALAR, Buckling>;                                                   \
-    KIND SpringSystem<SCALAR, 3> hanging_cloth<SCALAR>(const ClothOptions&);                   \
-    KIND class Stability<SCALAR>;                                                              \
-    KIND StepLimit<SCALAR> Stability<SCALAR>::bracket(Method, stability_detail::Bounds) const; \
-    KIND StepLimit<SCALAR> Stability<SCALAR>::bracket(                                         \
-        Method, stability_detail::Factorisations<EigenCholesky>) const;
+#define TAUT_COMPILED_ANALYSIS(KIND, SCALAR)                                 \
+    KIND struct SpringSet<SCALAR, Hookean>;                                  \
+    KIND struct SpringSet<SCALAR, TensionOnly>;                              \
+    KIND struct SpringSet<SCALAR, Buckling>;                                 \
+    KIND SpringSystem<SCALAR, 3> hanging_cloth<SCALAR>(const ClothOptions&); \
+    KIND class Stability<SCALAR>;
 
-#define TAUT_COMPILED_SOLVERS(KIND, SCALAR)                        \
-    KIND class InterleavedLLT<SCALAR>;                             \
-    KIND class TwoLevel<SCALAR, 1>;                                \
-    KIND class TwoLevel<SCALAR, 2>;                                \
-    KIND class TwoLevel<SCALAR, 3>;                                \
-    KIND class ConjugateGradient<SCALAR, 1>;                       \
-    KIND class ConjugateGradient<SCALAR, 2>;                       \
-    KIND class ConjugateGradient<SCALAR, 3>;                       \
-    KIND class ParticleConstraints<SCALAR, 1>;                     \
-    KIND class ParticleConstraints<SCALAR, 2>;                     \
-    KIND class ParticleConstraints<SCALAR, 3>;                     \
-    KIND class integrator_detail::ConstraintProjection<SCALAR, 1>; \
-    KIND class integrator_detail::ConstraintProjection<SCALAR, 2>; \
-    KIND class integrator_detail::ConstraintProjection<SCALAR, 3>; \
-    KIND class LinearSystem<SCALAR>;
+#define TAUT_COMPILED_SOLVERS(KIND, SCALAR)  \
+    KIND class InterleavedLLT<SCALAR>;       \
+    KIND class TwoLevel<SCALAR, 1>;          \
+    KIND class TwoLevel<SCALAR, 2>;          \
+    KIND class TwoLevel<SCALAR, 3>;          \
+    KIND class ConjugateGradient<SCALAR, 1>; \
+    KIND class ConjugateGradient<SCALAR, 2>; \
+    KIND class ConjugateGradient<SCALAR, 3>;
 
 #define TAUT_COMPILED_PENCILS(KIND)                                            \
     KIND class SpringPencil<1>;                                                \
@@ -63,19 +51,9 @@
     KIND RitzPair largest_ritz_pair<double>(const Pencil&, const Combination&, \
                                             const LanczosOptions&, const Eigen::VectorXd&);
 
-#define TAUT_COMPILED_DENSE(KIND) KIND class DenseAnalysis<double>;
-
-#define TAUT_COMPILED_KRYLOV(KIND) KIND double explicit_estimate(const Pencil&, double);
-
 #define TAUT_COMPILED_STEPPER(KIND, ...) \
     KIND class __VA_ARGS__;              \
     KIND Report __VA_ARGS__::step(State&, Scalar, Index);
-
-#define TAUT_COMPILED_LINEAR(KIND, SCALAR)                             \
-    TAUT_COMPILED_STEPPER(KIND, ExplicitEuler<LinearSystem<SCALAR>>)   \
-    TAUT_COMPILED_STEPPER(KIND, SymplecticEuler<LinearSystem<SCALAR>>) \
-    TAUT_COMPILED_STEPPER(KIND, VelocityVerlet<LinearSystem<SCALAR>>)  \
-    TAUT_COMPILED_STEPPER(KIND, ImplicitEuler<LinearSystem<SCALAR>>)
 
 #define TAUT_COMPILED_SYSTEM(KIND, SCALAR, DIM, ...)                                            \
     KIND void SpringSystem<__VA_ARGS__>::set_gravity(const Vector&);                            \
@@ -84,7 +62,6 @@
     KIND void SpringSystem<__VA_ARGS__>::force(const State&, Force&, const StepDamping&) const; \
     KIND SCALAR SpringSystem<__VA_ARGS__>::kinetic_energy(const State&) const;                  \
     KIND SCALAR SpringSystem<__VA_ARGS__>::potential_energy(const State&) const;                \
-    KIND LinearSystem<SCALAR> SpringSystem<__VA_ARGS__>::linearize(const State&) const;         \
     KIND SpringPencil<DIM> SpringPencil<DIM>::at_pose(const SpringSystem<__VA_ARGS__>&,         \
                                                       const Points<TangentReal<SCALAR>, DIM>&); \
     KIND SpringPencil<1> SpringPencil<1>::any_pose(const SpringSystem<__VA_ARGS__>&,            \
@@ -92,19 +69,15 @@
     KIND void Stability<SCALAR>::update(const SpringSystem<__VA_ARGS__>&,                       \
                                         const State<SCALAR, DIM>&);                             \
     KIND StepLimit<SCALAR> any_pose_limit(const SpringSystem<__VA_ARGS__>&);                    \
-    KIND StepLimit<SCALAR> any_pose_limit(const SpringSystem<__VA_ARGS__>&, double);            \
-    KIND EnergyLimit<SCALAR> energy_limit(const SpringSystem<__VA_ARGS__>&);                    \
-    KIND EnergyLimit<SCALAR> energy_limit(const SpringSystem<__VA_ARGS__>&, double);
+    KIND EnergyLimit<SCALAR> energy_limit(const SpringSystem<__VA_ARGS__>&);
 
 #define TAUT_COMPILED_EXPLICIT(KIND, SCALAR, DIM, ...)                      \
     TAUT_COMPILED_STEPPER(KIND, SymplecticEuler<SpringSystem<__VA_ARGS__>>) \
     TAUT_COMPILED_STEPPER(KIND, ExplicitEuler<SpringSystem<__VA_ARGS__>>)   \
     TAUT_COMPILED_STEPPER(KIND, VelocityVerlet<SpringSystem<__VA_ARGS__>>)
 
-#define TAUT_COMPILED_IMPLICIT(KIND, SCALAR, DIM, ...)                    \
-    TAUT_COMPILED_STEPPER(KIND, ImplicitEuler<SpringSystem<__VA_ARGS__>>) \
-    TAUT_COMPILED_STEPPER(                                                \
-        KIND, ImplicitEuler<SpringSystem<__VA_ARGS__>, ConjugateGradient<SCALAR, DIM>>)
+#define TAUT_COMPILED_IMPLICIT(KIND, SCALAR, DIM, ...) \
+    TAUT_COMPILED_STEPPER(KIND, ImplicitEuler<SpringSystem<__VA_ARGS__>>)
 
 #define TAUT_COMPILED_GUARD(KIND, STEPPER, SCALAR, ...)                                         \
     KIND class Guarded<STEPPER<SpringSystem<__VA_ARGS__>>>;                                     \
@@ -148,14 +121,10 @@ namespace {
 }  // namespace
 #endif
 TAUT_COMPILED_PENCILS(extern template)
-TAUT_COMPILED_DENSE(extern template)
-TAUT_COMPILED_KRYLOV(extern template)
 TAUT_COMPILED_SOLVERS(extern template, float)
 TAUT_COMPILED_SOLVERS(extern template, double)
 TAUT_COMPILED_ANALYSIS(extern template, float)
 TAUT_COMPILED_ANALYSIS(extern template, double)
-TAUT_COMPILED_LINEAR(extern template, float)
-TAUT_COMPILED_LINEAR(extern template, double)
 TAUT_COMPILED_EACH_SYSTEM(TAUT_COMPILED_SYSTEM, extern template)
 TAUT_COMPILED_EACH_SYSTEM(TAUT_COMPILED_EXPLICIT, extern template)
 TAUT_COMPILED_EACH_SYSTEM(TAUT_COMPILED_IMPLICIT, extern template)

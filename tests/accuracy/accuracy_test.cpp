@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include <taut/lattice/chain.hpp>
 #include <taut/method/mode.hpp>
+#include <taut/tradeoff/mode_probe.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
-#include <taut/recommend/mode_probe.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/message.hpp"
@@ -19,24 +19,23 @@ using taut::Method;
 using taut::Mode;
 using taut::mode_error;
 using taut::ModeTolerance;
-using taut::Scheme;
 
 namespace {
 
-constexpr Scheme all_schemes[] = {Scheme::explicit_euler, Scheme::symplectic_euler,
-                                  Scheme::velocity_verlet, Scheme::implicit_euler, Scheme::bdf2};
+constexpr Method all_methods[] = {Method::explicit_euler, Method::symplectic_euler,
+                                  Method::velocity_verlet, Method::implicit_euler, Method::bdf2};
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-bool takes_damping(Scheme scheme) {
-    return scheme == Scheme::symplectic_euler || scheme == Scheme::velocity_verlet;
+bool takes_damping(Method method) {
+    return method == Method::symplectic_euler || method == Method::velocity_verlet;
 }
 
 /// Steps of a stepper on one mass and one spring, seen as a swing about rest. The spring is far
 /// longer than the swing, so it is linear to rounding.
 template <class System>
 std::optional<taut::ModeError> measured(const System& system, double omega, double zeta, double h,
-                                        Scheme scheme, double added) {
-    Candidate candidate{scheme, h};
+                                        Method method, double added) {
+    Candidate candidate{method, h};
     candidate.damping.look_ahead = added;
     const auto rest = system.initial_state();
     Eigen::VectorXd swing(40);
@@ -60,18 +59,18 @@ std::optional<taut::ModeError> measured(const System& system, double omega, doub
 
 TEST_CASE("accuracy: at small steps the errors of the theory's section 12", "[tradeoff]") {
     struct Term {
-        Scheme scheme;
+        Method method;
         double damping, damping_power, period;
     };
-    const Term terms[] = {{Scheme::explicit_euler, -0.5, 1, 1.0 / 3},
-                          {Scheme::symplectic_euler, 0, 1, -1.0 / 24},
-                          {Scheme::velocity_verlet, 0, 1, -1.0 / 24},
-                          {Scheme::implicit_euler, 0.5, 1, 1.0 / 3},
-                          {Scheme::bdf2, 0.25, 3, 1.0 / 3}};
+    const Term terms[] = {{Method::explicit_euler, -0.5, 1, 1.0 / 3},
+                          {Method::symplectic_euler, 0, 1, -1.0 / 24},
+                          {Method::velocity_verlet, 0, 1, -1.0 / 24},
+                          {Method::implicit_euler, 0.5, 1, 1.0 / 3},
+                          {Method::bdf2, 0.25, 3, 1.0 / 3}};
     for (const Term& term : terms) {
         for (const double z : {1e-4, 1e-3, 1e-2}) {
-            INFO(name(term.scheme) << ", z = " << z);
-            const auto error = mode_error(term.scheme, z);
+            INFO(name(term.method) << ", z = " << z);
+            const auto error = mode_error(term.method, z);
             const double scale = std::pow(z, term.damping_power);
             CHECK_THAT(error.artificial_damping,
                        WithinAbs(term.damping * scale, z * z * scale + 1e-15));
@@ -93,12 +92,12 @@ TEST_CASE("accuracy: predicted against measured on one mass and one spring", "[t
         system.pin(1);
         system.add_spring(0, 1, stiffness, 2 * zeta * omega * 0.5);
         const double z = std::exp2(random.uniform(-5, -1));
-        for (const Scheme scheme : all_schemes) {
-            const double added = takes_damping(scheme) && repeat % 2 == 1 ? 0.4 : 0;
-            INFO(name(scheme) << ", z = " << z << ", zeta = " << zeta << ", added " << added);
-            const auto seen = measured(system, omega, zeta, z / omega, scheme, added);
+        for (const Method method : all_methods) {
+            const double added = takes_damping(method) && repeat % 2 == 1 ? 0.4 : 0;
+            INFO(name(method) << ", z = " << z << ", zeta = " << zeta << ", added " << added);
+            const auto seen = measured(system, omega, zeta, z / omega, method, added);
             REQUIRE(seen);
-            const auto predicted = mode_error(scheme, z, zeta, added);
+            const auto predicted = mode_error(method, z, zeta, added);
             // Ten per cent is what is promised; what is left here is the rounding of x.
             CHECK_THAT(seen->artificial_damping,
                        WithinAbs(predicted.artificial_damping,
@@ -130,19 +129,19 @@ TEMPLATE_TEST_CASE("accuracy: predicted against measured on every mode of a chai
         const double stable =
             0.9 * taut::critical_step(Method::symplectic_euler, std::pow(modes.back().omega, 2), 1);
         for (const double z : {0.05, 0.2, 0.5}) {
-            for (const Scheme scheme : all_schemes) {
+            for (const Method method : all_methods) {
                 const double h = z / mode.omega;
-                if (scheme == Scheme::explicit_euler) continue;  // its undamped modes all grow
-                if (!is_implicit(scheme) && h > stable) continue;
-                INFO(name(scheme) << ", omega = " << mode.omega << ", z = " << z);
+                if (method == Method::explicit_euler) continue;  // its undamped modes all grow
+                if (!is_implicit(method) && h > stable) continue;
+                INFO(name(method) << ", omega = " << mode.omega << ", z = " << z);
                 for (const auto solver : {LinearSolver::direct, LinearSolver::conjugate_gradient}) {
-                    if (!is_implicit(scheme) && solver != LinearSolver::direct) continue;
-                    Candidate candidate{scheme, h, solver, 1e-6};
-                    candidate.damping.look_ahead = takes_damping(scheme) && z > 0.1 ? 0.1 : 0;
+                    if (!is_implicit(method) && solver != LinearSolver::direct) continue;
+                    Candidate candidate{method, h, solver, 1e-6};
+                    candidate.damping.look_ahead = takes_damping(method) && z > 0.1 ? 0.1 : 0;
                     const auto seen = taut::measured_mode_error(linear, mode, candidate);
                     REQUIRE(seen);
                     const auto predicted =
-                        mode_error(scheme, z, mode.zeta, candidate.damping.look_ahead);
+                        mode_error(method, z, mode.zeta, candidate.damping.look_ahead);
                     CHECK_THAT(seen->artificial_damping,
                                WithinAbs(predicted.artificial_damping,
                                          0.1 * std::abs(predicted.artificial_damping) + blur));
@@ -165,37 +164,37 @@ TEST_CASE("accuracy: accurate_step is the last step within tolerance", "[tradeof
         if (repeat % 5 == 2) tolerance.period = infinity;
         const double omega = std::exp2(random.uniform(-4, 12));
         const double zeta = repeat % 2 == 0 ? 0 : random.uniform(0, 0.5);
-        for (const Scheme scheme : all_schemes) {
-            const double added = takes_damping(scheme) && repeat % 3 == 1 ? 10 : 0;
-            INFO(name(scheme) << ", damping " << tolerance.damping_ratio << ", period "
+        for (const Method method : all_methods) {
+            const double added = takes_damping(method) && repeat % 3 == 1 ? 10 : 0;
+            INFO(name(method) << ", damping " << tolerance.damping_ratio << ", period "
                               << tolerance.period << ", zeta = " << zeta << ", added " << added);
-            const double h = accurate_step(scheme, tolerance, omega, zeta, added);
+            const double h = accurate_step(method, tolerance, omega, zeta, added);
             REQUIRE(h > 0);
             for (int part = 1; part <= 50; ++part) {
                 const double z = h * omega * (1 - 1e-9) * part / 50;
-                CHECK(tolerance.admits(mode_error(scheme, z, zeta, added)));
+                CHECK(tolerance.admits(mode_error(method, z, zeta, added)));
             }
-            CHECK_FALSE(tolerance.admits(mode_error(scheme, h * omega * (1 + 1e-9), zeta, added)));
-            CHECK_THAT(accurate_step(scheme, tolerance, 2 * omega, zeta, added),
+            CHECK_FALSE(tolerance.admits(mode_error(method, h * omega * (1 + 1e-9), zeta, added)));
+            CHECK_THAT(accurate_step(method, tolerance, 2 * omega, zeta, added),
                        WithinRel(h / 2, 1e-12));
         }
     }
-    CHECK(accurate_step(Scheme::implicit_euler, {1, infinity}, 100) == infinity);
+    CHECK(accurate_step(Method::implicit_euler, {1, infinity}, 100) == infinity);
 }
 
 TEST_CASE("accuracy: wrong input is named", "[tradeoff]") {
     using taut_test::missing;
-    CHECK(missing(message_of([] { (void)mode_error(Scheme::bdf2, 0); }), {"z is 0", "> 0"}) == "");
-    CHECK(missing(message_of([] { (void)mode_error(Scheme::bdf2, 1, 1); }), {"zeta is 1", "< 1"}) ==
+    CHECK(missing(message_of([] { (void)mode_error(Method::bdf2, 0); }), {"z is 0", "> 0"}) == "");
+    CHECK(missing(message_of([] { (void)mode_error(Method::bdf2, 1, 1); }), {"zeta is 1", "< 1"}) ==
           "");
-    CHECK(missing(message_of([] { (void)mode_error(Scheme::bdf2, 1, 0, 0.1); }),
+    CHECK(missing(message_of([] { (void)mode_error(Method::bdf2, 1, 0, 0.1); }),
                   {"added is 0.1", "bdf2"}) == "");
-    CHECK(missing(message_of([] { (void)mode_error(Scheme::symplectic_euler, 1, 0, -1); }),
+    CHECK(missing(message_of([] { (void)mode_error(Method::symplectic_euler, 1, 0, -1); }),
                   {"added is -1"}) == "");
-    CHECK(missing(message_of([] { (void)accurate_step(Scheme::bdf2, {}, -1); }),
+    CHECK(missing(message_of([] { (void)accurate_step(Method::bdf2, {}, -1); }),
                   {"up_to_frequency is -1"}) == "");
     CHECK(missing(message_of([] {
-                      (void)accurate_step(Scheme::bdf2, {0, 1}, 1);
+                      (void)accurate_step(Method::bdf2, {0, 1}, 1);
                   }),
                   {"tolerance is 0"}) == "");
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-// EXPECT: taut::ImplicitEuler: a GeneralLinearSystem needs an unsymmetric solver
+// EXPECT: taut: an implicit step of an unsymmetric system needs an unsymmetric solver
 
 #include <Eigen/SparseCholesky>
 #include <taut/integrator/implicit_euler.hpp>

@@ -4,6 +4,8 @@
 
 // What the other files of this folder do wrong, done right: this one must compile.
 #include <Eigen/SparseLU>
+#include <taut/constraints/constraints.hpp>
+#include <taut/newton/newton.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/taut.hpp>
 
@@ -21,6 +23,8 @@ void step(const taut::SpringSystem<float, 1, taut::Hookean, taut_test::TensionOn
     taut::SymplecticEuler symplectic_euler(system);
     taut::VelocityVerlet velocity_verlet(system);
     taut::ImplicitEuler implicit_euler(system);
+    taut::ConstrainedEuler constrained_euler(system);
+    taut::NewtonEuler newton_euler(system);
 }
 
 void build(taut::SpringSystem<double, 3, taut_test::TensionOnly>& system) {

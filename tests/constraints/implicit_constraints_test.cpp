@@ -3,20 +3,23 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
+#include <taut/constraints/constraints.hpp>
 #include <taut/integrator/implicit_euler.hpp>
+#include <taut/newton/newton.hpp>
+#include <taut/own_matrices/linear_system.hpp>
 #include <taut/model/spring_system.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/solver/conjugate_gradient.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/dense.hpp"
+#include "../support/direct_euler.hpp"
 #include "../support/message.hpp"
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
 
 namespace taut_test::implicit_constraints_test {
 
-using taut::ImplicitEuler;
 using taut::ParticleConstraints;
 
 namespace {
@@ -30,6 +33,13 @@ Springs draw_system(Random& random) {
     return random_system<double, 3>(random, options);
 }
 
+/// With a direct solver: exact to rounding.
+template <class System>
+struct Constrained : taut::ConstrainedEuler<System, taut::SparseCholesky<typename System::Scalar>> {
+    explicit Constrained(const System& system)
+        : taut::ConstrainedEuler<System, taut::SparseCholesky<typename System::Scalar>>(system) {}
+};
+
 }  // namespace
 
 TEST_CASE("implicit_constraints: a particle held at a point moves as a pinned one",
@@ -41,9 +51,9 @@ TEST_CASE("implicit_constraints: a particle held at a point moves as a pinned on
     auto expected = state;
     auto pinned = system;
     pinned.pin(5);
-    ImplicitEuler stepper(system);
+    Constrained stepper(system);
     stepper.constraints().fix(5);
-    ImplicitEuler reference(pinned);
+    DirectEuler reference(pinned);
     REQUIRE(stepper.step(state, 0.02, 5));
     REQUIRE(reference.step(expected, 0.02, 5));
     CHECK(distance(state.x, expected.x) <= Tolerance<double>::accumulated);
@@ -59,7 +69,7 @@ TEMPLATE_TEST_CASE("implicit_constraints: planes, lines and prescribed velocitie
     const Vector normal = random.vector<TestType, 3>(-1, 1);
     const Vector line = random.vector<TestType, 3>(-1, 1);
     const Vector velocity = random.vector<TestType, 3>(-1, 1);
-    ImplicitEuler stepper(system);
+    Constrained stepper(system);
     stepper.constraints().hold_in_plane(3, normal, TestType(0.25));
     stepper.constraints().hold_on_line(4, line);
     stepper.constraints().prescribe(6, velocity);
@@ -82,7 +92,7 @@ TEST_CASE("implicit_constraints: with its constraint forces a step is that of fr
     Random random(4);
     auto system = draw_system(random);
     const auto start = random_state(random, system);
-    ImplicitEuler stepper(system);
+    Constrained stepper(system);
     stepper.constraints().hold_in_plane(3, {1, 2, -1}, 0.5);
     stepper.constraints().hold_on_line(4, {0, 1, 1});
     stepper.constraints().fix(7);
@@ -95,7 +105,7 @@ TEST_CASE("implicit_constraints: with its constraint forces a step is that of fr
     CHECK((forces.col(5).array() == 0).all());
     system.set_external_force([forces](const auto&, auto& f) { f += forces; });
     auto pushed = start;
-    ImplicitEuler free_stepper(system);
+    DirectEuler free_stepper(system);
     REQUIRE(free_stepper.step(pushed, 0.05));
     CHECK(distance(held.v, pushed.v) <= Tolerance<double>::accumulated * largest(held.v));
 }
@@ -108,7 +118,7 @@ TEST_CASE("implicit_constraints: constraints of a linear system, and their relea
     pose.x *= 3;
     const auto linear = taut::linearize(springs, pose);
     auto u = linear.initial_state();
-    ImplicitEuler stepper(linear);
+    Constrained stepper(linear);
     stepper.constraints().fix(4);
     REQUIRE(stepper.step(u, 0.1, 5));
     CHECK(u.x(0, 4) == 0);
@@ -116,7 +126,7 @@ TEST_CASE("implicit_constraints: constraints of a linear system, and their relea
     stepper.constraints().release(4);
     auto expected = u;
     REQUIRE(stepper.step(u, 0.1));
-    ImplicitEuler reference(linear);
+    DirectEuler reference(linear);
     REQUIRE(reference.step(expected, 0.1));
     CHECK(distance(u.v, expected.v) <= Tolerance<double>::accumulated);
 }
@@ -127,8 +137,8 @@ TEST_CASE("implicit_constraints: filtered conjugate gradients take the direct so
     const auto system = draw_system(random);
     auto by_factors = random_state(random, system);
     auto by_gradients = by_factors;
-    ImplicitEuler direct(system);
-    ImplicitEuler<Springs, taut::ConjugateGradient<double, 3>> filtered(system);
+    Constrained direct(system);
+    taut::ConstrainedEuler<Springs, taut::ConjugateGradient<double, 3>> filtered(system);
     filtered.configure([](auto& solver) { solver.setTolerance(1e-12); });
     const auto hold = [](auto& stepper, int phase) {
         auto& constraints = stepper.constraints();
@@ -153,10 +163,10 @@ TEST_CASE("implicit_constraints: Newton's step holds them and its forces stand i
     Random random(9);
     auto system = random_system<double, 3>(random);
     const auto start = random_state(random, system);
-    ImplicitEuler<Springs>::Options options;
-    options.newton_iterations = 100;
+    using Newton = taut::NewtonEuler<Springs>;
+    Newton::Options options;
     options.tolerance = 1e-12;
-    ImplicitEuler stepper(system, options);
+    Newton stepper(system, options);
     stepper.constraints().hold_in_plane(3, {1, 2, -1}, 0.5);
     stepper.constraints().prescribe(7, {0, 0, 1});
     auto held = start;
@@ -172,7 +182,7 @@ TEST_CASE("implicit_constraints: Newton's step holds them and its forces stand i
     CHECK(stepper.constraint_forces().cols() == 0);
     system.set_external_force([forces](const auto&, auto& f) { f += forces; });
     auto pushed = start;
-    ImplicitEuler free_stepper(system, options);
+    Newton free_stepper(system, options);
     REQUIRE(free_stepper.step(pushed, 0.05));
     CHECK(distance(held.v, pushed.v) <= 1e-8 * largest(held.v));
 }
@@ -218,7 +228,7 @@ TEST_CASE("particle_constraints: contradictions and bad values are named by thei
     const auto system = random_system<double, 2>(random);
     auto state = random_state(random, system);
     const auto before = state;
-    ImplicitEuler stepper(system);
+    Constrained stepper(system);
     stepper.constraints().fix(8);
     const auto report = stepper.step(state, 0.01);
     CHECK(report.status == taut::Status::invalid_state);

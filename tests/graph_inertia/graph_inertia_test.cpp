@@ -4,6 +4,7 @@
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/model/state_view.hpp>
 #include <taut/stability/any_pose.hpp>
+#include <taut/wind/wind.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/check_stepper.hpp"
@@ -42,13 +43,14 @@ Mixed<Scalar, Dim> any_scene(Random& random, int repeat) {
         system.set_external_force([](const auto& state, auto& f) {
             f.array() += Scalar(3) * state.x.array() - state.v.array();
         });
-    if (repeat % 4 == 3) {
-        using Vector = Eigen::Matrix<Scalar, Dim, 1>;
-        system.set_particle_force(
-            [](const Vector& x, const Vector& v, Index i) { return Vector(Scalar(i) * x - v); });
-    }
+    if (repeat % 4 == 3)
+        system.set_external_force([](const auto& state, auto& f) {
+            for (Index i = 0; i < f.cols(); ++i)
+                f.col(i) += Scalar(i) * state.x.col(i) - state.v.col(i);
+        });
     if constexpr (Dim == 3) {
-        if (repeat % 3 == 1) system.set_wind(taut::Wind<Scalar>{{1, 2, 3}, {{0, 1, 2}, {2, 3, 4}}});
+        if (repeat % 3 == 1)
+            taut::set_wind(system, taut::Wind<Scalar>{{1, 2, 3}, {{0, 1, 2}, {2, 3, 4}}});
     }
     return system;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <taut/integrator/guarded.hpp>
 #include <taut/integrator/implicit_euler.hpp>
+#include <taut/newton/newton.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/integrator/velocity_verlet.hpp>
 #include <taut/scene/cloth.hpp>
@@ -145,9 +146,9 @@ TEST_CASE("guarded: a stepper's own options, and the work of its constraints", "
     RandomOptions options;
     options.gravity = false;
     const auto system = random_system<double, 2>(random, options);
-    using Stepper = taut::ImplicitEuler<Springs>;
+    using Stepper = taut::NewtonEuler<Springs>;
     Stepper::Options newton;
-    newton.newton_iterations = 40;
+    newton.iterations = 40;
     Guarded<Stepper> guard(system, {}, newton);
     Stepper alone(system, newton);
     auto state = system.initial_state();

@@ -5,11 +5,14 @@
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/model/spring_system.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
+#include <taut/scene/cloth.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/dense.hpp"
-#include "../support/random_system.hpp"
+#include "../support/direct_euler.hpp"
 #include "../support/decompositions.hpp"
+#include "../support/random_system.hpp"
+#include "../support/returning_steps.hpp"
 #include "../support/tolerance.hpp"
 
 namespace taut_test::implicit_euler_test {
@@ -57,7 +60,7 @@ TEMPLATE_TEST_CASE("implicit_euler: a step satisfies its own update equation", "
         system.pin(5);
         auto state = random_state(random, system);  // pinned particles move, too
         const auto before = state;
-        ImplicitEuler stepper(system);
+        DirectEuler stepper(system);
         const taut::Report report = stepper.step(state, h);
         REQUIRE(report);
         CHECK(report.residual < Tolerance<double>::accumulated);
@@ -127,7 +130,7 @@ TEST_CASE("implicit_euler: any of Eigen's symmetric solvers gives the same step"
     auto by_llt = start;
     auto by_upper = start;
     auto by_lu = start;
-    ImplicitEuler llt(system);
+    DirectEuler llt(system);
     ImplicitEuler<System, Eigen::SimplicialLLT<Sparse, Eigen::Upper>> upper(system);
     ImplicitEuler<System, Eigen::SparseLU<Sparse>> lu(system);
     REQUIRE(llt.step(by_llt, 0.01, 20));
@@ -258,6 +261,29 @@ TEST_CASE("implicit_euler: the external force is asked once a step, for the stat
     CHECK(calls == 4);
 }
 
+TEST_CASE("implicit_euler: matrices are factorised once for each of the last two h",
+          "[integrator]") {
+    Random random(7);
+    const auto springs = random_system<double, 3>(random);
+    const auto linear = taut::linearize(springs, springs.initial_state());
+    auto u = linear.initial_state();
+    ImplicitEuler stepper(linear);
+    for (const auto& [h, expected] : returning_steps) {
+        REQUIRE(stepper.step(u, h, 2));
+        CHECK(stepper.factorizations() == expected);
+        auto again = u;
+        auto by_fresh = u;
+        ImplicitEuler fresh(linear);
+        REQUIRE(stepper.step(again, h));
+        REQUIRE(fresh.step(by_fresh, h));
+        CHECK(same_bits(again, by_fresh));
+    }
+    auto state = springs.initial_state();
+    ImplicitEuler moving(springs);
+    REQUIRE(moving.step(state, 0.01, 3));
+    CHECK(moving.factorizations() == 3);
+}
+
 TEST_CASE("implicit_euler: float steps follow double ones", "[integrator]") {
     Random first(9);
     Random second(9);
@@ -265,13 +291,38 @@ TEST_CASE("implicit_euler: float steps follow double ones", "[integrator]") {
     const auto wide = random_system<double, 3>(second);
     auto narrow_state = random_state(first, narrow);
     auto wide_state = random_state(second, wide);
-    ImplicitEuler narrow_stepper(narrow);
-    ImplicitEuler wide_stepper(wide);
+    DirectEuler narrow_stepper(narrow);
+    DirectEuler wide_stepper(wide);
     REQUIRE(narrow_stepper.step(narrow_state, 0.01F, 10));
     REQUIRE(wide_stepper.step(wide_state, 0.01, 10));
     CHECK(distance(narrow_state.x, wide_state.x) < Tolerance<float>::accumulated);
     CHECK(distance(narrow_state.v, wide_state.v) <
           Tolerance<float>::accumulated * largest(wide_state.v));
+}
+
+TEMPLATE_TEST_CASE("implicit_euler: the default solver errs far less than the step does",
+                   "[integrator]", float, double) {
+    for (const double stretch : {1e2, 1e3, 1e5}) {
+        for (const double step : {1.0 / 60, 1.0 / 240}) {
+            INFO("stretch " << stretch << ", h " << step);
+            taut::ClothOptions options{10, 12};
+            options.stretch = stretch;
+            options.bend = stretch / 10;
+            const auto cloth = taut::hanging_cloth<TestType>(options);
+            const auto h = static_cast<TestType>(step);
+            auto state = cloth.initial_state();
+            ImplicitEuler by_default(cloth);
+            for (int k = 0; k < 30; ++k) {
+                auto exact = state;
+                auto fine = state;
+                DirectEuler direct(cloth);
+                REQUIRE(direct.step(exact, h));
+                REQUIRE(direct.step(fine, h / 8, 8));
+                REQUIRE(by_default.step(state, h));
+                CHECK(distance(state.x, exact.x) <= 0.2 * distance(exact.x, fine.x));
+            }
+        }
+    }
 }
 
 }  // namespace taut_test::implicit_euler_test

@@ -12,6 +12,7 @@
 #include <taut/model/state_view.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/scene/cloth.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <utility>
 #include <vector>
 

@@ -2,16 +2,17 @@
 // SPDX-License-Identifier: MIT
 #include <taut/integrator/explicit_euler.hpp>
 #include <taut/integrator/guarded.hpp>
-#include <taut/integrator/implicit_euler.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/integrator/velocity_verlet.hpp>
 #include <taut/scene/cloth.hpp>
+#include <taut/wind/wind.hpp>
 
 #include <cmath>
 #include <stdexcept>
 #include <vector>
 
 #include "../support/catch.hpp"
+#include "../support/direct_euler.hpp"
 #include "../support/sweep_checks.hpp"
 
 namespace taut_test::sweep_forces_test {
@@ -57,7 +58,7 @@ TEMPLATE_TEST_CASE("sweep: wind acts as on the plain path", "[integrator]", floa
         auto mesh = irregular<TestType, 3>(random, 2500, triangles == 300);
         auto grid = net<TestType, 3>(random, 47, 53);
         for (auto* system : {&grid, &mesh}) {
-            system->set_wind(draw_wind<TestType>(random, system->size(), triangles));
+            taut::set_wind(*system, draw_wind<TestType>(random, system->size(), triangles));
             check_all_steppers(*system, random_state(random, *system));
         }
     }
@@ -78,7 +79,7 @@ TEMPLATE_TEST_CASE("sweep: wind on a cloth's own triangles acts as on the plain 
         wind.velocity = {3, -2, 5};
         wind.triangles = taut::cloth_triangles(options);
         CHECK(static_cast<Index>(wind.triangles.size()) == 2 * (rows - 1) * 52);
-        cloth.set_wind(wind);
+        taut::set_wind(cloth, wind);
         auto start = random_state(random, cloth);
         start.x = cloth.initial_state().x;
         check_all_steppers(cloth, start);
@@ -102,7 +103,7 @@ taut::SpringSystem<Scalar, 3> chain_in_wind(Random& random, int particles) {
         wind.triangles.push_back({a, a + particles / 3, a + 2 * (particles / 3)});
     }
     wind.triangles.push_back({2046, 2047, 2048});
-    chain.set_wind(wind);
+    taut::set_wind(chain, wind);
     return chain;
 }
 
@@ -120,9 +121,9 @@ TEMPLATE_TEST_CASE("sweep: how steps are divided into calls changes no bit", "[i
     Random random(97);
     auto chain = chain_in_wind<TestType>(random, 6300);
     auto grid = net<TestType, 3>(random, 70, 70);
-    grid.set_wind(draw_wind<TestType>(random, grid.size(), 3000));
+    taut::set_wind(grid, draw_wind<TestType>(random, grid.size(), 3000));
     auto mesh = irregular<TestType, 3>(random, 4500, false);
-    mesh.set_wind(draw_wind<TestType>(random, mesh.size(), 3000));
+    taut::set_wind(mesh, draw_wind<TestType>(random, mesh.size(), 3000));
     for (auto* system : {&chain, &grid, &mesh}) {
         const auto start = random_state(random, *system);
         auto at_once = start;
@@ -143,15 +144,12 @@ TEMPLATE_TEST_CASE("sweep: what is finite never falls back on the plain path", "
         auto grid = net<TestType, 3>(random, 20, 20);
         auto mesh = irregular<TestType, 3>(random, 600, false);
         for (auto* system : {&chain, &grid, &mesh}) {
-            system->set_wind(draw_wind<TestType>(random, system->size(), triangles));
+            taut::set_wind(*system, draw_wind<TestType>(random, system->size(), triangles));
             Index calls = 0;
-            system->set_particle_force([&calls](const auto& x, const auto&, Index) {
-                ++calls;
-                return (0 * x).eval();
-            });
+            system->set_external_force([&calls](const auto&, auto&) { ++calls; });
             auto state = random_state(random, *system);
             REQUIRE(taut::SymplecticEuler(*system).step(state, TestType(1e-3), 9));
-            CHECK(calls == 9 * system->size());
+            CHECK(calls == 9);
         }
     }
 }
@@ -163,9 +161,10 @@ TEST_CASE("wind: guarded and implicit steps take it as a force of the whole stat
     taut::Wind<double> wind;
     wind.velocity = {4, 3, 2};
     wind.triangles = taut::cloth_triangles({12, 12});
-    blown.set_wind(wind);
+    taut::set_wind(blown, wind);
     pushed.set_external_force([wind](const auto& state, auto& f) {
-        taut::model_detail::add_wind(wind, state.x, state.v, f);
+        taut::model_detail::add_wind(taut::model_detail::Air<double>(wind), wind.triangles, state.x,
+                                     state.v, f);
     });
     const auto check = [](const auto& a, const auto& b) {
         CHECK(distance(a.v, b.v) <= 1e-9 * largest(b.v));
@@ -182,8 +181,8 @@ TEST_CASE("wind: guarded and implicit steps take it as a force of the whole stat
         CHECK(std::abs(ours.work - theirs.work) <= 1e-9 * std::abs(theirs.work));
         check(a, b);
     }
-    taut::ImplicitEuler implicit(blown);
-    taut::ImplicitEuler other(pushed);
+    DirectEuler implicit(blown);
+    DirectEuler other(pushed);
     REQUIRE(implicit.step(a, 1.0 / 60, 3));
     REQUIRE(other.step(b, 1.0 / 60, 3));
     check(a, b);
@@ -204,21 +203,21 @@ TEST_CASE("sweep: a wind that comes, turns, moves to other triangles and ends is
             CHECK(distance(state.v, expected.v) <= 1e-12 * largest(expected.v));
         };
         check();
-        system.set_wind(draw_wind<double>(random, system.size(), 500));
+        taut::set_wind(system, draw_wind<double>(random, system.size(), 500));
         check();
-        system.set_wind_velocity({-4, 5, 6});
+        taut::set_wind_velocity(system, {-4, 5, 6});
         check();
-        system.set_wind(draw_wind<double>(random, system.size(), 90));
+        taut::set_wind(system, draw_wind<double>(random, system.size(), 90));
         check();
         system.add_spring(3, 2100, 50.0);
         check();
-        system.set_wind(taut::Wind<double>());
+        taut::set_wind(system, taut::Wind<double>());
         check();
         CHECK_FALSE(system.has_external_force());
     }
 }
 
-TEMPLATE_TEST_CASE("sweep: forces on each particle and constant ones act as on the plain path",
+TEMPLATE_TEST_CASE("sweep: forces of the state and constant ones act as on the plain path",
                    "[integrator]", (Case<float, 2>), (Case<float, 3>), (Case<double, 1>),
                    (Case<double, 3>)) {
     using Scalar = typename TestType::Scalar;
@@ -227,10 +226,6 @@ TEMPLATE_TEST_CASE("sweep: forces on each particle and constant ones act as on t
     auto mesh = irregular<Scalar, TestType::Dim>(random, 2500, true);
     for (auto* system : {&grid, &mesh}) {
         const auto start = random_state(random, *system);
-        system->set_particle_force([](const auto& x, const auto& v, Index i) {
-            return (Scalar(0.5) * x.array() - Scalar(0.3) * v.array() + Scalar(i % 7)).matrix();
-        });
-        check_all_steppers(*system, start);
         for (int k = 0; k < 300; ++k) {
             system->set_constant_force(random.below(system->size()),
                                        random.vector<Scalar, TestType::Dim>(-9, 9));
@@ -238,14 +233,13 @@ TEMPLATE_TEST_CASE("sweep: forces on each particle and constant ones act as on t
         check_all_steppers(*system, start);
         system->set_external_force([](const auto& state, auto& f) { f -= state.v; });
         check_all_steppers(*system, start);
-        system->set_particle_force(nullptr);
         // A particle that came after the constant forces has none.
         system->add_particle(random.vector<Scalar, TestType::Dim>(-1, 1), Scalar(1));
         check_all_steppers(*system, random_state(random, *system));
     }
 }
 
-TEST_CASE("sweep: a force on a particle that throws leaves nothing behind", "[integrator]") {
+TEST_CASE("sweep: a force that throws leaves nothing behind", "[integrator]") {
     Random random(95);
     for (const bool stars : {false, true}) {
         auto system =
@@ -253,13 +247,13 @@ TEST_CASE("sweep: a force on a particle that throws leaves nothing behind", "[in
         taut::SymplecticEuler stepper(system);
         const auto start = random_state(random, system);
         auto state = start;
-        system.set_particle_force([](const auto& x, const auto&, Index i) {
-            if (i == 1234) throw std::runtime_error("enough");
-            return (0 * x).eval();
+        int calls = 0;
+        system.set_external_force([&calls](const auto&, auto&) {
+            if (++calls == 2) throw std::runtime_error("enough");
         });
         CHECK_THROWS_AS(static_cast<void>(stepper.step(state, 1e-3, 2)), std::runtime_error);
         CHECK(state.x == start.x);
-        system.set_particle_force(nullptr);
+        system.set_external_force({});
         REQUIRE(stepper.step(state, 1e-3, 2));
         auto expected = start;
         plain_steps<taut::Method::symplectic_euler>(system, expected, 1e-3, 2);

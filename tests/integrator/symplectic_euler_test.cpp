@@ -123,10 +123,6 @@ TEST_CASE("symplectic_euler: the external force sees the state of the step's sta
     CHECK(calls == 5);
 }
 
-TEST_CASE("symplectic_euler: divergence is reported and the state put back", "[integrator]") {
-    check_divergence_is_reported<taut::SymplecticEuler>();
-}
-
 TEST_CASE("symplectic_euler: a force that is not finite is divergence, and names its particle",
           "[integrator]") {
     Random random(6);
@@ -141,51 +137,6 @@ TEST_CASE("symplectic_euler: a force that is not finite is divergence, and names
     CHECK(report.iterations == 0);
     CHECK(report.where == 5);
     CHECK(same_bits(state, before));
-}
-
-TEMPLATE_TEST_CASE("symplectic_euler: count steps are count single steps, to the bit",
-                   "[integrator]", float, double) {
-    check_counted_steps_are_single_steps<taut::SymplecticEuler, TestType, 3>();
-}
-
-TEMPLATE_TEST_CASE("symplectic_euler: a bad step or state is reported and nothing is touched",
-                   "[integrator][bad_input]", float, double) {
-    check_bad_input<taut::SymplecticEuler, TestType>();
-}
-
-TEMPLATE_TEST_CASE("symplectic_euler: pinned particles obey their velocity", "[integrator]", float,
-                   double) {
-    check_pinned_particles_obey_their_velocity<taut::SymplecticEuler, TestType>();
-}
-
-TEMPLATE_TEST_CASE("symplectic_euler: linear momentum of an unpinned scene is kept to rounding",
-                   "[integrator]", (Case<float, 2>), (Case<double, 3>)) {
-    check_linear_momentum_is_kept<taut::SymplecticEuler, typename TestType::Scalar,
-                                  TestType::Dim>();
-}
-
-TEMPLATE_TEST_CASE(
-    "symplectic_euler: a linear scene moves alike through SpringSystem and LinearSystem",
-    "[integrator]", (Case<float, 1>), (Case<double, 3>)) {
-    check_linear_scene<taut::SymplecticEuler, typename TestType::Scalar, TestType::Dim>();
-}
-
-TEST_CASE("symplectic_euler: the measured order of convergence is the declared one",
-          "[integrator]") {
-    using Stepper = taut::SymplecticEuler<taut::SpringSystem<double, 3>>;
-    CHECK(Stepper::method == taut::Method::symplectic_euler);
-    CHECK_THAT((measured_order<taut::SymplecticEuler, 3>()),
-               Catch::Matchers::WithinAbs(Stepper::order, 0.05));
-}
-
-TEST_CASE("symplectic_euler: changes of the system and the state between steps are taken up",
-          "[integrator]") {
-    check_takes_up_all_changes<taut::SymplecticEuler>();
-}
-
-TEST_CASE("symplectic_euler: a scene without free particles is stepped without failure",
-          "[integrator]") {
-    check_nothing_free<taut::SymplecticEuler>();
 }
 
 }  // namespace taut_test::symplectic_euler_test

@@ -22,6 +22,15 @@ using taut::LammpsOptions;
 using taut::write_lammps;
 using Vector = Eigen::Vector3d;
 
+/// Adds particles without springs, of more masses than LAMMPS is given types.
+template <class System>
+void add_masses(System& system) {
+    using Scalar = typename System::Scalar;
+    for (int i = 0; i < 260; ++i) {
+        system.add_particle(System::Vector::Zero(), 1 + Scalar(i) / 256);
+    }
+}
+
 /// The two files of a scene in the working directory, removed at the end of the test.
 struct Files {
     explicit Files(const std::string& name) : data(name + ".data"), script(name + ".in") {

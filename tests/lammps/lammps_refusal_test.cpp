@@ -10,6 +10,7 @@
 #include <taut/model/buckling.hpp>
 #include <taut/model/tension_only.hpp>
 #include <taut/scene/cloth.hpp>
+#include <taut/wind/wind.hpp>
 #include <vector>
 
 #include "../support/catch.hpp"
@@ -63,13 +64,7 @@ TEST_CASE("lammps: bad input: what LAMMPS lacks is refused by name, or left out 
             wind.triangles = {{0, 1, 2}};
             wind.density = 1;
             wind.drag = 1;
-            s.set_wind(wind);
-        },
-        out);
-    refused(
-        "set_particle_force",
-        [](System& s) {
-            s.set_particle_force([](const Vector& x, const Vector&, Index) -> Vector { return x; });
+            taut::set_wind(s, wind);
         },
         out);
     refused(
@@ -111,15 +106,13 @@ TEST_CASE("lammps: bad input: springs that are no bond are named", "[io][bad_inp
     CHECK(missing(refusal(state, files.options()), {"spring 0 is inf m"}).empty());
     state.x(0, 0) = 0;
     state.x(0, 1) = 1e308;
-    CHECK(missing(refusal(state, files.options()), {"longest_stretch", "inf m"}).empty());
+    CHECK(missing(refusal(state, files.options()), {"twice the longest spring", "inf m"}).empty());
     // Each spring has a length of its own: so many types are memory, and refused beyond a number.
-    LammpsOptions few = files.options();
-    few.most_bond_types = 2;
-    CHECK(missing(refusal(system.initial_state(), few),
-                  {"spring 2", "bond type 3", "at most 2", "most_bond_types"})
+    CHECK(write_lammps("", system, system.initial_state(), files.options()).bond_types == 3);
+    for (Index s = 3; s <= 1 << 20; ++s) system.add_spring(0, 1, static_cast<double>(s));
+    CHECK(missing(refusal(system.initial_state(), files.options()),
+                  {"spring 1048576", "bond type 1048577", "at most 1048576"})
               .empty());
-    few.most_bond_types = 3;
-    CHECK(write_lammps("", system, system.initial_state(), few).bond_types == 3);
 }
 
 TEST_CASE("lammps: bad input: options are named", "[io][bad_input]") {
@@ -139,13 +132,8 @@ TEST_CASE("lammps: bad input: options are named", "[io][bad_input]") {
     refused("share is nan", [&](auto& o) { o.share = nan; });
     refused("step is -1", [](auto& o) { o.step = -1; });
     refused("step is nan", [&](auto& o) { o.step = nan; });
-    refused("longest_stretch is 0.5", [](auto& o) { o.longest_stretch = 0.5; });
-    refused("longest_stretch is inf",
-            [](auto& o) { o.longest_stretch = std::numeric_limits<double>::infinity(); });
     refused("steps is 0", [](auto& o) { o.steps = 0; });
     refused("every is 0", [](auto& o) { o.every = 0; });
-    refused("most_bond_types is 0", [](auto& o) { o.most_bond_types = 0; });
-    refused("most_atom_types is 1", [](auto& o) { o.most_atom_types = 1; });
     refused("name is \"\"", [](auto& o) { o.name = ""; });
     refused("name is \"a b\"", [](auto& o) { o.name = "a b"; });
     refused("name is \"../a\"", [](auto& o) { o.name = "../a"; });

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <taut/integrator/implicit_euler.hpp>
 #include <taut/newton/energy_guarantee.hpp>
+#include <taut/newton/newton.hpp>
 
 #include "../support/catch.hpp"
+#include "../support/direct_euler.hpp"
 #include "../support/laws.hpp"
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
@@ -227,8 +228,9 @@ Tally try_scenes(int count, const Draw& draw) {
         Random random(static_cast<std::uint32_t>(trial + 1));
         const auto scene = draw_scene<Scalar, Dim>(random, draw);
         const auto h = static_cast<Scalar>(std::pow(10, random.uniform(-4, 2)));
-        typename taut::ImplicitEuler<System>::Options options;
-        options.newton_iterations = 300;
+        using Newton = taut::NewtonEuler<System>;
+        typename Newton::Options options;
+        options.iterations = 300;
         const auto keeps = [&](const auto& after) {
             const Weighed start = weigh(scene, scene.state);
             const Weighed end = weigh(scene, after);
@@ -239,7 +241,7 @@ Tally try_scenes(int count, const Draw& draw) {
                                                      end.rounding +
                                                      64 * epsilon * (stake + end.own);
         };
-        taut::ImplicitEuler<System> newton(scene.system, options);
+        Newton newton(scene.system, options);
         auto state = scene.state;
         const taut::Report report = newton.step(state, h);
         if (report) {
@@ -250,7 +252,7 @@ Tally try_scenes(int count, const Draw& draw) {
             CHECK(same_bits(state, scene.state));
         }
         auto linearised = scene.state;
-        taut::ImplicitEuler<System> stepper(scene.system);
+        DirectEuler stepper(scene.system);
         if (!stepper.step(linearised, h) || !keeps(linearised)) ++tally.of_one_solve;
     }
     return tally;

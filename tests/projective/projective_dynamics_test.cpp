@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include <cmath>
-#include <taut/integrator/implicit_euler.hpp>
+#include <taut/newton/newton.hpp>
 #include <taut/projective/projective.hpp>
 #include <taut/scene/cloth.hpp>
 
@@ -16,7 +16,7 @@
 
 namespace taut_test::projective_dynamics_test {
 
-using taut::ImplicitEuler;
+using taut::NewtonEuler;
 using taut::ProjectiveDynamics;
 
 namespace {
@@ -79,10 +79,10 @@ TEMPLATE_TEST_CASE(
         by_newton.v = random_state(random, system).v;
         auto plain_state = by_newton;
         auto fast_state = by_newton;
-        typename ImplicitEuler<TestType>::Options options;
-        options.newton_iterations = 50;
+        typename NewtonEuler<TestType>::Options options;
+        options.iterations = 50;
         options.tolerance = 1e-11;
-        ImplicitEuler<TestType> newton(system, options);
+        NewtonEuler<TestType> newton(system, options);
         auto plain = converging(system, 0);
         auto fast = converging(system, 5);
         REQUIRE(newton.step(by_newton, 0.01, 10));

@@ -11,15 +11,15 @@ namespace taut_test::choose_test {
 using taut::Candidate;
 using taut::choose;
 using taut::Goal;
+using taut::Method;
 using taut::Plan;
 using taut::plan_for;
-using taut::Scheme;
 using taut::StepBound;
 
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr Scheme schemes[] = {Scheme::symplectic_euler, Scheme::implicit_euler, Scheme::bdf2};
+constexpr Method methods[] = {Method::symplectic_euler, Method::implicit_euler, Method::bdf2};
 
 }  // namespace
 
@@ -36,15 +36,15 @@ TEST_CASE("plan_for: whole steps fill the frame, none above what is safe and acc
                 taut::ModeTolerance{random.uniform(0.001, 0.3), random.uniform(0.001, 0.3)};
             goal.up_to_frequency = std::exp2(random.uniform(-2, 12));
         }
-        for (const Scheme scheme : schemes) {
-            const Plan plan = plan_for(Candidate{scheme}, safe, goal);
+        for (const Method method : methods) {
+            const Plan plan = plan_for(Candidate{method}, safe, goal);
             const double h = plan.candidate.h;
             CHECK_THAT(h * static_cast<double>(plan.substeps), WithinRel(goal.frame, 1e-12));
             CHECK(h <= safe);
             double usable = safe;
             if (goal.accuracy) {
                 usable = std::min(
-                    safe, taut::accurate_step(scheme, *goal.accuracy, goal.up_to_frequency));
+                    safe, taut::accurate_step(method, *goal.accuracy, goal.up_to_frequency));
                 CHECK(goal.accuracy->admits(plan.error));
             }
             // One step fewer would be too large.
@@ -63,8 +63,8 @@ TEST_CASE("choose: the cheapest plan, whatever their order", "[tradeoff]") {
     const Goal goal;
     for (int repeat = 0; repeat < 100; ++repeat) {
         std::vector<Plan> plans;
-        for (const Scheme scheme : schemes) {
-            Plan plan = plan_for(Candidate{scheme}, 1e-3, goal);
+        for (const Method method : methods) {
+            Plan plan = plan_for(Candidate{method}, 1e-3, goal);
             plan.cost = random.uniform(0.1, 2);
             plans.push_back(plan);
         }
@@ -75,8 +75,8 @@ TEST_CASE("choose: the cheapest plan, whatever their order", "[tradeoff]") {
         for (const Plan& plan : plans) CHECK(answer.pick.cost <= plan.cost);
         CHECK(answer.pick.cost <= answer.runner_up->cost);
         CHECK(answer.runner_up->cost < infinity);
-        CHECK(missing(answer.why, {name(answer.pick.candidate.scheme),
-                                   name(answer.runner_up->candidate.scheme), "stable"}) == "");
+        CHECK(missing(answer.why, {name(answer.pick.candidate.method),
+                                   name(answer.runner_up->candidate.method), "stable"}) == "");
         std::reverse(plans.begin(), plans.end());
         CHECK(choose(plans, goal).why == answer.why);
     }
@@ -85,7 +85,7 @@ TEST_CASE("choose: the cheapest plan, whatever their order", "[tradeoff]") {
 TEST_CASE("choose: a budget that is not kept is said", "[tradeoff]") {
     Goal goal;
     goal.budget = 2e-3;
-    Plan plan = plan_for(Candidate{Scheme::implicit_euler}, infinity, goal);
+    Plan plan = plan_for(Candidate{Method::implicit_euler}, infinity, goal);
     plan.cost = 1e-3;
     const auto kept = choose({plan}, goal);
     CHECK(kept.within_budget);

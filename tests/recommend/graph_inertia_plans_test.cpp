@@ -3,7 +3,7 @@
 #include <taut/model/tension_only.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/scene/with_law.hpp>
-#include <taut/recommend/mode_probe.hpp>
+#include <taut/tradeoff/mode_probe.hpp>
 #include <taut/recommend/recommend.hpp>
 
 #include "../support/catch.hpp"
@@ -14,8 +14,8 @@ namespace taut_test::graph_inertia_plans_test {
 
 using taut::Candidate;
 using taut::Goal;
+using taut::Method;
 using taut::Plan;
-using taut::Scheme;
 
 namespace {
 
@@ -46,7 +46,7 @@ Cloth hemmed(double times) {
 }
 
 std::vector<Plan> inertia_plans(const Cloth& cloth, const Goal& goal) {
-    return taut::feasible_plans(cloth, goal, {Candidate{Scheme::graph_inertia}});
+    return taut::feasible_plans(cloth, goal, {Candidate{Method::graph_inertia}});
 }
 
 Goal accurate(double tolerance, double frequency) {
@@ -72,7 +72,7 @@ TEST_CASE("slowed_mode_error: symplectic Euler of the heavier mode", "[tradeoff]
         const double q = repeat % 5 == 0 ? 0 : random.uniform(0, 2);
         const auto error = taut::slowed_mode_error({omega, omega / std::sqrt(1 + q)}, h, zeta);
         if (q == 0) {
-            const auto plain = taut::mode_error(Scheme::symplectic_euler, h * omega, zeta);
+            const auto plain = taut::mode_error(Method::symplectic_euler, h * omega, zeta);
             CHECK(error.artificial_damping == plain.artificial_damping);
             CHECK_THAT(error.period_error, WithinAbs(plain.period_error, 1e-12));
         }
@@ -101,7 +101,7 @@ TEST_CASE("measured_mode_error: graph inertia slows a spring as its price says",
         const auto rest = fork.initial_state();
         const taut::Mode mode = taut::lowest_modes(fork, rest, 1).front();
         // Below the limit, 2 rad, no spring is implicit.
-        const Candidate candidate{Scheme::graph_inertia, random.uniform(0.2, 4) / mode.omega};
+        const Candidate candidate{Method::graph_inertia, random.uniform(0.2, 4) / mode.omega};
         const auto shares =
             taut::graph_shares(fork, candidate.h, taut::GraphInertiaOptions{}.margin);
         const auto price = taut::inertia_price(fork, rest, shares, 1);
@@ -167,7 +167,7 @@ TEST_CASE("feasible_plans: no graph inertia where it has no place", "[tradeoff]"
         CHECK(2 * plan.inertia.implicit_springs <= plan.inertia.springs);
     // What turns slack feeds it.
     const auto thread = taut::with_law<taut::TensionOnly>(hemmed(1000));
-    CHECK(taut::feasible_plans(thread, {}, {Candidate{Scheme::graph_inertia}}).empty());
+    CHECK(taut::feasible_plans(thread, {}, {Candidate{Method::graph_inertia}}).empty());
     Cloth held = hemmed(1000);
     for (Index i = 0; i < held.size(); ++i) held.pin(i);
     CHECK(inertia_plans(held, {}).empty());
@@ -187,7 +187,7 @@ TEST_CASE("recommend: which springs implicit, where all steps cost the same", "[
                                calibration);
     };
     const auto hem = pick(1000);
-    CHECK(hem.pick.candidate.scheme == Scheme::graph_inertia);
+    CHECK(hem.pick.candidate.method == Method::graph_inertia);
     CHECK(hem.runner_up);
     const auto& inertia = hem.pick.inertia;
     CHECK(4 * inertia.implicit_springs < inertia.springs);

@@ -14,7 +14,7 @@ namespace taut_test::recommend_test {
 
 using taut::Candidate;
 using taut::Goal;
-using taut::Scheme;
+using taut::Method;
 
 namespace {
 
@@ -32,7 +32,7 @@ Cloth cloth(double stiffness) {
 /// Of methods other than graph inertia.
 Index others(const std::vector<taut::Plan>& plans) {
     return std::count_if(plans.begin(), plans.end(), [](const taut::Plan& plan) {
-        return plan.candidate.scheme != Scheme::graph_inertia;
+        return plan.candidate.method != Method::graph_inertia;
     });
 }
 
@@ -56,17 +56,17 @@ TEST_CASE("feasible_plans: explicit steps are by the recipe, all are accurate", 
                 taut::feasible_plans(scene, goal, taut::recommended_candidates(goal));
             CHECK(others(plans) == 5);
             for (const auto& plan : plans) {
-                if (plan.candidate.scheme == Scheme::graph_inertia) continue;
+                if (plan.candidate.method == Method::graph_inertia) continue;
                 const double h = plan.candidate.h;
                 INFO(name(plan.candidate) << ", h = " << h);
                 CHECK_THAT(h * static_cast<double>(plan.substeps), WithinRel(goal.frame, 1e-12));
-                if (!is_implicit(plan.candidate.scheme))
+                if (!is_implicit(plan.candidate.method))
                     CHECK(h <= taut::recipe.safety * limit.certified);
                 const double added = plan.candidate.damping.look_ahead;
                 CHECK(added ==
-                      (is_implicit(plan.candidate.scheme) ? 0 : taut::recipe.damping.look_ahead));
+                      (is_implicit(plan.candidate.method) ? 0 : taut::recipe.damping.look_ahead));
                 CHECK(goal.accuracy->admits(
-                    taut::mode_error(plan.candidate.scheme, h * frequency, 0, added)));
+                    taut::mode_error(plan.candidate.method, h * frequency, 0, added)));
             }
         }
     }
@@ -79,8 +79,8 @@ TEST_CASE("feasible_plans: the scene's damping counts", "[tradeoff]") {
     Cloth scene = cloth(1e5);
     scene.set_rayleigh({4, 0});  // a damping ratio of 0.1 at 20 rad/s
     for (const auto& plan : taut::feasible_plans(scene, goal, taut::recommended_candidates(goal))) {
-        if (plan.candidate.scheme == Scheme::graph_inertia) continue;
-        const auto expected = taut::mode_error(plan.candidate.scheme, plan.candidate.h * 20, 0.1,
+        if (plan.candidate.method == Method::graph_inertia) continue;
+        const auto expected = taut::mode_error(plan.candidate.method, plan.candidate.h * 20, 0.1,
                                                plan.candidate.damping.look_ahead);
         CHECK(plan.error.artificial_damping == expected.artificial_damping);
         CHECK(plan.error.period_error == expected.period_error);
@@ -97,7 +97,7 @@ TEST_CASE("feasible_plans: the explicit plan keeps the energy of a net that only
     const auto plans = taut::feasible_plans(net, {}, taut::recommended_candidates({}));
     const taut::Plan& plan = plans.front();
     const Candidate& candidate = plan.candidate;
-    REQUIRE(candidate.scheme == Scheme::symplectic_euler);
+    REQUIRE(candidate.method == Method::symplectic_euler);
     CHECK(plan.bound == taut::StepBound::stability);
     auto state = net.initial_state();
     const double energy = net.energy(state);
@@ -169,8 +169,8 @@ TEST_CASE("recommend: scenes at the edge", "[tradeoff]") {
 TEST_CASE("step_cost: a step that fails costs infinity", "[tradeoff]") {
     const Cloth scene = cloth(100);
     const auto start = scene.initial_state();
-    CHECK(std::isinf(taut::step_cost(scene, start, Candidate{Scheme::symplectic_euler, -1})));
-    CHECK(taut::step_cost(scene, start, Candidate{Scheme::symplectic_euler, 1e-4}) > 0);
+    CHECK(std::isinf(taut::step_cost(scene, start, Candidate{Method::symplectic_euler, -1})));
+    CHECK(taut::step_cost(scene, start, Candidate{Method::symplectic_euler, 1e-4}) > 0);
 }
 
 TEST_CASE("recommend: wrong input is named", "[tradeoff]") {
@@ -179,40 +179,6 @@ TEST_CASE("recommend: wrong input is named", "[tradeoff]") {
     goal.accuracy = taut::ModeTolerance{};
     CHECK(missing(message_of([&] { (void)taut::recommend(scene, scene.initial_state(), goal); }),
                   {"Goal::up_to_frequency is 0"}) == "");
-}
-
-TEST_CASE("recommend: the number of particles is chosen where the goal leaves it open",
-          "[tradeoff]") {
-    taut::ClothOptions options;
-    options.rows = options.columns = 40;
-    const auto scene = taut::hanging_cloth<double>(options);
-    const auto state = scene.initial_state();
-    taut::Calibration quick;
-    quick.seconds = 1e-3;
-    Goal goal;
-    CHECK(taut::recommend(scene, state, goal, quick).pick.particles == 0);
-    goal.resolution = taut::FreeResolution{0.1, 0.3};
-    const auto advice = taut::recommend(scene, state, goal, quick);
-    INFO(advice.why);
-    const auto found = taut::resolve(scene, state, 0.3, 0.1);
-    REQUIRE(found.coarsening);
-    CHECK(advice.pick.particles == found.coarsening->system.size());
-    const auto words = "on " + std::to_string(advice.pick.particles) + " particles";
-    CHECK(missing(advice.why, {words.c_str(), "next comes", "times cheaper than all 1600"}) == "");
-    // Every plan is safe on the network that it is for.
-    for (const auto& plan : advice.plans) {
-        if (plan.candidate.scheme != Scheme::symplectic_euler) continue;
-        const auto limit = plan.particles > 0 ? taut::any_pose_limit(found.coarsening->system)
-                                              : taut::any_pose_limit(scene);
-        CHECK(plan.candidate.h <= limit.certified);
-    }
-    goal.resolution->error = 1e-6;
-    const auto all = taut::recommend(scene, state, goal, quick);
-    CHECK(all.pick.particles == 0);
-    CHECK(missing(all.why, {"own 1600 particles are needed"}) == "");
-    goal.resolution->error = 0;
-    CHECK(missing(message_of([&] { taut::recommend(scene, state, goal, quick); }),
-                  {"resolve", "goal is 0"}) == "");
 }
 
 }  // namespace taut_test::recommend_test

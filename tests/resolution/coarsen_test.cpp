@@ -7,6 +7,7 @@
 #include <set>
 #include <taut/model/tension_only.hpp>
 #include <taut/resolution/coarsen.hpp>
+#include <taut/wind/wind.hpp>
 #include <utility>
 #include <vector>
 
@@ -341,15 +342,11 @@ TEST_CASE("coarsen: bad input: counts and forces that cannot be carried over",
     system.set_external_force([](const System::State&, System::Force&) {});
     CHECK(refused(10, {"coarsen", "set_external_force"}) == "");
     system.set_external_force({});
-    system.set_particle_force(
-        [](const auto&, const auto&, Index) -> System::Vector { return System::Vector::Zero(); });
-    CHECK(refused(10, {"coarsen", "set_particle_force"}) == "");
-    system.set_particle_force(nullptr);
     taut::Wind<double> wind;
     wind.triangles.push_back({0, 1, 2});
-    system.set_wind(wind);
+    taut::set_wind(system, wind);
     CHECK(refused(10, {"coarsen", "set_wind"}) == "");
-    system.set_wind({});
+    taut::set_wind(system, {});
     CHECK(refused(10, {}) == "");
     const auto coarse = coarsen(system, 10);
     CHECK(missing(message_of([&] { coarse.lifted(System::Force::Zero(3, 9)); }),

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <taut/model/tension_only.hpp>
-#include <taut/lattice/chain.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/scene/with_law.hpp>
 #include <taut/resolution/resolution.hpp>

@@ -15,21 +15,21 @@ execute_process(
     COMMAND ${CMAKE_COMMAND} -E compare_files ${FIRST} ${WORK}/elsewhere/second.hpp
     COMMAND_ERROR_IS_FATAL ANY)
 
-# Opt-in headers come on request, and those that do not exist are named.
+# Modules come on request, and those that do not exist are named.
 execute_process(
-    COMMAND ${CMAKE_COMMAND} -D OUTPUT=more.hpp "-D ALSO=solver/cholmod.hpp;solver/umfpack.hpp"
+    COMMAND ${CMAKE_COMMAND} -D OUTPUT=more.hpp "-D ALSO=suitesparse/suitesparse.hpp;bdf2/bdf2.hpp"
         -P scripts/single_header.cmake
     WORKING_DIRECTORY ${WORK}/elsewhere COMMAND_ERROR_IS_FATAL ANY)
-file(STRINGS ${WORK}/elsewhere/more.hpp classes REGEX "^class (Cholmod|Umfpack|SymplecticEuler) ")
+file(STRINGS ${WORK}/elsewhere/more.hpp classes REGEX "^class (Cholmod|Umfpack|Bdf2|SymplecticEuler) ")
 list(LENGTH classes count)
-if(NOT count EQUAL 3)
+if(NOT count EQUAL 4)
     message(FATAL_ERROR "with ALSO the single header holds: ${classes}")
 endif()
 execute_process(
-    COMMAND ${CMAKE_COMMAND} -D OUTPUT=more.hpp -D ALSO=solver/none.hpp
+    COMMAND ${CMAKE_COMMAND} -D OUTPUT=more.hpp -D ALSO=bdf2/none.hpp
         -P scripts/single_header.cmake
     WORKING_DIRECTORY ${WORK}/elsewhere RESULT_VARIABLE result ERROR_VARIABLE error)
-if(result EQUAL 0 OR NOT error MATCHES "no include/taut/solver/none.hpp")
+if(result EQUAL 0 OR NOT error MATCHES "no include/taut/bdf2/none.hpp")
     message(FATAL_ERROR "a header that does not exist was not refused by name:\n${error}")
 endif()
 

@@ -91,6 +91,28 @@ VectorX<Scalar> solution(const SparseMatrix<Scalar>& A, const VectorX<Scalar>& b
     return x.template cast<Scalar>();
 }
 
+/// What conjugate gradients with the diagonal blocks alone need until ‖b - A x‖ ≤ tolerance·‖b‖.
+template <int Dim>
+Index jacobi_iterations(const SparseMatrix<double>& A, const VectorX<double>& b, double tolerance) {
+    const auto blocks = blocks_of<double, Dim>(A);
+    taut::solver_detail::BlockJacobi<double, Dim> jacobi;
+    jacobi.analyze(blocks);
+    REQUIRE(jacobi.factorize(blocks));
+    VectorX<double> r = b, z = b, p = VectorX<double>::Zero(b.size());
+    double rz = 1;
+    Index iterations = 0;
+    for (; r.norm() > tolerance * b.norm(); ++iterations) {
+        REQUIRE(iterations < 4 * b.size());
+        jacobi.apply(blocks, r, z);
+        const double next = r.dot(z);
+        p = z + next / rz * p;
+        rz = next;
+        const VectorX<double> q = A * p;
+        r -= rz / p.dot(q) * q;
+    }
+    return iterations;
+}
+
 /// M + K of a ring of `count`, every other mass and stiffness drawn over decades.
 SparseMatrix<double> ring(Random& random, Index count, double mass, double stiffness) {
     SparseMatrix<double> A(count, count);
@@ -180,16 +202,14 @@ TEST_CASE("two_level: iterations hardly grow with a stiff cloth, and block Jacob
         const auto A = step_matrix(cloth, cloth.initial_state(), 0.1);
         Random random(1);
         const VectorX<double> b = random.points<double, 1>(A.rows(), -1, 1).transpose();
-        const auto iterations = [&](auto&& solver) {
-            solver.setTolerance(1e-4);
-            solver.analyzePattern(A);
-            solver.factorize(A);
-            solver.solve(b);
-            CHECK(solver.info() == Eigen::Success);
-            return solver.iterations();
-        };
-        const Index two = iterations(ConjugateGradient<double, 3>());
-        const Index one = iterations(ConjugateGradient<double, 3, taut::BlockJacobi<double, 3>>());
+        ConjugateGradient<double, 3> solver;
+        solver.setTolerance(1e-4);
+        solver.analyzePattern(A);
+        solver.factorize(A);
+        solver.solve(b);
+        CHECK(solver.info() == Eigen::Success);
+        const Index two = solver.iterations();
+        const Index one = jacobi_iterations<3>(A, b, 1e-4);
         INFO("n = " << n << ": " << two << " and " << one);
         CHECK(2 * two < one);
         CHECK((last == 0 || 2 * two < 3 * last));
@@ -208,7 +228,7 @@ TEST_CASE("two_level: solutions are a direct solver's down to the tolerance, ove
         const VectorX<double> b = random.points<double, 1>(A.rows(), -1, 1).transpose();
         ConjugateGradient<double, 1> solver;
         solver.setTolerance(1e-12);
-        solver.setMaxIterations(100000);
+
         solver.analyzePattern(A);
         solver.factorize(A);
         REQUIRE(solver.info() == Eigen::Success);

@@ -4,7 +4,9 @@
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/scene/cloth.hpp>
+#include <taut/solver/sparse_cholesky.hpp>
 #include <taut/suitesparse/cholmod.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/random_system.hpp"
@@ -42,7 +44,7 @@ TEST_CASE("cholmod: implicit Euler steps as with Eigen's LLT", "[solver]") {
     auto by_cholmod = cloth.initial_state();
     auto by_eigen = by_cholmod;
     taut::ImplicitEuler<System, taut::Cholmod<>> cholmod(cloth);
-    taut::ImplicitEuler eigen(cloth);
+    taut::ImplicitEuler<System, taut::SparseCholesky<double>> eigen(cloth);
     const taut::Report report = cholmod.step(by_cholmod, 1.0 / 60, 20);
     REQUIRE(report);
     CHECK(report.residual < Tolerance<double>::accumulated);

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <taut/own_matrices/own_matrices.hpp>
 
 // Dense decompositions for the tests, compiled once: each takes seconds to compile.
 

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "referee.hpp"
+#include "zero_rest_length.hpp"
 
 // The scenes that the stability tests judge.
 
@@ -65,14 +66,15 @@ void for_each_scene(Visit&& visit) {
     const auto row = taut::chain<Scalar, 2>(ends(ChainEnds::fixed_fixed));
     visit("chain 2d, stretched", row, deformed(row, 1.5, 0.02, 1));
     visit("chain 2d, compressed", row, deformed(row, 0.8, 0.02, 2));
-    chain.zero_rest_length = true;
-    at_rest("chain 3d, zero rest length", taut::chain<Scalar, 3>(ends(ChainEnds::fixed_fixed)));
+    at_rest("chain 3d, zero rest length",
+            at_zero_rest_length(taut::chain<Scalar, 3>(ends(ChainEnds::fixed_fixed))));
     chain.spacing = 0;
     at_rest("chain 1d, all in one point", taut::chain<Scalar, 1>(ends(ChainEnds::fixed_free)));
     at_rest("chain 2d, all in one point", taut::chain<Scalar, 2>(ends(ChainEnds::free_free)));
     chain.spacing = 1;
     chain.stiffness = 0;
-    at_rest("chain 2d, no stiffness", taut::chain<Scalar, 2>(ends(ChainEnds::fixed_free)));
+    at_rest("chain 2d, no stiffness",
+            at_zero_rest_length(taut::chain<Scalar, 2>(ends(ChainEnds::fixed_free))));
 
     taut::SpringSystem<Scalar, 3> alone;
     alone.add_particle({1, 2, 3}, Scalar(0.5));
@@ -99,10 +101,9 @@ void for_each_scene(Visit&& visit) {
     const auto flying = taut::hanging_cloth<Scalar>(cloth);
     visit("cloth, free-flying", flying, flying.initial_state());
     visit("cloth, free-flying and wrinkled", flying, deformed(flying, 1.02, 0.05, 6));
-    cloth.zero_rest_length = true;
     cloth.diagonals = false;
     cloth.pin_corners = true;
-    const auto linear = taut::hanging_cloth<Scalar>(cloth);
+    const auto linear = at_zero_rest_length(taut::hanging_cloth<Scalar>(cloth));
     visit("grid of zero rest length", linear, linear.initial_state());
 }
 

@@ -7,6 +7,7 @@
 
 #include "../support/catch.hpp"
 #include "../support/tolerance.hpp"
+#include "../support/zero_rest_length.hpp"
 #include "../stability/wild_system.hpp"
 
 // Brackets narrowed by factorisations: as tight as asked for, and the truth inside.
@@ -158,8 +159,7 @@ TEST_CASE("narrow: grids of zero rest length by their closed form", "[stability]
         options.bend = 0;
         options.diagonals = false;
         options.pin_corners = false;
-        options.zero_rest_length = true;
-        const auto grid = taut::hanging_cloth<double>(options);
+        const auto grid = at_zero_rest_length(taut::hanging_cloth<double>(options));
         taut::ChainOptions row;
         row.ends = ChainEnds::free_free;
         row.mass = options.mass / static_cast<double>(rows * columns);

@@ -11,7 +11,7 @@
 namespace taut_test::measure_test {
 
 using taut::Candidate;
-using taut::Scheme;
+using taut::Method;
 
 namespace {
 
@@ -69,10 +69,10 @@ TEST_CASE("extrapolation: order 12 on a damped swing", "[tradeoff]") {
 TEST_CASE("measure_tradeoff: errors are those against the closed form", "[tradeoff]") {
     const Swing swing;
     std::vector<Candidate> candidates;
-    for (const Scheme scheme : {Scheme::symplectic_euler, Scheme::velocity_verlet,
-                                Scheme::implicit_euler, Scheme::bdf2}) {
-        candidates.push_back({scheme, 0.01});
-        candidates.push_back({scheme, 0.005});
+    for (const Method method : {Method::symplectic_euler, Method::velocity_verlet,
+                                Method::implicit_euler, Method::bdf2}) {
+        candidates.push_back({method, 0.01});
+        candidates.push_back({method, 0.005});
     }
     taut::TradeoffOptions options;
     options.samples = 40;
@@ -118,9 +118,9 @@ TEST_CASE("measure_tradeoff: implicit Euler loses energy, symplectic Euler keeps
     const Cloth scene = cloth();
     const double h = 0.25 * taut::any_pose_limit(scene).certified;
     const auto result = taut::measure_tradeoff(scene, scene.initial_state(), 0.3,
-                                               {{Scheme::symplectic_euler, h},
-                                                {Scheme::velocity_verlet, h},
-                                                {Scheme::implicit_euler, 0.01}});
+                                               {{Method::symplectic_euler, h},
+                                                {Method::velocity_verlet, h},
+                                                {Method::implicit_euler, 0.01}});
     CHECK(std::abs(result.points[0].energy_drift) < 0.01);
     CHECK(std::abs(result.points[1].energy_drift) < 0.001);
     CHECK(result.points[2].energy_drift < -0.05);
@@ -137,7 +137,7 @@ TEST_CASE("measure_tradeoff: the modes' errors are those predicted", "[tradeoff]
     taut::TradeoffOptions options;
     options.modes = 2;
     const std::vector<Candidate> candidates = {
-        {Scheme::symplectic_euler, 0.05}, {Scheme::implicit_euler, 0.05}, {Scheme::bdf2, 0.05}};
+        {Method::symplectic_euler, 0.05}, {Method::implicit_euler, 0.05}, {Method::bdf2, 0.05}};
     const auto result = taut::measure_tradeoff(system, start, 1, candidates, options);
     REQUIRE(result.modes.size() == 2);
     for (const auto& point : result.points) {
@@ -145,7 +145,7 @@ TEST_CASE("measure_tradeoff: the modes' errors are those predicted", "[tradeoff]
         for (std::size_t j = 0; j < 2; ++j) {
             REQUIRE(point.modes[j]);
             const auto predicted =
-                taut::mode_error(point.candidate.scheme, point.candidate.h * result.modes[j].omega);
+                taut::mode_error(point.candidate.method, point.candidate.h * result.modes[j].omega);
             CHECK_THAT(
                 point.modes[j]->artificial_damping,
                 WithinAbs(predicted.artificial_damping, 0.1 * predicted.artificial_damping + 1e-9));
@@ -160,11 +160,11 @@ TEST_CASE("measure_tradeoff: a run that breaks off has no error but infinity", "
     meter.add("gives up", 0.01,
               [calls = 0](Cloth::State&, double, Index) mutable { return ++calls < 3; });
     // Above the interval of the samples, 1/600 s: whole intervals a step.
-    meter.add(Candidate{Scheme::implicit_euler, 0.0101});
+    meter.add(Candidate{Method::implicit_euler, 0.0101});
     // One step is all there is time for.
-    meter.add(Candidate{Scheme::implicit_euler, 7});
+    meter.add(Candidate{Method::implicit_euler, 7});
     // Far above its limit.
-    meter.add(Candidate{Scheme::symplectic_euler, 0.01});
+    meter.add(Candidate{Method::symplectic_euler, 0.01});
     const auto result = meter.finish();
     CHECK_FALSE(result.points[0].finished);
     CHECK(std::isinf(result.points[0].position_error));
@@ -219,7 +219,7 @@ TEST_CASE("measure_tradeoff: wrong input is named", "[tradeoff]") {
     CHECK(missing(message_of([&] { (void)taut::measure_tradeoff(scene, start, -1, {}); }),
                   {"duration is -1"}) == "");
     CHECK(missing(message_of([&] {
-                      (void)taut::measure_tradeoff(scene, start, 1, {{Scheme::bdf2, 0}});
+                      (void)taut::measure_tradeoff(scene, start, 1, {{Method::bdf2, 0}});
                   }),
                   {"Candidate::h is 0"}) == "");
     taut::TradeoffOptions options;

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include <taut/model/spring_system.hpp>
+#include <taut/wind/wind.hpp>
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <vector>
 
@@ -40,7 +40,7 @@ struct Plate {
         return p.cross(q) / 2;
     }
     System::Force forces() {
-        system.set_wind(wind);
+        taut::set_wind(system, wind);
         System::Force f;
         system.external_force(state, f);
         return f;
@@ -124,7 +124,8 @@ TEST_CASE("wind: bad values are refused by name", "[model]") {
     const auto refused = [&](const char* name, const auto& spoil) {
         auto wind = plate.wind;
         spoil(wind);
-        CHECK_THROWS_WITH(plate.system.set_wind(wind), Contains("set_wind") && Contains(name));
+        CHECK_THROWS_WITH(taut::set_wind(plate.system, wind),
+                          Contains("set_wind") && Contains(name));
     };
     const double nan = std::numeric_limits<double>::quiet_NaN();
     refused("velocity", [&](auto& w) { w.velocity[1] = nan; });
@@ -134,7 +135,8 @@ TEST_CASE("wind: bad values are refused by name", "[model]") {
     refused("corner", [&](auto& w) { w.triangles.push_back({0, 1, 3}); });
     refused("corner", [&](auto& w) { w.triangles.push_back({-1, 1, 2}); });
     refused("density * drag", [&](auto& w) { w.density = w.drag = 1e200; });
-    CHECK_THROWS_WITH(plate.system.set_wind_velocity({nan, 0, 0}), Contains("set_wind_velocity"));
+    CHECK_THROWS_WITH(taut::set_wind_velocity(plate.system, {nan, 0, 0}),
+                      Contains("set_wind_velocity"));
     CHECK_THROWS_WITH(plate.system.set_constant_force(3, {0, 0, 0}),
                       Contains("set_constant_force"));
     CHECK_THROWS_WITH(plate.system.set_constant_force(1, {0, nan, 0}),
@@ -152,18 +154,9 @@ TEST_CASE("external forces end where there is nothing left of them", "[model]") 
     CHECK(system.has_external_force());
     system.set_constant_force(2, Vector::Zero());
     CHECK_FALSE(system.has_external_force());
-    using Function = std::function<Vector(const Vector&, const Vector&, Index)>;
-    system.set_particle_force(Function([](const Vector& x, const Vector&, Index) { return x; }));
+    taut::set_wind(system, plate.wind);
     CHECK(system.has_external_force());
-    system.set_particle_force(Function());
-    CHECK_FALSE(system.has_external_force());
-    system.set_particle_force([](const Vector& x, const Vector&, Index) { return x; });
-    CHECK(system.has_external_force());
-    system.set_particle_force(nullptr);
-    CHECK_FALSE(system.has_external_force());
-    system.set_wind(plate.wind);
-    CHECK(system.has_external_force());
-    system.set_wind(taut::Wind<double>());
+    taut::set_wind(system, taut::Wind<double>());
     CHECK_FALSE(system.has_external_force());
 }
 
@@ -179,23 +172,26 @@ TEST_CASE("external forces add up, and each change is one of the force alone", "
         CHECK(system.force_revision() != force_revision);
     };
     CHECK_FALSE(system.has_external_force());
-    changes([&] { system.set_wind(plate.wind); });
+    changes([&] { taut::set_wind(system, plate.wind); });
     const Vector by_wind = plate.force();
     changes([&] { system.set_constant_force(1, {1, 2, 3}); });
-    changes([&] {
-        system.set_particle_force(
-            [](const auto& x, const auto& v, Index i) -> Vector { return double(i) * x + v; });
-    });
     changes([&] { system.set_external_force([](const auto& s, auto& f) { f -= 3 * s.x; }); });
     Vector expected = by_wind + Vector(1, 2, 3);
     for (int i = 0; i < 3; ++i) {
-        expected += (i - 3.0) * plate.state.x.col(i) + plate.state.v.col(i);
+        expected -= 3 * plate.state.x.col(i);
     }
     CHECK((plate.force() - expected).norm() <= 1e-12 * (1 + expected.norm()));
     System::Force all, without;
     system.force(plate.state, all);
     System(plate.system).force(plate.state, without);
     CHECK(all == without);  // a copy has them too
+    const System copy = system;
+    taut::set_wind_velocity(system, {7, 8, 9});
+    copy.force(plate.state, without);
+    CHECK(all == without);  // and keeps its own
+    System::Force turned;
+    system.force(plate.state, turned);
+    CHECK(turned != all);
 }
 
 }  // namespace taut_test::wind_test

@@ -31,10 +31,10 @@ inline void require_mode(const char* function, double z, double zeta) {
     }
 }
 
-inline void require_added(Scheme scheme, double added) {
+inline void require_added(Method method, double added) {
     require_non_negative("mode_error", "added", added);
-    if (added > 0 && !method::is_limited_by<method::LimitedByStiffness>(scheme))
-        fail("mode_error: added is ", added, "; it must be 0 for ", name(scheme));
+    if (added > 0 && !method::is_limited_by<method::LimitedByStiffness>(method))
+        fail("mode_error: added is ", added, "; it must be 0 for ", name(method));
 }
 
 }  // namespace tradeoff_detail
@@ -46,10 +46,10 @@ inline void require_added(Scheme scheme, double added) {
 /// @param z  hω, rad, > 0   @param zeta  the mode's own damping ratio, in [0, 1)
 /// @param added  α/h of ExplicitOptions::damping.look_ahead, ≥ 0, which damps by added·z/2 more: an
 ///               error. Of symplectic Euler and velocity Verlet; others have none
-inline ModeError mode_error(Scheme scheme, double z, double zeta = 0, double added = 0) {
+inline ModeError mode_error(Method method, double z, double zeta = 0, double added = 0) {
     tradeoff_detail::require_mode("mode_error", z, zeta);
-    tradeoff_detail::require_added(scheme, added);
-    const auto e = method::visit(scheme, [&](auto descriptor) {
+    tradeoff_detail::require_added(method, added);
+    const auto e = method::visit(method, [&](auto descriptor) {
         return decltype(descriptor)::multiplier_less_one(z, zeta + added * z / 2);
     });
     const double decay = -std::log1p(2 * e.real() + std::norm(e)) / 2;
@@ -59,12 +59,12 @@ inline ModeError mode_error(Scheme scheme, double z, double zeta = 0, double add
 }
 
 /// The first of mode_error's two errors.
-inline double artificial_damping(Scheme scheme, double z, double zeta = 0) {
-    return mode_error(scheme, z, zeta).artificial_damping;
+inline double artificial_damping(Method method, double z, double zeta = 0) {
+    return mode_error(method, z, zeta).artificial_damping;
 }
 /// The second.
-inline double period_error(Scheme scheme, double z, double zeta = 0) {
-    return mode_error(scheme, z, zeta).period_error;
+inline double period_error(Method method, double z, double zeta = 0) {
+    return mode_error(method, z, zeta).period_error;
 }
 
 /// How much error is tolerable; infinity where one of the two does not matter.
@@ -84,7 +84,7 @@ struct ModeTolerance {
 /// every step does. Safe is another question: usable h = min(safe h, accurate h) [T25].
 /// @param up_to_frequency  ω, rad/s, > 0   @param zeta  the mode's own damping ratio, in [0, 1)
 /// @param added  as for mode_error
-inline double accurate_step(Scheme scheme, const ModeTolerance& tolerance, double up_to_frequency,
+inline double accurate_step(Method method, const ModeTolerance& tolerance, double up_to_frequency,
                             double zeta = 0, double added = 0) {
     require_positive("accurate_step", "up_to_frequency", up_to_frequency);
     for (const double bound : {tolerance.damping_ratio, tolerance.period}) {
@@ -96,13 +96,13 @@ inline double accurate_step(Scheme scheme, const ModeTolerance& tolerance, doubl
     constexpr double everything = 1e6;  // radians a step
     double low = 1e-2 * std::min({0.1, tolerance.damping_ratio, tolerance.period});
     low /= std::max(1.0, added);
-    while (tolerance.admits(mode_error(scheme, low * stride, zeta, added))) {
+    while (tolerance.admits(mode_error(method, low * stride, zeta, added))) {
         low *= stride;
         if (low > everything) return std::numeric_limits<double>::infinity();
     }
     detail::Bisection<double> search(low, low * stride, 0);
     while (search.open())
-        search.narrow(tolerance.admits(mode_error(scheme, search.middle(), zeta, added)));
+        search.narrow(tolerance.admits(mode_error(method, search.middle(), zeta, added)));
     return search.passes() / up_to_frequency;
 }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <array>
 
 namespace taut {
 
@@ -17,6 +18,9 @@ template <class Scalar>
 using VectorX = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 template <class Scalar>
 using MatrixX = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+
+/// Corners of a triangle, particle indices.
+using Triangle = std::array<Index, 3>;
 
 /// Compressed columns with 32-bit indices: what Eigen's and SuiteSparse's factorisations read.
 template <class Scalar>

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// Needs the modules contact, mass_scaling, tight.
+
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -155,8 +157,7 @@ Report GraphInertia<System, Solver>::prepare(Scalar h) {
     ++renewals_;
     if (shares_.status != Status::ok) return fail_to_prepare({shares_.status});
     if (options_.dissipation == 1) shares_.make_all_implicit();
-    const Report built =
-        matrix_.build(*system_, shares_, options_.dissipation, options_.most_factor_entries);
+    const Report built = matrix_.build(*system_, shares_, options_.dissipation);
     if (!built) return fail_to_prepare(built);
     rows_.resize(matrix_.size(), System::Dim);
     if (matrix_.size() > 0) {

@@ -21,8 +21,6 @@ struct GraphInertiaOptions {
     /// the energy of nearly all moving scenes tried at little error (docs/graph_inertia.md):
     /// measured, not proved.
     double dissipation = method::GraphInertia::dissipation;
-    /// The most nonzeros that the factor may have; else a step ends with Status::too_large.
-    Index most_factor_entries = 100'000'000;
 
     /// Fails for what is out of range.
     void require_valid() const {

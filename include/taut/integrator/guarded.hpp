@@ -15,8 +15,8 @@
 #include "detail/guarded_traits.hpp"
 #include "detail/last_state.hpp"
 #include "detail/refinement.hpp"
+#include "detail/step_loop.hpp"
 #include "detail/work_meter.hpp"
-#include "detail/wrapper.hpp"
 #include "guarded_options.hpp"
 #include "guarded_report.hpp"
 
@@ -87,7 +87,7 @@ public:
         return viewed_.advance(view, [&](State& state) { return advance(state, frame, respond); });
     }
 
-    /// The guarded stepper, to set its constraints or its solver.
+    /// The guarded stepper, to set its solver.
     Stepper& stepper() { return stepper_.get(); }
     /// The guarded stepper, to ask it.
     const Stepper& stepper() const { return stepper_.get(); }
@@ -308,7 +308,6 @@ void Guarded<Stepper, System>::name_culprits(GuardedReport<Scalar>& report, cons
         }
     }
     if (report.where < 0) report.where = integrator_detail::fastest_particle(*system_, last);
-    report.particle = report.where;
     report.spring = integrator_detail::most_loaded_spring(*system_, last);
 }
 
@@ -350,7 +349,6 @@ auto Guarded<Stepper, System>::advance(State& state, Scalar frame, Respond&& res
     GuardedReport<Scalar> report;
     const Scalar largest = largest_step();
     report.status = refuse(state, frame, largest, report);
-    report.particle = report.where;
     if (!report) return report;
     const double needed = std::ceil(static_cast<double>(frame) / static_cast<double>(largest));
     const bool late = needed > static_cast<double>(options_.max_substeps);

@@ -30,7 +30,6 @@ struct [[nodiscard]] GuardedReport {
     double work = 0;         ///< J, by external forces, moving pins, constraints and claims in it
     double response = 0;     ///< J, unclaimed, by `respond`; counted once a frame was taken back
     Index where = -1;        ///< on failure: the first particle not finite, or the fastest
-    Index particle = -1;     ///< the same as `where`: its older name
     Index spring = -1;       ///< on failure: the one with the most energy
 
     /// Whether status is ok.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// Needs the module mesh_files.
+
 #include <cmath>
 #include <string>
 #include <utility>
@@ -28,12 +30,13 @@ namespace taut {
 ///     pins      fix setforce 0: they move with the velocities that the state gives them
 ///     gravity   fix gravity; drag d0: fix viscous, γ = d0·m
 ///
-/// The box is open and follows the particles, so no bond is too long for it; but a bond must not
-/// become longer than LammpsReport::cutoff, or LAMMPS may stop. In one or two dimensions the
-/// missing coordinates are and stay 0. Particle i has the id i + 1. What LAMMPS lacks is refused by
-/// name or, with LammpsOptions::nearest, left out with a warning: dampers, damping in proportion to
-/// stiffness, forces from outside, slack of TensionOnly. The scene as written then has a limit
-/// at least as large. Other laws are refused.
+/// The box is open and follows the particles, so no bond is too long for it. But LAMMPS tells a
+/// rank only of the particles within LammpsReport::cutoff, twice the longest bond now or at rest: a
+/// bond must not become longer, or LAMMPS may stop ("Bond atoms missing"). In one or two dimensions
+/// the missing coordinates are and stay 0. Particle i has the id i + 1. What LAMMPS lacks is
+/// refused by name or, with LammpsOptions::nearest, left out with a warning: dampers, damping in
+/// proportion to stiffness, forces from outside, slack of TensionOnly. The scene as written then
+/// has a limit at least as large. Other laws are refused.
 ///
 /// Cost: O(springs); beside the scene it takes the memory of the types and of any_pose_limit.
 /// LAMMPS of 2022-01 and later reads it (packages MOLECULE, and for many masses none more).
@@ -63,16 +66,15 @@ LammpsReport write_lammps(const std::string& folder,
         first += set.size();
     });
     report.warnings = std::move(equals.warnings);
-    io_detail::LammpsBonds bonds(options.most_bond_types);
+    io_detail::LammpsBonds bonds;
     bonds.count(system, state);
-    io_detail::LammpsAtoms atoms(system, options.most_atom_types);
+    io_detail::LammpsAtoms atoms(system);
     report.bond_types = bonds.types().size();
     report.atom_types = atoms.types();
     report.mass_per_atom = atoms.per_atom();
-    report.cutoff = options.longest_stretch * bonds.longest();
+    report.cutoff = 2 * bonds.longest();
     if (!std::isfinite(2 * report.cutoff)) {
-        fail("write_lammps: longest_stretch times the longest spring is ", report.cutoff,
-             " m; it must be finite");
+        fail("write_lammps: twice the longest spring is ", report.cutoff, " m; it must be finite");
     }
 
     report.certified = static_cast<double>(any_pose_limit(system).certified);

@@ -17,13 +17,6 @@ struct LammpsOptions {
     double step = 0;               ///< s, in place of that share; 0: by the share
     Index steps = 1000;            ///< of a run, ≥ 1; `lmp -var steps N` changes them
     Index every = 100;             ///< steps from one frame to the next, ≥ 1
-    /// How long a bond may become, ≥ 1, in lengths of the longest now or at rest. LAMMPS tells a
-    /// rank of the particles so near to it, and stops ("Bond atoms missing") where that is too few.
-    double longest_stretch = 2;
-    Index most_bond_types = 1 << 20;  ///< pairs of stiffness and rest length; 24 bytes a rank each
-    /// Masses, of free and of pinned particles: LAMMPS keeps two tables of most_atom_types²
-    /// numbers. Where there are more, each particle brings its mass.
-    Index most_atom_types = 256;
     bool nearest = false;    ///< whether what LAMMPS lacks is replaced or left out, with a warning
     bool sorted = true;      ///< whether frames are sorted by particle; one rank then holds them
     bool velocities = true;  ///< whether frames have them
@@ -48,9 +41,8 @@ struct [[nodiscard]] LammpsReport {
 namespace io_detail {
 
 inline void require_options(const LammpsOptions& options) {
-    const auto require_count = [](const char* argument, Index value, Index least) {
-        if (value < least)
-            fail("write_lammps: ", argument, " is ", value, "; it must be >= ", least);
+    const auto require_count = [](const char* argument, Index value) {
+        if (value < 1) fail("write_lammps: ", argument, " is ", value, "; it must be >= 1");
     };
     require_positive("write_lammps", "share", options.share);
     if (options.share > 1) {
@@ -58,15 +50,8 @@ inline void require_options(const LammpsOptions& options) {
              "; it must be <= 1, which is all of the certified limit");
     }
     require_non_negative("write_lammps", "step", options.step);
-    require_positive("write_lammps", "longest_stretch", options.longest_stretch);
-    if (options.longest_stretch < 1) {
-        fail("write_lammps: longest_stretch is ", options.longest_stretch,
-             "; it must be >= 1, or bonds are too long from the start");
-    }
-    require_count("steps", options.steps, 1);
-    require_count("every", options.every, 1);
-    require_count("most_bond_types", options.most_bond_types, 1);
-    require_count("most_atom_types", options.most_atom_types, 2);
+    require_count("steps", options.steps);
+    require_count("every", options.every);
     // The script names them without quotes, beside its own words.
     const char* const plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";
     if (options.name.empty() || options.name.find_first_not_of(plain) != std::string::npos) {

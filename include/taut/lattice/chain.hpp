@@ -15,10 +15,9 @@ enum class ChainEnds { fixed_fixed, fixed_free, free_free, ring };
 struct ChainOptions {
     Index masses = 8;  ///< free particles, ≥ 1 (≥ 2 in free_free, ≥ 3 in a ring)
     ChainEnds ends = ChainEnds::fixed_fixed;
-    double mass = 1;                ///< of each particle, kg
-    double stiffness = 1;           ///< of each spring, N/m
-    double spacing = 1;             ///< distance of neighbours, m
-    bool zero_rest_length = false;  ///< else springs are at rest as laid out
+    double mass = 1;       ///< of each particle, kg
+    double stiffness = 1;  ///< of each spring, N/m
+    double spacing = 1;    ///< distance of neighbours, m
 };
 
 /// Equal masses and springs in a row along the first axis, or in a circle (for Dim = 1 too a ring
@@ -55,12 +54,7 @@ SpringSystem<Scalar, Dim> chain(const ChainOptions& options = {}) {
         return system.add_particle(place(i), static_cast<Scalar>(options.mass));
     };
     const auto join = [&](Index a, Index b) {
-        const auto k = static_cast<Scalar>(options.stiffness);
-        if (options.zero_rest_length) {
-            system.add_spring(Spring<Scalar, Hookean>{a, b, {k}, Scalar(0)});
-        } else {
-            system.add_spring(a, b, k);
-        }
+        system.add_spring(a, b, static_cast<Scalar>(options.stiffness));
     };
     for (Index i = 0; i < n; ++i) add_particle(i);
     for (Index i = 0; i + 1 < n; ++i) join(i, i + 1);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// Needs the module tight.
+
 #include <algorithm>
 #include <cmath>
 #include <vector>

@@ -17,9 +17,6 @@ enum class Method {
     last = graph_inertia  ///< the last method above; move it when you add one, at the end
 };
 
-/// The older name of Method.
-using Scheme = Method;
-
 /// The characteristic polynomial μ² + b μ + c of one step on one mode.
 struct StepQuadratic {
     double b;

@@ -3,12 +3,10 @@
 #pragma once
 
 #include <functional>
-#include <utility>
+#include <memory>
 
-#include "../core/revision.hpp"
-#include "particle_force.hpp"
+#include "outside_force.hpp"
 #include "state.hpp"
-#include "../wind/wind.hpp"
 
 namespace taut {
 
@@ -17,24 +15,17 @@ template <class Scalar, int Dim>
 struct ExternalForces {
     /// See SpringSystem::ExternalForce.
     std::function<void(const State<Scalar, Dim>&, Points<Scalar, Dim>&)> whole;
-    model_detail::ParticleForce<Scalar, Dim> by_particle;
     Points<Scalar, Dim> constant;  ///< N, Dim × n, or 0 columns for none
     Index constants = 0;           ///< those that are not 0
-    Wind<Scalar> wind;
-    Revision triangles;  ///< of the wind
+    /// A module's; null for none.
+    std::shared_ptr<const model_detail::OutsideForce<Scalar, Dim>> outside;
 
     /// Whether there is any.
-    bool any() const { return whole || by_particle || constant.cols() > 0 || wind.blows(); }
+    bool any() const { return whole || constant.cols() > 0 || outside; }
     /// f ← f + all of them at a state, N, Dim × n.
     void add(const State<Scalar, Dim>& state, Points<Scalar, Dim>& f) const {
         if (constant.cols() > 0) f.leftCols(constant.cols()) += constant;
-        if constexpr (Dim == 3) {
-            if (wind.blows()) model_detail::add_wind(wind, state.x, state.v, f);
-        }
-        if (by_particle) {
-            by_particle(
-                {state.x.data(), state.v.data(), f.data(), 1, 1, Dim, state.x.cols(), 0, nullptr});
-        }
+        if (outside) outside->add(state, f);
         if (whole) whole(state, f);
     }
 };

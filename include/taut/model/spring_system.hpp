@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -117,27 +118,13 @@ public:
         external_.whole = std::move(force);
         ++force_revision_;
     }
-    /// A force on each particle alone, which costs explicit steps less. An empty function, or
-    /// nullptr, ends it.
-    ///
-    /// Threads of a step call it at the same time, and not in the order of steps: it must depend on
-    /// its arguments alone, and must not throw there. Set it again when what it captures changes.
-    /// In a call that diverges it may see numbers that are not finite.
-    /// @param force  Vector force(x, v, i), N, of position, m, velocity, m/s, and index
-    template <class Function>
-    void set_particle_force(Function force) {
-        external_.by_particle = model_detail::make_particle_force<Scalar, Dim>(std::move(force));
-        ++force_revision_;
-    }
     /// A constant force on particle i in place of the last one. @param force  N, finite; 0 ends it
     void set_constant_force(Index i, const Vector& force);
-    /// Wind in place of the last one, in three dimensions. One that has no triangles, density or
-    /// coefficient ends it.
-    template <class Air = Wind<Scalar>>
-    void set_wind(Air wind);
-    /// Of the wind that there is, as in a gust; no plan is made anew. @param velocity  m/s, finite
-    template <class Velocity = Eigen::Matrix<Scalar, 3, 1>>
-    void set_wind_velocity(const Velocity& velocity);
+    /// For modules: the force of one, in place of the last one; null ends it.
+    void set_outside_force(std::shared_ptr<const model_detail::OutsideForce<Scalar, Dim>> force) {
+        external_.outside = std::move(force);
+        ++force_revision_;
+    }
 
     // ---- queries ----
 

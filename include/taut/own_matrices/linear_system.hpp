@@ -5,14 +5,17 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "../core/detail/fits.hpp"
 #include "../core/error.hpp"
 #include "../core/revision.hpp"
+#include "../integrator/detail/step_equation.hpp"
 #include "../model/free_particles.hpp"
 #include "../model/state.hpp"
+#include "../solver/sparse_cholesky.hpp"
 
 namespace taut {
 
@@ -271,3 +274,5 @@ auto LinearSystem<Scalar>::symmetric(const char* argument, Matrix matrix) -> Mat
 }
 
 }  // namespace taut
+
+#include "detail/matrix_equation.ipp"

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// Needs the module tight.
+
 // Systems that are given as matrices M, D, K, and springs as such matrices.
 
 #include "linear_system.hpp"

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// Needs the module newton.
+
 #include <type_traits>
 
 #include "../method/implicit_euler.hpp"

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/SparseCholesky>
 #include <string>
 
 #include "../bdf2/bdf2.hpp"
@@ -13,29 +12,29 @@
 #include "../integrator/velocity_verlet.hpp"
 #include "../method/visit.hpp"
 #include "../solver/conjugate_gradient.hpp"
+#include "../solver/sparse_cholesky.hpp"
 
 namespace taut {
 
 /// How an implicit step solves its linear system.
 enum class LinearSolver {
     direct,             ///< sparse Cholesky (Eigen::SimplicialLLT, particles ordered)
-    conjugate_gradient  ///< ConjugateGradient with its default, TwoLevel
+    conjugate_gradient  ///< ConjugateGradient
 };
 
 /// One way to advance a scene.
 struct Candidate {
-    Scheme scheme = Scheme::symplectic_euler;
+    Method method = Method::symplectic_euler;
     double h = 0;                                ///< s
-    LinearSolver solver = LinearSolver::direct;  ///< of an implicit scheme
+    LinearSolver solver = LinearSolver::direct;  ///< of an implicit method
     double solver_tolerance = 1e-3;              ///< of conjugate gradients
-    int newton_iterations = 1;                   ///< of implicit Euler
-    StepDamping damping{};                       ///< ExplicitOptions::damping of an explicit scheme
+    StepDamping damping{};                       ///< ExplicitOptions::damping of an explicit method
 };
 
-/// The scheme, and the solver where there is one; without the step.
+/// The method, and the solver where there is one; without the step.
 inline std::string name(const Candidate& candidate) {
-    std::string text = name(candidate.scheme);
-    if (!is_implicit(candidate.scheme)) return text;
+    std::string text = name(candidate.method);
+    if (!is_implicit(candidate.method)) return text;
     if (candidate.solver == LinearSolver::conjugate_gradient)
         return text + " by conjugate gradients";
     return text + " by sparse Cholesky";
@@ -79,10 +78,6 @@ auto make_stepper(const System& system, const Candidate& candidate) {
         return Stepper(system);
     } else if constexpr (!Descriptor::is_implicit) {
         return Stepper(system, ExplicitOptions{1, candidate.damping});
-    } else if constexpr (Descriptor::method == Method::implicit_euler) {
-        typename Stepper::Options options;
-        options.newton_iterations = candidate.newton_iterations;
-        return Stepper(system, options);
     } else {
         return Stepper(system);
     }
@@ -94,9 +89,9 @@ auto make_stepper(const System& system, const Candidate& candidate) {
 template <class System, class Action>
 void with_stepper(const System& system, const Candidate& candidate, Action&& action) {
     using Scalar = typename System::Scalar;
-    using Direct = Eigen::SimplicialLLT<SparseMatrix<Scalar>, Eigen::Lower, BlockOrdering<>>;
+    using Direct = SparseCholesky<Scalar>;
     using Gradients = ConjugateGradient<Scalar, System::Dim>;
-    method::visit(candidate.scheme, [&](auto descriptor) {
+    method::visit(candidate.method, [&](auto descriptor) {
         using Descriptor = decltype(descriptor);
         if constexpr (Descriptor::method == Method::graph_inertia &&
                       !model_detail::is_spring_system_v<System>) {

@@ -17,19 +17,12 @@
 
 namespace taut {
 
-/// How far positions may be from the scene's own, where recommend() may choose fewer particles.
-struct FreeResolution {
-    double error = 0.03;  ///< of the scene's size, as of resolve()
-    double duration = 1;  ///< s, for which it holds
-};
-
 /// What a scene is simulated for.
 struct Goal {
     double frame = 1.0 / 60;                ///< s; steps divide it evenly
     std::optional<ModeTolerance> accuracy;  ///< none: stable is enough
     double up_to_frequency = 0;             ///< rad/s: the modes that `accuracy` is about
     double budget = std::numeric_limits<double>::infinity();  ///< CPU s a frame
-    std::optional<FreeResolution> resolution;  ///< none: the particles that there are
 };
 
 /// What keeps a step from being larger.
@@ -48,8 +41,7 @@ struct Plan {
     Candidate candidate;
     Index substeps = 1;  ///< a frame; candidate.h is frame/substeps
     StepBound bound = StepBound::frame;
-    ModeError error;      ///< predicted at Goal::up_to_frequency; 0 without a goal of accuracy
-    Index particles = 0;  ///< of a coarser network, coarsen(system, particles); 0: the scene itself
+    ModeError error;       ///< predicted at Goal::up_to_frequency; 0 without a goal of accuracy
     AddedInertia inertia;  ///< of graph inertia, whose error is the worst up to that frequency
     double cost = std::numeric_limits<double>::infinity();  ///< CPU s a frame; infinity: it fails
 };
@@ -63,8 +55,8 @@ inline Plan plan_for(Candidate candidate, double safe, const Goal& goal, double 
     require_positive("plan_for", "Goal::frame", goal.frame);
     if (!(safe > 0)) fail("plan_for: safe is ", safe, "; it must be > 0");
     const double infinity = std::numeric_limits<double>::infinity();
-    const double added = is_implicit(candidate.scheme) ? 0 : candidate.damping.look_ahead;
-    const double accurate = goal.accuracy ? accurate_step(candidate.scheme, *goal.accuracy,
+    const double added = is_implicit(candidate.method) ? 0 : candidate.damping.look_ahead;
+    const double accurate = goal.accuracy ? accurate_step(candidate.method, *goal.accuracy,
                                                           goal.up_to_frequency, zeta, added)
                                           : infinity;
     Plan plan;
@@ -78,7 +70,7 @@ inline Plan plan_for(Candidate candidate, double safe, const Goal& goal, double 
     candidate.h = goal.frame / count;
     plan.candidate = candidate;
     if (goal.accuracy) {
-        plan.error = mode_error(candidate.scheme, candidate.h * goal.up_to_frequency, zeta, added);
+        plan.error = mode_error(candidate.method, candidate.h * goal.up_to_frequency, zeta, added);
     }
     return plan;
 }
@@ -103,11 +95,9 @@ inline std::string describe(const Plan& plan) {
     char buffer[64];
     std::snprintf(buffer, sizeof buffer, " (%lld x %.3g s, ", static_cast<long long>(plan.substeps),
                   plan.candidate.h);
-    const bool inertia = plan.candidate.scheme == Method::graph_inertia;
-    const auto on =
-        plan.particles > 0 ? "on " + std::to_string(plan.particles) + " particles, " : "";
-    return (inertia ? "graph inertia" : name(plan.candidate)) + buffer + on +
-           milliseconds(plan.cost) + " a frame)";
+    const bool inertia = plan.candidate.method == Method::graph_inertia;
+    return (inertia ? "graph inertia" : name(plan.candidate)) + buffer + milliseconds(plan.cost) +
+           " a frame)";
 }
 constexpr const char* reason(StepBound bound) {
     switch (bound) {

@@ -3,17 +3,12 @@
 #pragma once
 
 #include <algorithm>
-#include <ctime>
 #include <limits>
 
+#include "../core/clock.hpp"
 #include "candidate.hpp"
 
 namespace taut {
-
-/// Processor time of this process, s.
-inline double cpu_seconds() {
-    return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
-}
 
 /// How costs are measured.
 struct Calibration {
@@ -49,7 +44,7 @@ double step_cost(const System& system, const typename System::State& state,
             taken += batch;
             before = last;
             last = elapsed / static_cast<double>(batch);
-            if (batch == 1 && last > hopeless && is_implicit(candidate.scheme)) break;
+            if (batch == 1 && last > hopeless && is_implicit(candidate.method)) break;
         }
         if (!alive) before = last = std::numeric_limits<double>::infinity();
     });

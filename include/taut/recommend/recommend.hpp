@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// Needs the modules accuracy, bdf2, graph_inertia.
+
 #include <algorithm>
 #include <limits>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -13,7 +14,6 @@
 #include "choose.hpp"
 #include "cost.hpp"
 #include "graph_inertia_plans.hpp"
-#include "../resolution/resolution.hpp"
 
 namespace taut {
 
@@ -27,11 +27,11 @@ inline std::vector<Candidate> recommended_candidates(const Goal& goal) {
     Candidate symplectic;
     symplectic.damping = recipe.damping;
     candidates.push_back(symplectic);
-    candidates.push_back({Scheme::graph_inertia});
-    for (const Scheme scheme : {Scheme::implicit_euler, Scheme::bdf2}) {
-        if (scheme == Scheme::bdf2 && !goal.accuracy) continue;
+    candidates.push_back({Method::graph_inertia});
+    for (const Method method : {Method::implicit_euler, Method::bdf2}) {
+        if (method == Method::bdf2 && !goal.accuracy) continue;
         for (const auto solver : {LinearSolver::conjugate_gradient, LinearSolver::direct}) {
-            candidates.push_back({scheme, 0, solver, tolerance});
+            candidates.push_back({method, 0, solver, tolerance});
         }
     }
     return candidates;
@@ -64,8 +64,8 @@ std::vector<Plan> feasible_plans(const SpringSystem<Scalar, Dim, Laws...>& syste
     std::vector<Plan> plans;
     for (const Candidate& candidate : candidates) {
         const method::AnyPose safe = method::visit(
-            candidate.scheme, [](auto descriptor) { return decltype(descriptor)::any_pose; });
-        if (candidate.scheme == Scheme::graph_inertia) {
+            candidate.method, [](auto descriptor) { return decltype(descriptor)::any_pose; });
+        if (candidate.method == Method::graph_inertia) {
             if (!(limit > 0)) continue;
             const auto most =
                 static_cast<Index>(std::min(1e15, std::ceil(goal.frame / (recipe.safety * limit))));
@@ -106,42 +106,6 @@ void measure_costs(const System& system, const typename System::State& state,
     }
 }
 
-/// CPU s of lifting positions once.
-template <class System>
-double lift_cost(const Coarsening<System>& coarsening, const Calibration& calibration) {
-    const auto moved = coarsening.system.initial_state().v;
-    double least = std::numeric_limits<double>::infinity();
-    for (int repeat = 0; repeat < 3; ++repeat) {
-        const double start = calibration.clock();
-        const auto lifted = coarsening.lifted(moved);
-        // What depends on the result cannot be left out.
-        const double nothing = static_cast<double>(lifted(0, 0)) * 0;
-        least = std::min(least, calibration.clock() - start + nothing);
-    }
-    return least;
-}
-
-/// Appends the plans of a coarser network that meets the goal's resolution, if there is one.
-/// @returns what resolve() says
-template <class System>
-std::string add_coarser_plans(const System& system, const typename System::State& state,
-                              const Goal& goal, const std::vector<Candidate>& candidates,
-                              const Calibration& calibration, std::vector<Plan>& plans) {
-    const auto found = resolve(system, state, goal.resolution->duration, goal.resolution->error);
-    if (!found.coarsening) return found.why;
-    const auto& coarse = found.coarsening->system;
-    const auto start = found.coarsening->restricted(state);
-    std::vector<Plan> coarser = feasible_plans(coarse, start, goal, candidates);
-    measure_costs(coarse, start, calibration, coarser);
-    const double lift = lift_cost(*found.coarsening, calibration);
-    for (Plan& plan : coarser) {
-        plan.particles = coarse.size();
-        plan.cost += lift;
-        plans.push_back(plan);
-    }
-    return found.why;
-}
-
 }  // namespace tradeoff_detail
 
 /// The integrator, solver, step and substeps that reach a goal at the least cost on this machine:
@@ -151,13 +115,9 @@ std::string add_coarser_plans(const System& system, const typename System::State
 ///     auto advice = taut::recommend(cloth, state, goal);
 ///     advice.pick.candidate.h, advice.why
 ///
-/// With Goal::resolution it chooses the number of particles, too: where resolve() finds a coarser
-/// network that meets that goal, plans of it, with the cost of lifting once a frame, are compared
-/// with those of the scene. Plan::particles then says how many, for coarsen().
-///
 /// Costs are those of the code as compiled and of the machine as busy as it is; everything else is
 /// deterministic.
-/// @throws (fail) what feasible_plans(), choose() and resolve() refuse
+/// @throws (fail) what feasible_plans() and choose() refuse
 template <class Scalar, int Dim, class... Laws>
 Recommendation recommend(const SpringSystem<Scalar, Dim, Laws...>& system,
                          const State<Scalar, Dim>& state, const Goal& goal,
@@ -165,18 +125,7 @@ Recommendation recommend(const SpringSystem<Scalar, Dim, Laws...>& system,
                          const Calibration& calibration = {}) {
     std::vector<Plan> plans = feasible_plans(system, state, goal, candidates);
     tradeoff_detail::measure_costs(system, state, calibration, plans);
-    std::string resolution;
-    if (goal.resolution) {
-        if constexpr ((CoarseLaw<Laws>::known && ...)) {
-            resolution = " " + tradeoff_detail::add_coarser_plans(system, state, goal, candidates,
-                                                                  calibration, plans);
-        } else {
-            fail("recommend: Goal::resolution needs taut::CoarseLaw for every law of the system");
-        }
-    }
-    Recommendation answer = choose(std::move(plans), goal);
-    answer.why += resolution;
-    return answer;
+    return choose(std::move(plans), goal);
 }
 
 /// The same among recommended_candidates(goal).

@@ -92,8 +92,7 @@ void require_coarsenable(const System& system, Index count) {
     const auto& external = system.external_forces();
     const char* cannot = ": what a coarse particle would feel of it is not known; end it first";
     if (external.whole) fail("coarsen: set_external_force", cannot);
-    if (external.by_particle) fail("coarsen: set_particle_force", cannot);
-    if (external.wind.blows()) fail("coarsen: set_wind", cannot);
+    if (external.outside) fail("coarsen: ", external.outside->name(), cannot);
 }
 
 template <class System>
@@ -137,7 +136,7 @@ Index least_count(const System& system) {
 /// @param count  at least least_count(system), at most system.size()
 /// @throws (fail) where the count is not in that range; where a spring with a rest length has no
 ///         length in initial_state(); and by name for forces that cannot be carried over:
-///         set_external_force, set_particle_force, set_wind
+///         set_external_force, set_wind
 template <class Scalar, int Dim, class... Laws>
 Coarsening<SpringSystem<Scalar, Dim, Laws...>> coarsen(
     const SpringSystem<Scalar, Dim, Laws...>& system, Index count) {

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "../core/clock.hpp"
 #include "../integrator/symplectic_euler.hpp"
 #include "../stability/any_pose.hpp"
-#include "../recommend/cost.hpp"
 #include "levels.hpp"
 
 namespace taut {

@@ -21,7 +21,6 @@ struct ClothOptions {
     double gravity = 9.81;    ///< along −z, m/s²
     bool pin_corners = true;  ///< particles 0 and columns − 1, the corners of one edge
     bool diagonals = true;
-    bool zero_rest_length = false;  ///< else springs are at rest as laid out
 };
 
 /// The cloth of `options`, undamped; particle row·columns + column.
@@ -55,12 +54,7 @@ SpringSystem<Scalar, 3> hanging_cloth(const ClothOptions& options = {}) {
             for (Index c = run < 0 ? -run : 0; c + run < columns && c < columns; ++c) {
                 const Index a = r * columns + c;
                 const Index b = a + rise * columns + run;
-                const auto k = static_cast<Scalar>(stiffness);
-                if (options.zero_rest_length) {
-                    system.add_spring(Spring<Scalar, Hookean>{a, b, {k}, Scalar(0)});
-                } else {
-                    system.add_spring(a, b, k);
-                }
+                system.add_spring(a, b, static_cast<Scalar>(stiffness));
             }
         }
     };
@@ -82,7 +76,7 @@ SpringSystem<Scalar, 3> hanging_cloth(const ClothOptions& options = {}) {
     return system;
 }
 
-/// The triangles of that cloth, two of each square, particle indices: for Wind.
+/// The triangles of that cloth, two of each square, particle indices.
 inline std::vector<Triangle> cloth_triangles(const ClothOptions& options = {}) {
     std::vector<Triangle> triangles;
     for (Index r = 0; r + 1 < options.rows; ++r) {

@@ -37,8 +37,7 @@ struct MeshSprings {
     Index unused_vertices = 0;
     Index stretch_springs = 0;  ///< they come first
     Index bend_springs = 0;
-    std::vector<Triangle>
-        triangles;  ///< particle indices, for Wind: fans of the faces, taken as convex
+    std::vector<Triangle> triangles;  ///< particle indices: fans of the faces, taken as convex
 };
 
 /// Springs over a polygon mesh, at rest as the mesh lies: one for each edge, two more across each

@@ -9,8 +9,7 @@
 namespace taut {
 
 /// Makes a system of the type Copy with the particles, pins, gravity and damping of another, and
-/// the springs that `add` gives it. External forces, wind
-/// among them, stay behind.
+/// the springs that `add` gives it. External forces stay behind.
 /// @param add  add(copy, spring, s) for each spring s of the given system, in index order, a
 ///             `Spring` of its own law
 template <class Copy, class System, class Add>

@@ -6,13 +6,11 @@
 #include <type_traits>
 
 #include "detail/gradient_cycle.hpp"
-#include "two_level.hpp"
 
 namespace taut {
 
-/// Preconditioned conjugate gradients as a Solver for symmetric positive definite matrices
-/// (M. R. Hestenes, E. Stiefel, 1952): no factorisation, memory linear in springs, and a start from
-/// the last solution where the caller has one.
+/// Conjugate gradients, preconditioned by TwoLevel, as a Solver for symmetric positive definite
+/// matrices (M. R. Hestenes, E. Stiefel, 1952): no factorisation, and memory linear in springs.
 ///
 /// In double the iterations run in float, on the residual in double of what they have reached
 /// (iterative refinement: J. H. Wilkinson, "Rounding errors in algebraic processes", 1963), as long
@@ -20,10 +18,9 @@ namespace taut {
 ///
 /// Stops when ‖b − A x‖ ≤ tolerance·‖b‖, or where rounding leaves it above: error() is the true
 /// one. A direction p with pᵀAp ≤ 0 shows an indefinite matrix and is reported as
-/// Eigen::NumericalIssue; the cap of iterations as Eigen::NoConvergence.
-/// @tparam Dim             the matrix consists of full Dim × Dim blocks; 1 fits every matrix
-/// @tparam Preconditioner  TwoLevel, BlockJacobi or IncompleteCholesky
-template <class Scalar_, int Dim, class Preconditioner = TwoLevel<Scalar_, Dim>>
+/// Eigen::NumericalIssue; eight times as many iterations as unknowns as Eigen::NoConvergence.
+/// @tparam Dim  the matrix consists of full Dim × Dim blocks; 1 fits every matrix
+template <class Scalar_, int Dim>
 class ConjugateGradient {
 public:
     using Scalar = Scalar_;
@@ -40,14 +37,6 @@ public:
     }
     /// 1e-3 unless set.
     Scalar tolerance() const { return tolerance_; }
-    /// @param iterations  cap of one solve, ≥ 1; by default four times the number of unknowns
-    void setMaxIterations(Index iterations) {
-        if (iterations < 1) {
-            fail("ConjugateGradient::setMaxIterations: iterations is ", iterations,
-                 "; it must be >= 1");
-        }
-        max_iterations_ = iterations;
-    }
     /// Of the last solve.
     Index iterations() const { return iterations_; }
     /// ‖b − A x‖/‖b‖ after the last solve, of the x that it returned.
@@ -79,24 +68,14 @@ public:
         info_ = fast_usable_ || factorize_exactly() ? Eigen::Success : Eigen::NumericalIssue;
     }
     /// The solution of A x = b, started from 0; kept until the next solve.
-    const Vector& solve(const Vector& b) const {
-        x_.setZero();
-        return solve_from_x(b);
-    }
-    /// Starts from `guess`, unless its residual is not finite or above 10‖b‖.
-    const Vector& solveWithGuess(const Vector& b, const Vector& guess) const {
-        if (&guess != &x_) x_ = guess;
-        return solve_from_x(b);
-    }
+    const Vector& solve(const Vector& b) const;
 
 private:
     // An iteration waits for memory, which this halves.
     using Fast = std::conditional_t<std::is_same_v<Scalar, double>, float, Scalar>;
     static constexpr bool mixed = !std::is_same_v<Fast, Scalar>;
-    using FastPreconditioner = typename solver_detail::Rebind<Preconditioner, Fast>::Type;
 
     bool factorize_exactly() const;
-    const Vector& solve_from_x(const Vector& b) const;
     void improve_fast(const Vector& b, Scalar norm, Index cap) const;
     /// r_ ← b − A x_
     void set_residual(const Vector& b, Scalar norm) const {
@@ -109,10 +88,9 @@ private:
     solver_detail::BlockMatrix<Fast, Dim> rounded_;  // scale_ · A where mixed
     Scalar scale_ = 1;
     Scalar tolerance_ = Scalar(1e-3);
-    Index max_iterations_ = 0;  // 0: four times the number of unknowns
     // solve() is const, as in Eigen's solvers.
-    mutable solver_detail::GradientCycle<Fast, Dim, FastPreconditioner> fast_;
-    mutable solver_detail::GradientCycle<Scalar, Dim, Preconditioner> exact_;
+    mutable solver_detail::GradientCycle<Fast, Dim> fast_;
+    mutable solver_detail::GradientCycle<Scalar, Dim> exact_;
     mutable bool fast_usable_ = false;  // for these values
     mutable bool analyzed_ = false;     // whether exact_ knows the pattern
     mutable bool factorized_ = false;   // and the values
@@ -123,35 +101,26 @@ private:
 };
 
 /// Makes exact_ ready, unless it is. @returns whether that succeeds
-template <class Scalar_, int Dim, class Preconditioner>
-bool ConjugateGradient<Scalar_, Dim, Preconditioner>::factorize_exactly() const {
+template <class Scalar_, int Dim>
+bool ConjugateGradient<Scalar_, Dim>::factorize_exactly() const {
     if (!analyzed_) exact_.analyze(A_);
     analyzed_ = true;
     if (!factorized_) factorized_ = exact_.preconditioner.factorize(A_);
     return factorized_;
 }
 
-template <class Scalar_, int Dim, class Preconditioner>
-auto ConjugateGradient<Scalar_, Dim, Preconditioner>::solve_from_x(const Vector& b) const
-    -> const Vector& {
+template <class Scalar_, int Dim>
+auto ConjugateGradient<Scalar_, Dim>::solve(const Vector& b) const -> const Vector& {
     iterations_ = 0;
     error_ = 0;
+    x_.setZero();
     if (!fast_usable_ && !factorized_) return x_;
     const Scalar norm = b.norm();
     info_ = Eigen::Success;
-    if (norm == 0) {
-        x_.setZero();
-        return x_;
-    }
-    set_residual(b, norm);
-    // A last Δv of a cloth that turns leaves a residual above ‖b‖, and yet saves iterations: what
-    // it leaves is stiff, and the first ones remove it.
-    if (!(error_ <= 10)) {
-        x_.setZero();
-        r_ = b;
-        error_ = r_.norm() / norm;
-    }
-    const Index cap = max_iterations_ > 0 ? max_iterations_ : 4 * b.size();
+    if (norm == 0) return x_;
+    r_ = b;
+    error_ = norm / norm;  // NaN where b is not finite
+    const Index cap = 8 * b.size();
     while (!(error_ <= tolerance_)) {
         if (fast_usable_) {
             improve_fast(b, norm, cap);
@@ -175,9 +144,8 @@ auto ConjugateGradient<Scalar_, Dim, Preconditioner>::solve_from_x(const Vector&
 }
 
 /// x_ ← x_ + A⁻¹ r_ as far as Fast has it, and whether Fast is of use any more.
-template <class Scalar_, int Dim, class Preconditioner>
-void ConjugateGradient<Scalar_, Dim, Preconditioner>::improve_fast(const Vector& b, Scalar norm,
-                                                                   Index cap) const {
+template <class Scalar_, int Dim>
+void ConjugateGradient<Scalar_, Dim>::improve_fast(const Vector& b, Scalar norm, Index cap) const {
     if constexpr (mixed) {
         const Scalar before = error_;
         const Scalar size = r_.norm();
@@ -185,7 +153,7 @@ void ConjugateGradient<Scalar_, Dim, Preconditioner>::improve_fast(const Vector&
         // A little more than is asked for, in place of a second cycle; but not so much that the
         // recurrence has drifted away. On some matrices it never comes down.
         const Scalar goal = std::max(Scalar(0.9) * tolerance_ * norm / size, Scalar(1e-5));
-        const Index most = iterations_ + std::clamp(cap / 4, Index(1), Index(500));
+        const Index most = iterations_ + std::clamp(b.size(), Index(1), Index(500));
         fast_usable_ = fast_.run(rounded_, static_cast<Fast>(goal), std::min(cap, most),
                                  iterations_) != Eigen::NumericalIssue;
         if (!fast_usable_) return;

@@ -2,16 +2,51 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <limits>
 #include <vector>
 
 #include "block_ordering.hpp"
 #include "detail/aggregates.hpp"
+#include "detail/block_matrix.hpp"
 #include "interleaved_llt.hpp"
-#include "preconditioner.hpp"
 
 namespace taut {
+
+namespace solver_detail {
+
+/// z = D⁻¹r with D the diagonal blocks of A.
+template <class Scalar, int Dim>
+class BlockJacobi {
+public:
+    using Matrix = BlockMatrix<Scalar, Dim>;
+
+    /// Makes room for matrices of this size.
+    void analyze(const Matrix& A) { inverse_.resize(static_cast<std::size_t>(A.rows())); }
+    /// @returns whether every diagonal block is positive definite
+    bool factorize(const Matrix& A) {
+        for (Index i = 0; i < A.rows(); ++i) {
+            const typename Matrix::Block block = A.block(A.diagonal(i));
+            if (Eigen::LLT<typename Matrix::Block>(block).info() != Eigen::Success) return false;
+            inverse_[i] = block.inverse();
+        }
+        return true;
+    }
+    /// z ← P⁻¹ r
+    void apply(const Matrix& A, const VectorX<Scalar>& r, VectorX<Scalar>& z) const {
+        for (Index i = 0; i < A.rows(); ++i) {
+            z.template segment<Dim>(Dim * i).noalias() =
+                inverse_[i] * r.template segment<Dim>(Dim * i);
+        }
+    }
+
+private:
+    std::vector<typename Matrix::Block> inverse_;  // of the diagonal blocks
+};
+
+}  // namespace solver_detail
 
 /// z = D⁻¹r + Z (ZᵀAZ)⁻¹ Zᵀr: D is the diagonal blocks of A, and a column of Z moves one group of
 /// some 25 neighbouring particles along one axis. Where springs tie distant particles together
@@ -46,7 +81,7 @@ public:
     }
 
 private:
-    BlockJacobi<Scalar, Dim> jacobi_;
+    solver_detail::BlockJacobi<Scalar, Dim> jacobi_;
     solver_detail::Aggregates groups_;
     std::vector<int> targets_;     // block of A → where it adds to coarse_; −1: nowhere
     SparseMatrix<Scalar> coarse_;  // ZᵀAZ: both triangles for the ordering, values below only

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// Needs the module tight.
+
 // SuiteSparse's direct solvers, for ImplicitEuler. Link Taut::SuiteSparse.
 
 #include "cholmod.hpp"

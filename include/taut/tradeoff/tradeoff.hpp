@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// Needs the modules accuracy, mass_scaling, recommend.
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,9 +14,9 @@
 
 #include "../own_matrices/linearize.hpp"
 #include "../stability/any_pose.hpp"
-#include "../recommend/cost.hpp"
+#include "../core/clock.hpp"
 #include "extrapolation.hpp"
-#include "../recommend/mode_probe.hpp"
+#include "mode_probe.hpp"
 #include "pareto.hpp"
 #include "trajectory.hpp"
 
@@ -22,9 +24,8 @@ namespace taut {
 
 /// How closely runs are compared.
 struct TradeoffOptions {
-    Index samples = 60;   ///< of the duration, at which runs are compared
-    double gain = 10;     ///< by which the reference must be better than the best run
-    int refinements = 6;  ///< of the reference at most, each of half the step
+    Index samples = 60;  ///< of the duration, at which runs are compared
+    double gain = 10;    ///< by which the reference must be better than the best run
     Index modes = 0;  ///< lowest modes to be measured, where no spring is compressed at the start
     double (*clock)() = &cpu_seconds;  ///< s
 };
@@ -117,6 +118,7 @@ public:
         if (!(first < 1e9)) fail("measure_tradeoff: no step resolves this scene's stiffest mode");
         Index count = std::max<Index>(1, static_cast<Index>(first));
         Path coarse = reference(count);
+        constexpr int most = 6;  // refinements, each of half the step
         for (int repeat = 0;; ++repeat) {
             reference_ = reference(count *= 2);
             const double earlier =
@@ -132,7 +134,7 @@ public:
             result_.reference_settled = options_.gain * result_.reference_error <= best;
             const bool rounding =
                 result_.reference_error < 1e-6 && !(result_.reference_error < earlier / 2);
-            if (result_.reference_settled || rounding || repeat == options_.refinements) break;
+            if (result_.reference_settled || rounding || repeat == most) break;
             coarse = std::move(reference_);
         }
         result_.modes = modes_;

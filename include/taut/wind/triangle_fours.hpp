@@ -27,7 +27,7 @@ public:
     TriangleFours(const std::vector<TrianglePair>& pairs, const Blocks& blocks);
 
     /// Adds the forces of the wind on the tile's triangles.
-    void add_forces(const TileView<Scalar>& view) const {
+    void add_forces(const WindView<Scalar>& view) const {
         constexpr typename Point::All parts;
         const auto tile = static_cast<std::size_t>(view.tile);
         const std::size_t first = tile == 0 ? 0 : end_[tile - 1];
@@ -96,10 +96,10 @@ private:
                            Point{{(static_cast<void>(n), zero)...}}});
     }
     template <int... n>
-    static EIGEN_ALWAYS_INLINE FlowOfFour flow_past(const TileView<Scalar>& view, const Four& four,
+    static EIGEN_ALWAYS_INLINE FlowOfFour flow_past(const WindView<Scalar>& view, const Four& four,
                                                     Numbers<n...>);
     template <int... n>
-    static EIGEN_ALWAYS_INLINE void add_four(const TileView<Scalar>& view, const Four& four,
+    static EIGEN_ALWAYS_INLINE void add_four(const WindView<Scalar>& view, const Four& four,
                                              const FlowOfFour& flow, Numbers<n...>);
 
     std::vector<Four> fours_;       // tile by tile
@@ -148,10 +148,10 @@ TriangleFours<Scalar>::TriangleFours(const std::vector<TrianglePair>& pairs, con
 
 template <class Scalar>
 template <int... n>
-EIGEN_ALWAYS_INLINE auto TriangleFours<Scalar>::flow_past(const TileView<Scalar>& view,
+EIGEN_ALWAYS_INLINE auto TriangleFours<Scalar>::flow_past(const WindView<Scalar>& view,
                                                           const Four& four, Numbers<n...>)
     -> FlowOfFour {
-    const Scalar* x = view.air.x.first;
+    const Scalar* x = view.at.first;
     const Scalar* v = view.v.first;
     const auto& [a, b, c, d] = four;
     const Vectors at_b = load(x, b, all);
@@ -167,7 +167,7 @@ EIGEN_ALWAYS_INLINE auto TriangleFours<Scalar>::flow_past(const TileView<Scalar>
 
 template <class Scalar>
 template <int... n>
-EIGEN_ALWAYS_INLINE void TriangleFours<Scalar>::add_four(const TileView<Scalar>& view,
+EIGEN_ALWAYS_INLINE void TriangleFours<Scalar>::add_four(const WindView<Scalar>& view,
                                                          const Four& four, const FlowOfFour& flow,
                                                          Numbers<n...> parts) {
     const Vectors on_a = points({flow[n].at_a.on_corner(view.air.factors)...}, parts);

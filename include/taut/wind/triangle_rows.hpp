@@ -25,7 +25,7 @@ public:
     TriangleRows(std::vector<TrianglePair> pairs, const Blocks& blocks);
 
     /// Adds the forces of the wind on the tile's rows.
-    void add_forces(const TileView<Scalar>& view) const {
+    void add_forces(const WindView<Scalar>& view) const {
         const auto tile = static_cast<std::size_t>(view.tile);
         const std::size_t first = tile == 0 ? 0 : end_[tile - 1];
         if (first == end_[tile]) return;
@@ -54,16 +54,16 @@ private:
     static EIGEN_ALWAYS_INLINE void keep(const Register& lanes, Vector& force) {
         for_each_axis<3>([&](int d) { force[d] = unless_negative(lanes, force[d]); });
     }
-    static EIGEN_ALWAYS_INLINE void add(const TileView<Scalar>& view, const Planes<Scalar>& forces,
+    static EIGEN_ALWAYS_INLINE void add(const WindView<Scalar>& view, const Planes<Scalar>& forces,
                                         int first, const Vector& force) {
         const int place = first - view.begin;
         const bool inside = place > -width && place < view.size;
         const auto to = inside ? forces.at(place) : view.discard;
         for_each_axis<3>([&](int d) { (Register::load(to[d]) + force[d]).store(to[d]); });
     }
-    static EIGEN_ALWAYS_INLINE PairFlow<Register> flow_past(const TileView<Scalar>& view,
+    static EIGEN_ALWAYS_INLINE PairFlow<Register> flow_past(const WindView<Scalar>& view,
                                                             const Row& row);
-    EIGEN_ALWAYS_INLINE void add_row(const TileView<Scalar>& view, const Row& row,
+    EIGEN_ALWAYS_INLINE void add_row(const WindView<Scalar>& view, const Row& row,
                                      const PairFlow<Register>& flow) const;
 
     std::vector<Row> rows_;         // tile by tile
@@ -109,10 +109,10 @@ TriangleRows<Scalar>::TriangleRows(std::vector<TrianglePair> pairs, const Blocks
 }
 
 template <class Scalar>
-EIGEN_ALWAYS_INLINE auto TriangleRows<Scalar>::flow_past(const TileView<Scalar>& view,
+EIGEN_ALWAYS_INLINE auto TriangleRows<Scalar>::flow_past(const WindView<Scalar>& view,
                                                          const Row& row) -> PairFlow<Register> {
     const auto& [a, b, c, d] = row.first;
-    const Planes<const Scalar>& x = view.air.x;
+    const Planes<const Scalar>& x = view.at;
     const Vector x_b = load(x, b);
     const Vector v_b = load(view.v, b);
     const Vector v_c = load(view.v, c);
@@ -122,7 +122,7 @@ EIGEN_ALWAYS_INLINE auto TriangleRows<Scalar>::flow_past(const TileView<Scalar>&
 }
 
 template <class Scalar>
-EIGEN_ALWAYS_INLINE void TriangleRows<Scalar>::add_row(const TileView<Scalar>& view, const Row& row,
+EIGEN_ALWAYS_INLINE void TriangleRows<Scalar>::add_row(const WindView<Scalar>& view, const Row& row,
                                                        const PairFlow<Register>& flow) const {
     Vector on_a = flow.at_a.on_corner(view.air.factors);
     Vector on_d = flow.at_d.on_corner(view.air.factors);

@@ -7,10 +7,26 @@
 #include <utility>
 #include <vector>
 
-#include "wind.hpp"
 #include "../integrator/sweep/tile.hpp"
+#include "flow.hpp"
+
+// The wind in a sweep. Triangles are computed in pairs with an edge in common, a register of pairs
+// at a time; a pair between two blocks in both, like a spring. Words beside those of
+// integrator/sweep/sweep.hpp:
+//
+//   pair          two triangles with an edge in common
+//   row           pairs side by side in planes: a register of them             triangle_rows.hpp
+//   four          four pairs on planes of points                              triangle_fours.hpp
 
 namespace taut::integrator_detail::sweep {
+
+using model_detail::Air;
+
+/// What the triangles of one tile read and write.
+template <class Scalar>
+struct WindView : TileView<Scalar> {
+    Air<Scalar> air;
+};
 
 /// A triangle by the places of its corners.
 using PlacedTriangle = std::array<int, 3>;

@@ -2,118 +2,47 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <limits>
-#include <vector>
+#include <memory>
+#include <utility>
 
 #include "../core/error.hpp"
-#include "../core/types.hpp"
+#include "../model/spring_system.hpp"
+#include "wind_force.hpp"
 
 namespace taut {
 
-/// Corners of a triangle, particle indices.
-using Triangle = std::array<Index, 3>;
-
-/// Air that flows past triangles. A triangle has the area A and the unit normal n; u is the air's
-/// velocity less the mean of the corners', û = u/|u|, and n is turned so that c = n·û ≥ 0. The
-/// force of the air on it is
-///
-///     ½ ρ |u|² A c (drag û + lift (n − c û)),
-///
-/// a third on each corner: drag along the flow, lift across it. Edge-on a triangle feels nothing.
-/// Seen from the air, drag takes energy and lift does no work. In float, lift is lost where 4A²|u|²
-/// is below 1e-38 or above 1e38.
-template <class Scalar>
-struct Wind {
-    Eigen::Matrix<Scalar, 3, 1> velocity = Eigen::Matrix<Scalar, 3, 1>::Zero();  ///< m/s
-    std::vector<Triangle> triangles;  ///< either way round; each counts once
-    double density = 1.2;             ///< ρ of the air, kg/m³, ≥ 0
-    double drag = 1.2;                ///< coefficient, ≥ 0; 1.2 is a plate across the flow
-    double lift = 1.2;                ///< coefficient, ≥ 0
-
-    /// Whether there is something for the air to act on.
-    bool blows() const { return !triangles.empty() && density > 0 && (drag > 0 || lift > 0); }
-};
-
-namespace model_detail {
-
-/// 1/√a of a normal number.
-template <class Real>
-Real reciprocal_sqrt(const Real& a) {
-    return 1 / std::sqrt(a);
-}
-
-/// ρ·drag/108 and ρ·lift/108: with c twice the area times the normal and u three times the relative
-/// velocity, ½ is of the formula, ½ of the area, 1/9 of the velocity squared, and ⅓ of the force
-/// goes to a corner.
-template <class Real>
-struct WindFactors {
-    Real drag;  // kg/m³
-    Real lift;  // kg/m³
-
-    WindFactors() = default;
-    template <class Scalar>
-    explicit WindFactors(const Wind<Scalar>& wind)
-        : drag(static_cast<Real>(wind.density * wind.drag / 108)),
-          lift(static_cast<Real>(wind.density * wind.lift / 108)) {}
-};
-
-template <class Real>
-using Axes = std::array<Real, 3>;
-
-template <class Real>
-EIGEN_ALWAYS_INLINE Real dot(const Axes<Real>& a, const Axes<Real>& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-template <class Real>
-EIGEN_ALWAYS_INLINE Axes<Real> cross(const Axes<Real>& a, const Axes<Real>& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-/// The flow past a triangle. @tparam Real  a number, or a register with a triangle in each lane
-template <class Real>
-struct Flow {
-    Axes<Real> c, u;  // see WindFactors, m² and m/s
-    Real cu, u2, c2;  // their products
-
-    Flow() = default;
-    /// @param p, q      two sides, m
-    /// @param relative  u: three times the air's velocity less the sum of the corners'
-    EIGEN_ALWAYS_INLINE Flow(const Axes<Real>& p, const Axes<Real>& q, const Axes<Real>& relative)
-        : c(cross(p, q)), u(relative), cu(dot(c, u)), u2(dot(u, u)), c2(dot(c, c)) {}
-    /// The force on each corner, N.
-    template <class Scalar>
-    EIGEN_ALWAYS_INLINE Axes<Real> on_corner(const WindFactors<Scalar>& factors) const {
-        using std::max;
-        const Real s = max(cu, -cu);
-        // Where a triangle or the flow vanishes, so do s and cu, and the forces with them.
-        const Real inverse =
-            reciprocal_sqrt(max(c2 * u2, Real(std::numeric_limits<Scalar>::min())));
-        const Real lift = Real(factors.lift) * inverse;
-        const Real of_u = (Real(factors.drag) - lift * s) * s;
-        const Real of_c = lift * u2 * cu;
-        return {of_u * u[0] + of_c * c[0], of_u * u[1] + of_c * c[1], of_u * u[2] + of_c * c[2]};
-    }
-};
-
-/// f ← f + the force of the wind, N, Dim × n.
-template <class Scalar>
-void add_wind(const Wind<Scalar>& wind, const Points<Scalar, 3>& x, const Points<Scalar, 3>& v,
-              Points<Scalar, 3>& f) {
-    const WindFactors<Scalar> factors(wind);
-    for (const auto& [a, b, c] : wind.triangles) {
-        const Eigen::Matrix<Scalar, 3, 1> p = x.col(b) - x.col(a);
-        const Eigen::Matrix<Scalar, 3, 1> q = x.col(c) - x.col(a);
-        const Eigen::Matrix<Scalar, 3, 1> u =
-            Scalar(3) * wind.velocity - (v.col(a) + v.col(b) + v.col(c));
-        const Flow<Scalar> flow({p[0], p[1], p[2]}, {q[0], q[1], q[2]}, {u[0], u[1], u[2]});
-        const Axes<Scalar> on_corner = flow.on_corner(factors);
-        for (const Index corner : {a, b, c}) {
-            for (int d = 0; d < 3; ++d) f(d, corner) += on_corner[d];
+/// Sets the wind on a system in three dimensions, in place of the last one. One that has no
+/// triangles, density or coefficient ends it. Copies of the system have it, too. Values out of
+/// range go to fail(), by name.
+template <class Scalar, class... Laws>
+void set_wind(SpringSystem<Scalar, 3, Laws...>& system, Wind<Scalar> wind) {
+    if (!wind.velocity.allFinite()) fail("set_wind: velocity is not finite");
+    require_held<Scalar>("set_wind", "density", wind.density);
+    require_held<Scalar>("set_wind", "drag", wind.drag);
+    require_held<Scalar>("set_wind", "lift", wind.lift);
+    require_held<Scalar>("set_wind", "density * drag", wind.density * wind.drag);
+    require_held<Scalar>("set_wind", "density * lift", wind.density * wind.lift);
+    for (const auto& triangle : wind.triangles) {
+        for (const Index corner : triangle) {
+            if (corner >= 0 && corner < system.size()) continue;
+            fail("set_wind: a corner is ", corner, "; there are ", system.size(), " particles");
         }
     }
+    if (!wind.blows()) return system.set_outside_force(nullptr);
+    auto triangles = std::make_shared<const std::vector<Triangle>>(std::move(wind.triangles));
+    system.set_outside_force(
+        std::make_shared<model_detail::WindForce<Scalar>>(wind, std::move(triangles)));
 }
 
-}  // namespace model_detail
+/// Changes the velocity of the wind that there is, as in a gust; no plan is made anew.
+/// @param velocity  m/s, finite
+template <class Scalar, class... Laws>
+void set_wind_velocity(SpringSystem<Scalar, 3, Laws...>& system,
+                       const typename SpringSystem<Scalar, 3, Laws...>::Vector& velocity) {
+    if (!velocity.allFinite()) fail("set_wind_velocity: velocity is not finite");
+    using Force = model_detail::WindForce<Scalar>;
+    const Force* const wind = Force::of(system.external_forces().outside.get());
+    if (wind) system.set_outside_force(std::make_shared<Force>(*wind, velocity));
+}
+
 }  // namespace taut

@@ -27,9 +27,10 @@ public:
     using Rows =
         Eigen::Matrix<Scalar, Eigen::Dynamic, Dim, Dim == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
 
-    /// @param dissipation  δ   @param most_entries  of a factor
+    /// @param dissipation   δ
+    /// @param most_entries  nonzeros of a factor, else Status::too_large: 800 MB
     Report build(const System& system, const GraphShares& shares, double dissipation,
-                 Index most_entries);
+                 Index most_entries = 100'000'000);
 
     /// Particles in the matrix.
     Index size() const { return static_cast<Index>(particles_.size()); }

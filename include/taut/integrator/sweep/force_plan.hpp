@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <tuple>
 #include <vector>
 
 #include "../../model/spring_system.hpp"
 #include "cache_order.hpp"
 #include "law_plan.hpp"
-#include "../../wind/triangle_fours.hpp"
-#include "../../wind/triangle_pairing.hpp"
-#include "../../wind/triangle_rows.hpp"
+#include "tile.hpp"
 
 namespace taut::integrator_detail::sweep {
 
@@ -26,14 +25,15 @@ public:
     using Scalar = typename System::Scalar;
     static constexpr int Dim = System::Dim;
 
-    /// Brings the plan up to date with particles and springs. @returns whether it changed
+    /// Brings the plan up to date with particles, springs and the outside force. @returns whether
+    /// it changed
     bool update(const System& system);
 
     /// n, the number of particles and of places.
     Index size() const { return size_; }
     const Blocks& blocks() const { return blocks_; }
-    /// The most blocks between the ends of a spring or the corners of a triangle.
-    int reach() const { return wind_ ? std::max(reach_, triangle_reach_) : reach_; }
+    /// The most blocks between places that a force ties together.
+    int reach() const { return outside_ ? std::max(reach_, outside_plan_->reach()) : reach_; }
     /// Whether springs are in stars: then one plane holds points, x y z 0.
     bool has_stars() const { return stars_; }
     /// Of one vector.
@@ -48,8 +48,8 @@ public:
         return std::apply([](const auto&... plan) { return (plan.damped() || ...); }, plans_);
     }
 
-    /// Whether there is a wind on triangles.
-    bool has_wind() const { return wind_; }
+    /// Whether there is an outside force.
+    bool has_outside() const { return outside_ != nullptr; }
 
     /// Planes ← points, Dim × size(), converted where they hold another number type.
     template <class Matrix>
@@ -77,11 +77,6 @@ public:
         });
     }
 
-    /// The particles at `place` and on, or null where each is at its own place.
-    const int* order_from(Index place) const {
-        return order_.empty() ? nullptr : order_.data() + place;
-    }
-
     /// Of each particle.
     std::vector<int> places() const {
         std::vector<int> result(static_cast<std::size_t>(size_));
@@ -93,12 +88,10 @@ public:
         return planes.first[d * (stars_ ? 1 : planes.stride) + place * grain()];
     }
 
-    /// Adds the forces of the tile's springs, of all their damping, and of the wind, on the places
-    /// of its block.
+    /// Adds the forces of the tile's springs, of all their damping, and of the outside force, on
+    /// the places of its block.
     void add_forces(const TileView<Scalar>& view) const {
-        if constexpr (Dim == 3) {
-            if (wind_) stars_ ? fours_.add_forces(view) : rows_.add_forces(view);
-        }
+        if (outside_) outside_->add(*outside_plan_, view);
         std::apply(
             [&](const auto&... plan) {
                 const auto add = [&](auto kind) {
@@ -144,7 +137,6 @@ private:
         }
     }
     void plan_springs(const System& system);
-    void plan_triangles(const std::vector<Triangle>& triangles);
     /// The springs of each law.
     template <class PlaceOf>
     std::vector<SortedSprings> sort(const System& system, const PlaceOf& place_of) const;
@@ -155,12 +147,9 @@ private:
     Blocks blocks_;
     Index stride_ = 0;
     int reach_ = 0;              // of springs
-    int triangle_reach_ = 0;     // of the wind's triangles, if there is one
     std::uint64_t springs_ = 0;  // the system's spring_revision()
-    TriangleRows<Scalar> rows_;
-    TriangleFours<Scalar> fours_;
-    std::uint64_t triangles_ = 0;  // the revision of the system's
-    bool wind_ = false;
+    std::shared_ptr<const model_detail::OutsideForce<Scalar, Dim>> outside_;  // the system's
+    std::shared_ptr<const TilePlan<Scalar>> outside_plan_;
     bool stars_ = false;
     bool built_ = false;
 };
@@ -201,36 +190,17 @@ std::vector<SortedSprings> ForcePlan<System>::sort(const System& system,
 
 template <class System>
 bool ForcePlan<System>::update(const System& system) {
-    const auto& external = system.external_forces();
+    const auto& outside = system.external_forces().outside;
     const bool same_springs = built_ && springs_ == system.spring_revision();
-    const bool wind = external.wind.blows();
-    if (same_springs && wind == wind_ && (!wind || triangles_ == external.triangles)) return false;
+    const bool same_outside =
+        outside == outside_ || (outside && outside_ && outside->shares_plan(*outside_));
+    outside_ = outside;
+    if (same_springs && same_outside) return false;
     if (!same_springs) plan_springs(system);
     springs_ = system.spring_revision();
     built_ = true;
-    wind_ = wind;
-    triangles_ = external.triangles;
-    if constexpr (Dim == 3) {
-        if (wind) plan_triangles(external.wind.triangles);
-    }
+    outside_plan_ = outside ? outside->plan({places(), blocks_, stars_}) : nullptr;
     return true;
-}
-
-template <class System>
-void ForcePlan<System>::plan_triangles(const std::vector<Triangle>& triangles) {
-    const std::vector<int> place_of = places();
-    std::vector<PlacedTriangle> placed;
-    triangle_reach_ = 0;
-    for (const auto& [a, b, c] : triangles) {
-        placed.push_back({place_of[a], place_of[b], place_of[c]});
-        const auto [low, high] = std::minmax_element(placed.back().begin(), placed.back().end());
-        triangle_reach_ = std::max(triangle_reach_, blocks_.of(*high) - blocks_.of(*low));
-    }
-    if (stars_) {
-        fours_ = {pair_triangles(placed), blocks_};
-    } else {
-        rows_ = {pair_triangles(placed), blocks_};
-    }
 }
 
 template <class System>

@@ -7,7 +7,7 @@
 
 namespace taut::integrator_detail::sweep {
 
-/// The external forces of a SpringSystem but the wind, which goes with the plan's springs.
+/// The external forces of a SpringSystem but a module's, which goes with the plan's springs.
 template <class System>
 class Outside {
 public:
@@ -41,18 +41,6 @@ public:
         if (planes_.size() != size) planes_.setZero(size);  // padding takes part in the steps
         plan.to_planes(force_, {planes_.data(), plan.stride()});
         return {planes_.data(), plan.stride()};
-    }
-    /// Adds the forces on each particle alone, for `count` places from `place`.
-    void add_by_particle(const ForcePlan<System>& plan, const StatePlanes<Scalar>& planes,
-                         Index place, Index count, const Planes<Scalar>& force) const {
-        if (!forces_->by_particle) return;
-        const auto axis = [&](const Planes<Scalar>& of) {
-            return plan.has_stars() ? 1 : of.stride;
-        };
-        const Index first = place * plan.grain();
-        forces_->by_particle({planes.x.first + first, planes.v.first + first, force.first,
-                              axis(planes.x), axis(force), plan.grain(), count, place,
-                              plan.order_from(place)});
     }
 
 private:

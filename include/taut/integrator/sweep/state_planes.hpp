@@ -27,8 +27,8 @@ struct StatePlanes {
 
 /// What a step reads of any place, beside the positions that springs see.
 struct ReadAnywhere {
-    bool velocities;  // by damped springs, or a wind
-    bool positions;   // by a wind
+    bool velocities;  // by damped springs, or an outside force
+    bool positions;   // by an outside force
 };
 
 /// The memory of StatePlanes.

@@ -69,14 +69,14 @@
 //          x, v, spring_x of the new step, of the tile's places only
 //
 // What all threads read, none writes before the step ends: springs' positions, velocities where
-// springs are damped or a wind blows, and positions where it does, have planes for the old step and
-// others for the new. What a thread writes is its scratch (force_a, force_b, discard) and the
-// places of its blocks. A spring between two blocks is evaluated in both, and each keeps its own
-// end. Blocks have the same size and each sum the same order for any number of threads, and so
-// results have the same bits.
+// springs are damped or a module has a force of its own, and positions where it has, have planes
+// for the old step and others for the new. What a thread writes is its scratch (force_a, force_b,
+// discard) and the places of its blocks. A spring between two blocks is evaluated in both, and each
+// keeps its own end. Blocks have the same size and each sum the same order for any number of
+// threads, and so results have the same bits.
 //
 // One thread goes in waves: a block takes its next step as soon as the blocks that its springs and
-// triangles reach have taken the last one. So a large scene comes from memory once in several
+// other forces reach have taken the last one. So a large scene comes from memory once in several
 // steps.
 //
 //
@@ -121,22 +121,17 @@
 //   order         the particle at each place
 //   plane         one coordinate of one vector, of all places                        planes.hpp
 //   block         consecutive places: what a thread does at a time                     tile.hpp
-//   reach         the most blocks between the ends of a spring or the corners of a triangle
-//   wave          steps that are taken block by block, not one by one                 waves.hpp
-//   tile          256 of them: what the first cache holds                              tile.hpp
-//   view          what springs and triangles of a tile read and write                      tile.hpp
-//   ends a, b     of a spring, places, a < b
-//   offset        b - a
-//   run           springs of one offset and ascending a                      sorted_springs.hpp
-//   gap           a place between springs of a run where no spring begins; or what a star lacks
-//   segment       what one tile takes of a run                                     run_plan.hpp
-//   star          up to four springs with one end in common                           stars.hpp
-//   hub, tip      that end, and another end of a star                                  hubs.hpp
-//   outer         of a star: in more than one block
-//   point         one vector of one place, x y z 0; with stars a plane has points
-//   pair          two triangles of a wind with an edge in common                   triangles.hpp
-//   row           pairs side by side in planes: a register of them             triangle_rows.hpp
-//   four          four pairs on planes of points                              triangle_fours.hpp
+//   reach         the most blocks between the ends of a spring, or others that a force ties
+//   together wave          steps that are taken block by block, not one by one waves.hpp tile 256
+//   of them: what the first cache holds                              tile.hpp view          what
+//   springs and other forces of a tile read and write               tile.hpp ends a, b     of a
+//   spring, places, a < b offset        b - a run           springs of one offset and ascending a
+//   sorted_springs.hpp gap           a place between springs of a run where no spring begins; or
+//   what a star lacks segment       what one tile takes of a run run_plan.hpp star          up to
+//   four springs with one end in common                           stars.hpp hub, tip      that end,
+//   and another end of a star                                  hubs.hpp outer         of a star: in
+//   more than one block point         one vector of one place, x y z 0; with stars a plane has
+//   points outside       of a force: a module's, which makes a plan of its own outside_force.hpp
 //   grain         scalars of a place in a plane: 1, or 4 with stars
 //   scattered     of a spring: in no run
 //   batch         scattered springs of one tile that touch few places            batch_plan.hpp
@@ -233,9 +228,7 @@ private:
     std::vector<int> places_;       // of run_corrected: of each particle, if known
     VectorX<Scalar> acceleration_;  // at the end of the last run_verlet, planes, m/s²
     StiffnessDamping<Scalar> damping_;
-    Air<Scalar> air_;
-    bool in_step_ = false;  // still, where a force has thrown
-    Scalar ahead_ = 0;      // s, by which springs see x ahead
+    Scalar ahead_ = 0;  // s, by which springs see x ahead
 };
 
 template <class System>
@@ -246,16 +239,14 @@ void Sweep<System>::load(const System& system, const AnyState& state, const Step
     const bool new_plan = plan_.update(system);
     if (new_plan) places_.clear();
     // A new plan may have other places for what is discarded.
-    if (new_plan || in_step_) scratch_.setZero();
+    if (new_plan) scratch_.setZero();
     const Index size = plan_.size() * plan_.grain();
     state_.resize(plan_.planes(), size, plan_.stride(), ahead_ > 0,
-                  {plan_.damped() || bool(damping_) || plan_.has_wind(), plan_.has_wind()});
+                  {plan_.damped() || bool(damping_) || plan_.has_outside(), plan_.has_outside()});
     plan_.to_planes(state.x, state_.planes().x);
     plan_.to_planes(state.v, state_.planes().v);
     if (ahead_ > 0) state_.look_ahead(ahead_);
     update_.load(system, plan_, ahead_);
-    const auto& wind = system.external_forces().wind;
-    air_ = {model_detail::WindFactors<Scalar>(wind), Scalar(3) * wind.velocity, {}};
     outside_.begin(system, static_cast<Scalar>(state.time));
 }
 
@@ -293,7 +284,6 @@ void Sweep<System>::some_steps(Scalar h, Index count, int threads, const Update&
     threads = plan_.blocks().workers(threads);
     const Index scratch_size = 3 * Dim * scratch_stride;
     if (scratch_.size() < threads * scratch_size) scratch_.setZero(threads * scratch_size);
-    in_step_ = true;
     const auto step_of = [&](int thread, Index step, int block) {
         StatePlanes<Scalar> planes = state_.planes();
         if (step % 2 == 1) planes.swap();
@@ -320,7 +310,6 @@ void Sweep<System>::some_steps(Scalar h, Index count, int threads, const Update&
     {
         work(0, 1, [] {});
     }
-    in_step_ = false;
     if (count % 2 == 1) state_.swap();
 }
 
@@ -333,23 +322,20 @@ void Sweep<System>::step_block(const StatePlanes<Scalar>& planes, int block, Sca
     };
     TileView<Scalar> view{{planes.spring_x.first, planes.spring_x.stride},
                           {planes.v.first, planes.v.stride},
+                          {planes.x.first, planes.x.stride},
                           damping_,
-                          air_,
                           plan_.blocks().begin(block),
                           plan_.blocks().size(),
                           0,
                           vector(0),
                           vector(1),
                           vector(2)};
-    view.air.x = {planes.x.first, planes.x.stride};
     const Index begin = view.begin;
     const Index count = std::min<Index>(view.size, plan_.size() - begin);
     constexpr Index grain = Stars ? 4 : 1;
     for (Index i = 0; i < count; i += tile_size) {
         view.tile = static_cast<int>((begin + i) / tile_size);
         plan_.add_forces(view);
-        outside_.add_by_particle(plan_, planes, begin + i, std::min<Index>(tile_size, count - i),
-                                 view.force_a.at(i * grain));
         update_.template move<Pins, Drag, Stars>(
             planes, (begin + i) * grain, std::min<Index>(tile_size, count - i) * grain, h,
             view.force_a.at(i * grain), view.force_b.at(i * grain), update);

@@ -3,9 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <vector>
 
 #include "../../model/damping.hpp"
-#include "../../wind/wind.hpp"
 #include "planes.hpp"
 
 namespace taut::integrator_detail::sweep {
@@ -53,21 +53,32 @@ private:
     int size_ = most_of_block;
 };
 
-/// The air of a Wind, as a step needs it.
-template <class Scalar>
-struct Air {
-    model_detail::WindFactors<Scalar> factors;
-    Eigen::Matrix<Scalar, 3, 1> three_velocities;  // three times the wind's, m/s
-    Planes<const Scalar> x;                        // m, of all places, as they are
+/// Where particles are, for a plan of forces beside the springs'.
+struct PlacedParticles {
+    const std::vector<int>& place;  // of each particle
+    const Blocks& blocks;
+    bool points;  // whether a plane holds points, x y z 0
 };
 
-/// What the springs and triangles of one tile read and write.
+/// What a force beside the springs' knows before a step.
+template <class Scalar>
+class TilePlan {
+public:
+    virtual ~TilePlan() = default;
+    /// The most blocks between places that such a force ties together.
+    int reach() const { return reach_; }
+
+protected:
+    int reach_ = 0;
+};
+
+/// What springs and other forces of one tile read and write.
 template <class Scalar>
 struct TileView {
-    Planes<const Scalar> x;  // m, of all places, as springs see them
-    Planes<const Scalar> v;  // m/s, of all places
+    Planes<const Scalar> x;   // m, of all places, as springs see them
+    Planes<const Scalar> v;   // m/s, of all places
+    Planes<const Scalar> at;  // m, of all places, as they are
     StiffnessDamping<Scalar> damping;
-    Air<Scalar> air;
     int begin;  // the block's first place
     int size;   // places of a block
     int tile;   // among those of all blocks

@@ -48,8 +48,7 @@ void check_forces(const System& system, LammpsEquals& equals) {
     refuse(system.rayleigh().stiffness_proportional > 0,
            "stiffness-proportional Rayleigh damping (set_rayleigh)");
     refuse(system.graph_damping() > 0, "graph damping (set_graph_damping)");
-    refuse(outside.wind.blows(), "wind (set_wind)");
-    refuse(static_cast<bool>(outside.by_particle), "a force on each particle (set_particle_force)");
+    refuse(outside.outside != nullptr, outside.outside ? outside.outside->name() : "");
     refuse(static_cast<bool>(outside.whole), "a force of the state (set_external_force)");
     refuse(outside.constants > 0, "a constant force (set_constant_force)");
 }
@@ -83,7 +82,7 @@ void check_law(const Set& set, Index first, LammpsEquals& equals) {
 /// What the data file needs to know before its first bond: types, and the longest bond.
 class LammpsBonds {
 public:
-    explicit LammpsBonds(Index most) : types_(most), most_(most) {}
+    static constexpr Index most = 1 << 20;  // types, of 24 bytes on every rank
 
     template <class System>
     void count(const System& system, const typename System::State& state);
@@ -115,8 +114,7 @@ private:
         });
     }
 
-    TypeTable types_;
-    Index most_;
+    TypeTable types_{most};
     double longest_ = 0;
 };
 
@@ -132,10 +130,11 @@ void LammpsBonds::count(const System& system, const typename System::State& stat
         }
         longest_ = std::max({longest_, l, L});
         if (types_.add({k, L}) == 0) {
-            fail("write_lammps: spring ", s, " (stiffness ", k, " N/m, rest length ", L,
-                 " m) would be bond type ", most_ + 1, "; at most ", most_,
-                 " pairs of stiffness and rest length are allowed (LammpsOptions::most_bond_types),"
-                 " since every rank of LAMMPS keeps them all");
+            fail(
+                "write_lammps: spring ", s, " (stiffness ", k, " N/m, rest length ", L,
+                " m) would be bond type ", most + 1, "; at most ", most,
+                " pairs of stiffness and rest length are allowed, since every rank of LAMMPS keeps "
+                "them all");
         }
     });
 }
@@ -145,8 +144,10 @@ void LammpsBonds::count(const System& system, const typename System::State& stat
 /// brings its own mass.
 class LammpsAtoms {
 public:
+    static constexpr Index most = 256;  // types: LAMMPS keeps two tables of most² numbers
+
     template <class System>
-    LammpsAtoms(const System& system, Index most) : free_(most), pinned_(most) {
+    explicit LammpsAtoms(const System& system) {
         for (Index i = 0; i < system.size() && !per_atom_; ++i) {
             const bool added = table(system.is_pinned(i)).add(key(system, i)) > 0;
             per_atom_ = !added || free_.size() + pinned_.size() > most;
@@ -185,8 +186,8 @@ private:
     }
     TypeTable& table(bool pinned) { return pinned ? pinned_ : free_; }
 
-    TypeTable free_;
-    TypeTable pinned_;
+    TypeTable free_{most};
+    TypeTable pinned_{most};
     bool per_atom_ = false;
     Index free_types_ = 0;
     Index types_ = 0;

@@ -157,35 +157,6 @@ void SpringSystem<Scalar, Dim, Laws...>::set_constant_force(Index i, const Vecto
 }
 
 template <class Scalar, int Dim, class... Laws>
-template <class Air>
-void SpringSystem<Scalar, Dim, Laws...>::set_wind(Air wind) {
-    static_assert(Dim == 3 && std::is_same_v<Air, Wind<Scalar>>,
-                  "taut::SpringSystem::set_wind: takes a Wind<Scalar>, in three dimensions");
-    constexpr const char* where = "SpringSystem::set_wind";
-    if (!wind.velocity.allFinite()) fail(where, ": velocity is not finite");
-    require_held<Scalar>(where, "density", wind.density);
-    require_held<Scalar>(where, "drag", wind.drag);
-    require_held<Scalar>(where, "lift", wind.lift);
-    require_held<Scalar>(where, "density * drag", wind.density * wind.drag);
-    require_held<Scalar>(where, "density * lift", wind.density * wind.lift);
-    for (const auto& triangle : wind.triangles) {
-        for (const Index corner : triangle) require_particle("set_wind", "a corner", corner);
-    }
-    external_.wind = std::move(wind);
-    ++external_.triangles;
-    ++force_revision_;
-}
-
-template <class Scalar, int Dim, class... Laws>
-template <class Velocity>
-void SpringSystem<Scalar, Dim, Laws...>::set_wind_velocity(const Velocity& velocity) {
-    static_assert(Dim == 3, "taut::SpringSystem::set_wind_velocity: wind is in three dimensions");
-    if (!velocity.allFinite()) fail("SpringSystem::set_wind_velocity: velocity is not finite");
-    external_.wind.velocity = velocity;
-    ++force_revision_;
-}
-
-template <class Scalar, int Dim, class... Laws>
 void SpringSystem<Scalar, Dim, Laws...>::set_rayleigh(const RayleighDamping& rayleigh) {
     constexpr const char* where = "SpringSystem::set_rayleigh";
     require_held<Scalar>(where, "mass_proportional", rayleigh.mass_proportional);

@@ -5,16 +5,16 @@
 #include <Eigen/SparseCore>
 #include <cmath>
 
-#include "block_matrix.hpp"
+#include "../two_level.hpp"
 
 namespace taut::solver_detail {
 
-/// Conjugate gradients from 0 in the arithmetic of one Scalar.
-template <class Scalar, int Dim, class Preconditioner>
+/// Conjugate gradients from 0, preconditioned by TwoLevel, in the arithmetic of one Scalar.
+template <class Scalar, int Dim>
 struct GradientCycle {
     using Matrix = BlockMatrix<Scalar, Dim>;
 
-    Preconditioner preconditioner;
+    TwoLevel<Scalar, Dim> preconditioner;
     VectorX<Scalar> x, r, z, p, q;  // solution, residual, P⁻¹r, direction, A p
 
     void analyze(const Matrix& A) {
@@ -44,14 +44,6 @@ struct GradientCycle {
         }
         return Eigen::Success;
     }
-};
-
-/// The preconditioner P<Scalar, Dim> in another arithmetic.
-template <class Preconditioner, class Scalar>
-struct Rebind;
-template <template <class, int> class Preconditioner, class Old, int Dim, class Scalar>
-struct Rebind<Preconditioner<Old, Dim>, Scalar> {
-    using Type = Preconditioner<Scalar, Dim>;
 };
 
 }  // namespace taut::solver_detail

@@ -4,7 +4,7 @@
 
 #include "../../core/detail/bisection.hpp"
 #include "../../core/status.hpp"
-#include "../../integrator/detail/step_equation.hpp"
+#include "../../integrator/detail/spring_equation.hpp"
 #include "step_judge.hpp"
 #include "step_objective.hpp"
 
@@ -12,15 +12,16 @@ namespace taut::integrator_detail {
 
 /// Newton's method on the objective of the nonlinear implicit step, with a line search.
 template <class System>
-class Newton {
+class NewtonMethod {
 public:
     using Scalar = typename System::Scalar;
     using State = typename System::State;
     static constexpr int Dim = System::Dim;
+    using Moves = Points<Scalar, Dim>;
 
     /// Moves `state` by a step of h, from the better of the linearised and the inertial move.
     /// @param dv       Δv of the linearised step, of the free particles
-    /// @param options  newton_iterations, the linearised one included, and tolerance
+    /// @param options  iterations, the linearised solve included, and tolerance
     /// @param solve    Status solve(b, du): factorises equation.matrix() = A, du ← A⁻¹ b
     /// @param filter   filter(g), Dim × n: takes what constraints forbid out of moves and forces
     template <class Options, class Solve, class Filter>
@@ -28,31 +29,49 @@ public:
                 const Options& options, StepEquation<System>& equation, Solve&& solve,
                 Filter&& filter);
     /// ∇φ at the last step's end without the filter, Dim × n, kg·m: constraints give it over h².
-    const Points<Scalar, Dim>& whole_gradient(const System& system) {
+    const Moves& whole_gradient(const System& system) {
         objective_.evaluate(system, u_, g1_);
         return g1_;
     }
 
 private:
+    /// A ← M + hD(x₀) + h²K(x_), the second derivative of the step's objective; K⁺ for K if
+    /// `project`.
+    void set_matrix(const System& system, const Moves& x0, Scalar h, bool project,
+                    StepEquation<System>& equation);
     template <class Filter>
     bool line_search(const System& system, const StepEquation<System>& equation, Scalar& value,
                      Scalar rounding, Filter&& filter);
 
     StepObjective<System> objective_;
     StepJudge<System> judge_;
-    Points<Scalar, Dim> u_, g_;    // iterate, m, and its gradient, kg·m
-    Points<Scalar, Dim> u1_, g1_;  // a trial
-    Points<Scalar, Dim> x_;        // positions of the iterate, m
-    VectorX<Scalar> b_, du_;       // of the free particles
+    Moves u_, g_;                   // iterate, m, and its gradient, kg·m
+    Moves u1_, g1_;                 // a trial
+    Moves x_;                       // positions of the iterate, m
+    VectorX<Scalar> b_, du_;        // of the free particles
+    SparseMatrix<Scalar> inertia_;  // M + hD
 };
+
+template <class System>
+void NewtonMethod<System>::set_matrix(const System& system, const Moves& x0, Scalar h, bool project,
+                                      StepEquation<System>& equation) {
+    const double step = static_cast<double>(h);
+    SparseMatrix<Scalar>& A = equation.matrix();
+    if (inertia_.nonZeros() != A.nonZeros()) inertia_ = A;
+    const auto& tangent = equation.tangent();
+    tangent.assemble(system, x0, matrices::M + step * matrices::D, inertia_);
+    tangent.assemble(system, x_, step * step * (project ? matrices::K_plus : matrices::K), A);
+    Eigen::Map<VectorX<Scalar>>(A.valuePtr(), A.nonZeros()) +=
+        Eigen::Map<const VectorX<Scalar>>(inertia_.valuePtr(), inertia_.nonZeros());
+}
 
 /// Moves u_ along du_ to where φ is no larger and its slope at most half as steep, by bisection.
 /// Slopes decide, since differences of φ soon drown in rounding, and since a slack spring that
 /// becomes taut bends φ sharply.
 template <class System>
 template <class Filter>
-bool Newton<System>::line_search(const System& system, const StepEquation<System>& equation,
-                                 Scalar& value, Scalar rounding, Filter&& filter) {
+bool NewtonMethod<System>::line_search(const System& system, const StepEquation<System>& equation,
+                                       Scalar& value, Scalar rounding, Filter&& filter) {
     const Scalar slope = -b_.dot(du_);
     // A whole move that is not taken has gone too far: φ falls at 0 and no longer at 1.
     detail::Bisection<Scalar> search(0, 1, 0, 39);
@@ -77,9 +96,9 @@ bool Newton<System>::line_search(const System& system, const StepEquation<System
 
 template <class System>
 template <class Options, class Solve, class Filter>
-Report Newton<System>::step(const System& system, State& state, const VectorX<Scalar>& dv, Scalar h,
-                            const Options& options, StepEquation<System>& equation, Solve&& solve,
-                            Filter&& filter) {
+Report NewtonMethod<System>::step(const System& system, State& state, const VectorX<Scalar>& dv,
+                                  Scalar h, const Options& options, StepEquation<System>& equation,
+                                  Solve&& solve, Filter&& filter) {
     objective_.begin(system, state, h, filter);
     judge_.begin(system, state, h, objective_);
     u_ = h * state.v;
@@ -103,7 +122,7 @@ Report Newton<System>::step(const System& system, State& state, const VectorX<Sc
         return judge_.judge(system, objective_, u_, g_, options.tolerance, filter);
     };
     auto verdict = judge();
-    while (report.solves < options.newton_iterations && !stuck && !verdict.solved) {
+    while (report.solves < options.iterations && !stuck && !verdict.solved) {
         ++report.solves;
         x_ = state.x + u_;
         equation.free().gather(g_, b_);
@@ -112,12 +131,12 @@ Report Newton<System>::step(const System& system, State& state, const VectorX<Sc
         // Close to the solution the true K is definite and converges quadratically, K⁺ linearly.
         report.status = Status::not_positive_definite;
         if (objective_.force_residual(g_) < 0.1) {
-            equation.update_values(system, state.x, x_, h, false);
+            set_matrix(system, state.x, h, false, equation);
             report.status = solve(b_, du_);
         }
         if (!report) {
             du_.setZero();
-            equation.update_values(system, state.x, x_, h, true);
+            set_matrix(system, state.x, h, true, equation);
             report.status = solve(b_, du_);
         }
         if (!report) return report;

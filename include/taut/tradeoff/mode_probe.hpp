@@ -14,7 +14,7 @@
 #include "../own_matrices/linear_system.hpp"
 #include "../stability/spring_pencil.hpp"
 #include "../accuracy/accuracy.hpp"
-#include "candidate.hpp"
+#include "../recommend/candidate.hpp"
 
 // The errors of accuracy.hpp, measured: a stepper is started in one mode and its swing is fitted.
 
@@ -118,7 +118,7 @@ std::optional<ModeError> fitted_mode_error(const System& system, typename System
 template <class Scalar>
 std::optional<ModeError> measured_mode_error(const LinearSystem<Scalar>& system, const Mode& mode,
                                              const Candidate& candidate, Index most_steps = 4000) {
-    if (candidate.scheme == Method::graph_inertia) return std::nullopt;
+    if (candidate.method == Method::graph_inertia) return std::nullopt;
     if (candidate.damping.look_ahead > 0) {  // a linear system's steps have none of their own
         Candidate damped = candidate;
         damped.damping.look_ahead = 0;

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-// What Guarded and Adaptive are alike in: the Wrapper concept of docs/concepts.md.
+// A guard beside its stepper, its system and an engine.
 #include <cmath>
 #include <limits>
-#include <taut/integrator/adaptive.hpp>
 #include <taut/integrator/guarded.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
 #include <type_traits>
@@ -14,7 +13,7 @@
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
 
-namespace taut_test::wrapper_test {
+namespace taut_test::guarded_engine_test {
 
 using taut::Status;
 
@@ -28,14 +27,8 @@ using Stepper = taut::SymplecticEuler<Springs<Scalar>>;
 template <class Scalar_>
 struct Guarding {
     using Scalar = Scalar_;
-    using Wrapper = taut::Guarded<Stepper<Scalar>>;
+    using Guard = taut::Guarded<Stepper<Scalar>>;
 };
-template <class Scalar_>
-struct Adapting {
-    using Scalar = Scalar_;
-    using Wrapper = taut::Adaptive<Stepper<Scalar>>;
-};
-
 constexpr double frame = 1.0 / 30;
 
 /// A scene that moves, of its own for each seed.
@@ -80,21 +73,21 @@ struct Engine {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("wrapper: its own stepper and a lent one give the same bits", "[integrator]",
-                   Guarding<float>, Guarding<double>, Adapting<float>, Adapting<double>) {
+TEMPLATE_TEST_CASE("guarded: its own stepper and a lent one give the same bits", "[integrator]",
+                   Guarding<float>, Guarding<double>) {
     using Scalar = typename TestType::Scalar;
-    using Wrapper = typename TestType::Wrapper;
+    using Guard = typename TestType::Guard;
     for (std::uint32_t seed = 1; seed <= 5; ++seed) {
         INFO("seed " << seed);
         Scene<Scalar> scene(seed);
         auto others = scene.state;
         auto copied = scene.state;
-        Wrapper own(scene.system);
+        Guard own(scene.system);
         auto lent = std::as_const(own).stepper();
-        Wrapper borrowing(scene.system, lent);
+        Guard borrowing(scene.system, lent);
         CHECK(&borrowing.stepper() == &lent);
-        CHECK(&Wrapper(borrowing).stepper() == &lent);
-        Wrapper copy(own);
+        CHECK(&Guard(borrowing).stepper() == &lent);
+        Guard copy(own);
         CHECK(&copy.stepper() != &own.stepper());
         for (int i = 0; i < 5; ++i) {
             const auto report = own.advance(scene.state, Scalar(frame));
@@ -110,48 +103,45 @@ TEMPLATE_TEST_CASE("wrapper: its own stepper and a lent one give the same bits",
     }
 }
 
-TEMPLATE_TEST_CASE("wrapper: the stepper and the options are at hand, temporaries are refused",
-                   "[integrator]", Guarding<double>, Adapting<double>) {
-    using Wrapper = typename TestType::Wrapper;
-    using Options = typename Wrapper::Options;
+TEMPLATE_TEST_CASE("guarded: the stepper and the options are at hand, temporaries are refused",
+                   "[integrator]", Guarding<double>) {
+    using Guard = typename TestType::Guard;
+    using Options = typename Guard::Options;
     using System = Springs<double>;
     using Kind = Stepper<double>;
-    static_assert(std::is_constructible_v<Wrapper, const System&>);
-    static_assert(std::is_constructible_v<Wrapper, const System&, Options>);
-    static_assert(std::is_constructible_v<Wrapper, System&, Options, taut::ExplicitOptions>);
-    static_assert(std::is_constructible_v<Wrapper, const System&, Kind&>);
-    static_assert(std::is_constructible_v<Wrapper, System&, Kind&, Options>);
-    static_assert(!std::is_constructible_v<Wrapper, System>);
-    static_assert(!std::is_constructible_v<Wrapper, const System, Options>);
-    static_assert(!std::is_constructible_v<Wrapper, System, Options, taut::ExplicitOptions>);
-    static_assert(!std::is_constructible_v<Wrapper, System, Kind&>);
-    static_assert(!std::is_constructible_v<Wrapper, System, Kind&, Options>);
-    static_assert(!std::is_constructible_v<Wrapper, const System&, Kind>);
-    static_assert(!std::is_constructible_v<Wrapper, const System&, Kind, Options>);
-    static_assert(!std::is_convertible_v<const System&, Wrapper>);
+    static_assert(std::is_constructible_v<Guard, const System&>);
+    static_assert(std::is_constructible_v<Guard, const System&, Options>);
+    static_assert(std::is_constructible_v<Guard, System&, Options, taut::ExplicitOptions>);
+    static_assert(std::is_constructible_v<Guard, const System&, Kind&>);
+    static_assert(std::is_constructible_v<Guard, System&, Kind&, Options>);
+    static_assert(!std::is_constructible_v<Guard, System>);
+    static_assert(!std::is_constructible_v<Guard, const System, Options>);
+    static_assert(!std::is_constructible_v<Guard, System, Options, taut::ExplicitOptions>);
+    static_assert(!std::is_constructible_v<Guard, System, Kind&>);
+    static_assert(!std::is_constructible_v<Guard, System, Kind&, Options>);
+    static_assert(!std::is_constructible_v<Guard, const System&, Kind>);
+    static_assert(!std::is_constructible_v<Guard, const System&, Kind, Options>);
+    static_assert(!std::is_convertible_v<const System&, Guard>);
 
     const Scene<double> scene(6);
     Options options;
     options.max_step = 1e-4;
-    const Wrapper wrapper(scene.system, options, taut::ExplicitOptions{1, {0.25, 0}});
-    CHECK(wrapper.options().max_step == 1e-4);
-    CHECK(wrapper.stepper().damping().look_ahead == 0.25);
+    const Guard guard(scene.system, options, taut::ExplicitOptions{1, {0.25, 0}});
+    CHECK(guard.options().max_step == 1e-4);
+    CHECK(guard.stepper().damping().look_ahead == 0.25);
 }
 
-TEST_CASE("wrapper: a lent stepper names the types", "[integrator]") {
+TEST_CASE("guarded: a lent stepper names the types", "[integrator]") {
     const Scene<double> scene(7);
     Stepper<double> stepper(scene.system);
     taut::Guarded guard(scene.system, stepper);
-    taut::Adaptive adaptive(scene.system, stepper);
-    CHECK(std::is_same_v<decltype(guard), Guarding<double>::Wrapper>);
-    CHECK(std::is_same_v<decltype(adaptive), Adapting<double>::Wrapper>);
+    CHECK(std::is_same_v<decltype(guard), Guarding<double>::Guard>);
 }
 
-TEMPLATE_TEST_CASE("wrapper: an engine's arrays get what a State gets, rounded once",
-                   "[integrator]", Guarding<float>, Guarding<double>, Adapting<float>,
-                   Adapting<double>) {
+TEMPLATE_TEST_CASE("guarded: an engine's arrays get what a State gets, rounded once",
+                   "[integrator]", Guarding<float>, Guarding<double>) {
     using Scalar = typename TestType::Scalar;
-    using Wrapper = typename TestType::Wrapper;
+    using Guard = typename TestType::Guard;
     for (std::uint32_t seed = 11; seed <= 15; ++seed) {
         INFO("seed " << seed);
         Scene<Scalar> scene(seed);
@@ -160,9 +150,9 @@ TEMPLATE_TEST_CASE("wrapper: an engine's arrays get what a State gets, rounded o
         scene.state.v = scene.state.v.template cast<float>().template cast<Scalar>();
         Engine<float> floats(scene.state);
         Engine<double> doubles(scene.state);
-        Wrapper of_state(scene.system);
-        Wrapper of_floats(scene.system);
-        Wrapper of_doubles(scene.system);
+        Guard of_state(scene.system);
+        Guard of_floats(scene.system);
+        Guard of_doubles(scene.system);
         for (int i = 0; i < 5; ++i) {
             REQUIRE(of_state.advance(scene.state, Scalar(frame)));
             REQUIRE(of_floats.advance(floats.view, Scalar(frame)));
@@ -182,19 +172,18 @@ TEMPLATE_TEST_CASE("wrapper: an engine's arrays get what a State gets, rounded o
     }
 }
 
-TEMPLATE_TEST_CASE("wrapper: what cannot be advanced is refused and left as it is",
-                   "[integrator][bad_input]", Guarding<float>, Guarding<double>, Adapting<float>,
-                   Adapting<double>) {
+TEMPLATE_TEST_CASE("guarded: what cannot be advanced is refused and left as it is",
+                   "[integrator][bad_input]", Guarding<float>, Guarding<double>) {
     using Scalar = typename TestType::Scalar;
-    using Wrapper = typename TestType::Wrapper;
+    using Guard = typename TestType::Guard;
     Scene<Scalar> scene(21);
-    Wrapper wrapper(scene.system);
+    Guard guard(scene.system);
     const auto refused = [&](auto state, Scalar duration, Status status, Index where) {
         const auto before = state;
         Engine<double> engine(state);
         const Engine<double> untouched(state);
         for (const auto& report :
-             {wrapper.advance(state, duration), wrapper.advance(engine.view, duration)}) {
+             {guard.advance(state, duration), guard.advance(engine.view, duration)}) {
             CHECK(report.status == status);
             CHECK(report.where == where);
             CHECK(report.advanced == 0);
@@ -222,21 +211,20 @@ TEMPLATE_TEST_CASE("wrapper: what cannot be advanced is refused and left as it i
     fewer.x.conservativeResize(2, 5);
     fewer.v.conservativeResize(2, 5);
     refused(fewer, Scalar(frame), Status::invalid_state, -1);
-    CHECK(wrapper.advance(scene.state, Scalar(frame)));  // and nothing of it is left
+    CHECK(guard.advance(scene.state, Scalar(frame)));  // and nothing of it is left
 }
 
-TEMPLATE_TEST_CASE("wrapper: a failure names the particle and leaves the last state that is good",
-                   "[integrator][bad_input]", Guarding<float>, Guarding<double>, Adapting<float>,
-                   Adapting<double>) {
+TEMPLATE_TEST_CASE("guarded: a failure names the particle and leaves the last state that is good",
+                   "[integrator][bad_input]", Guarding<float>, Guarding<double>) {
     using Scalar = typename TestType::Scalar;
-    using Wrapper = typename TestType::Wrapper;
+    using Guard = typename TestType::Guard;
     for (std::uint32_t seed = 31; seed <= 35; ++seed) {
         INFO("seed " << seed);
         Scene<Scalar> scene(seed);
         scene.spoil();
         Engine<Scalar> engine(scene.state);
-        Wrapper of_state(scene.system);
-        Wrapper of_engine(scene.system);
+        Guard of_state(scene.system);
+        Guard of_engine(scene.system);
         bool failed = false;
         for (int i = 0; i < 3; ++i) {
             const auto before = scene.state;
@@ -258,18 +246,4 @@ TEMPLATE_TEST_CASE("wrapper: a failure names the particle and leaves the last st
     }
 }
 
-TEST_CASE("wrapper: the guard's report tells the particle by its older name, too",
-          "[integrator][bad_input]") {
-    Scene<double> scene(41);
-    scene.spoil();
-    Guarding<double>::Wrapper guard(scene.system);
-    auto state = scene.state;
-    state.x(0, 2) = std::nan("");
-    CHECK(guard.advance(state, frame).particle == 2);
-    taut::GuardedReport<double> report;
-    for (int i = 0; i < 3 && report; ++i) report = guard.advance(scene.state, frame);
-    CHECK_FALSE(report);
-    CHECK(report.particle == report.where);
-}
-
-}  // namespace taut_test::wrapper_test
+}  // namespace taut_test::guarded_engine_test
