@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 // The battery that every descriptor must pass: its parts agree with the matrix of its step, and
 // that one with the motion itself.
+#include <taut/accuracy/detail/multiplier.hpp>
 #include <taut/method/mode.hpp>
+#include <taut/tight/detail/step_matrix.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/decompositions.hpp"
@@ -22,7 +24,7 @@ Eigen::VectorXcd multipliers(double k, double d, double h) {
     const double root = std::sqrt(std::abs(k));
     Eigen::MatrixXd C(2, 2);
     C << 0, root, k < 0 ? root : -root, -d;
-    const Eigen::MatrixXd step = Descriptor::step_matrix(C, h, 1);
+    const Eigen::MatrixXd step = taut::method::step_matrix(Descriptor{}, C, h, 1);
     return general_eigenvalues(step.cast<Real>()).cast<Complex>();
 }
 
@@ -75,14 +77,14 @@ TEMPLATE_LIST_TEST_CASE("descriptor: the mode's error is that of one of these, o
         const double z = std::exp2(random.uniform(-12, 3));
         const double zeta = random.uniform(0, 0.99);
         INFO(TestType::name << ", z = " << z << ", zeta = " << zeta);
-        const Complex mu = 1.0 + TestType::multiplier_less_one(z, zeta);
+        const Complex mu = 1.0 + taut::method::multiplier_less_one(TestType{}, z, zeta);
         const Eigen::VectorXcd known = multipliers<TestType>(1, 2 * zeta, z);
         CHECK((known.array() - mu).abs().minCoeff() < 1e-6);
         CHECK_THAT(std::abs(mu), WithinAbs(known.cwiseAbs().maxCoeff(), 1e-6));
     }
     for (const double z : {1e-1, 1e-2, 1e-3}) {
         const Complex less_one = std::exp(Complex(0, z)) - 1.0;
-        CHECK(std::abs(TestType::multiplier_less_one(z, 0) - less_one) <=
+        CHECK(std::abs(taut::method::multiplier_less_one(TestType{}, z, 0) - less_one) <=
               std::pow(z, TestType::order + 1));
     }
 }

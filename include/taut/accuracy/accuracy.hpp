@@ -10,6 +10,7 @@
 #include "../core/detail/bisection.hpp"
 #include "../core/error.hpp"
 #include "../method/visit.hpp"
+#include "detail/multiplier.hpp"
 
 // How well each integrator follows one mode ẍ + 2ζω ẋ + ω² x = 0, from its exact multiplier [T25].
 // z = hω is the step in radians of the undamped mode.
@@ -50,7 +51,7 @@ inline ModeError mode_error(Method method, double z, double zeta = 0, double add
     tradeoff_detail::require_mode("mode_error", z, zeta);
     tradeoff_detail::require_added(method, added);
     const auto e = method::visit(method, [&](auto descriptor) {
-        return decltype(descriptor)::multiplier_less_one(z, zeta + added * z / 2);
+        return method::multiplier_less_one(descriptor, z, zeta + added * z / 2);
     });
     const double decay = -std::log1p(2 * e.real() + std::norm(e)) / 2;
     const double phase = std::atan2(e.imag(), 1 + e.real());

@@ -11,9 +11,6 @@
 
 namespace taut {
 
-template <class Scalar>
-class GeneralLinearSystem;
-
 /// The second-order backward difference formula, by one linearised solve a step. With ω = h/h⁻ the
 /// ratio to the last step, c = ω²/(1 + 2ω) and τ = h(1 + ω)/(1 + 2ω) (equal steps: ⅓ and ⅔h),
 ///

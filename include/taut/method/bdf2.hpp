@@ -30,25 +30,6 @@ struct Bdf2 : KeepsNoEnergy {
     static double critical_step(double k, double d) {
         return 1.5 * ImplicitEuler::critical_step(k, d);
     }
-    /// [[4S, −S], [I, 0]] with S = (3 − 2hC)⁻¹, on the state and the one before it: 2n × 2n.
-    template <class Matrix>
-    static Matrix step_matrix(const Matrix& C, typename Matrix::Scalar h, Eigen::Index) {
-        using Real = typename Matrix::Scalar;
-        const Eigen::Index n = C.rows();
-        const Matrix I = Matrix::Identity(n, n);
-        const Matrix solved = (3 * I - 2 * h * C).partialPivLu().inverse();
-        Matrix step = Matrix::Zero(2 * n, 2 * n);
-        step.topLeftCorner(n, n) = Real(4) * solved;
-        step.topRightCorner(n, n) = -solved;
-        step.bottomLeftCorner(n, n) = I;
-        return step;
-    }
-    /// (3 − 2w)μ² − 4μ + 1 = 0 for w = hλ, so μ = (2 + s)/(3 − 2w) with s = √(1 + 2w).
-    static std::complex<double> multiplier_less_one(double z, double zeta) {
-        const std::complex<double> w = taut::method_detail::exponent(z, zeta);
-        const std::complex<double> s = std::sqrt(1.0 + 2.0 * w);
-        return 2.0 * w * (2.0 + s) / ((1.0 + s) * (3.0 - 2.0 * w));
-    }
 };
 
 }  // namespace taut::method

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
-
 #include "detail/scalar_mode.hpp"
 
 namespace taut::method {
@@ -37,19 +35,6 @@ struct ExplicitEuler : KeepsNoEnergy {
     static double critical_step(double k, double d) {
         const double root = taut::method_detail::discriminant_root(d, -k);
         return root < 0 ? d / k : 2 / (d / 2 + root / 2);
-    }
-    /// The matrix whose eigenvalues are the multipliers of a whole system.
-    /// @param C  [T1], n × n, 1/s: the rate of positions in its first `positions` rows, then that
-    ///           of velocities. @param h  s
-    template <class Matrix>
-    static Matrix step_matrix(const Matrix& C, typename Matrix::Scalar h, Eigen::Index) {
-        return Matrix::Identity(C.rows(), C.cols()) + h * C;
-    }
-    /// μ − 1 of the multiplier μ that stands for e^(hλ), λ = ω(−ζ + i√(1 − ζ²)), without
-    /// cancellation at small z = hω [T25]. Where a step too large has turned the pair real, the
-    /// root of larger modulus.
-    static std::complex<double> multiplier_less_one(double z, double zeta) {
-        return taut::method_detail::exponent(z, zeta);
     }
     // Of KeepsNoEnergy: kept_energy(books, h), the energy that steps of h, s, keep on a linear
     // scene while pins rest [T36]; energy_lag(books, h), the part that gravity and moving pins have

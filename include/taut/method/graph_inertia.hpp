@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
 
@@ -35,38 +34,11 @@ struct GraphInertia : SymplecticEuler {
     }
     /// Infinity: 4a − 2h(d + δhk/(2θ)) − h²k > 0 for every h.
     static double critical_step(double, double) { return std::numeric_limits<double>::infinity(); }
-    /// Symplectic Euler's, with A in place of M and D + D_i in place of D; both are of K⁺.
-    template <class Matrix>
-    static Matrix step_matrix(const Matrix& C, typename Matrix::Scalar h, Eigen::Index positions) {
-        using Real = typename Matrix::Scalar;
-        const Eigen::Index r = positions;
-        const Eigen::Index N = C.rows() - r;
-        // M⁻¹K in the coordinates of the velocities, the first r of which move positions.
-        Matrix K = Matrix::Zero(N, N);
-        K.leftCols(r) = -C.bottomLeftCorner(N, r) * C.block(0, r, r, r).diagonal().asDiagonal();
-        const Eigen::SelfAdjointEigenSolver<Matrix> modes((K + K.transpose()) / 2);
-        const Matrix& U = modes.eigenvectors();
-        const Matrix projected =
-            U * modes.eigenvalues().cwiseMax(Real(0)).asDiagonal() * U.transpose();
-        const Matrix D = -C.bottomRightCorner(N, N);
-        constexpr Real theta = margin, delta = dissipation;
-        const Matrix heavier =
-            Matrix::Identity(N, N) + (h / 2 * D + (1 + delta) * h * h / 4 * projected) / theta;
-        Matrix slower = C;
-        slower.bottomRightCorner(N, N) -= delta * h / 2 / theta * projected;
-        slower.bottomRows(N) = heavier.partialPivLu().solve(slower.bottomRows(N)).eval();
-        return SymplecticEuler::step_matrix(slower, h, positions);
-    }
-    /// As symplectic Euler's, of the heavier mode.
-    static std::complex<double> multiplier_less_one(double z, double zeta) {
-        const double root = std::sqrt(mass(1, 2 * zeta, z));
-        return SymplecticEuler::multiplier_less_one(z / root, (zeta + braking(1, z) / 2) / root);
-    }
-
-private:
+    /// a of a mode.
     static double mass(double k, double d, double h) {
         return 1 + (h * d / 2 + (1 + dissipation) * h * h * std::max(k, 0.0) / 4) / margin;
     }
+    /// What its damping grows by, 1/s.
     static double braking(double k, double h) {
         return dissipation * h * std::max(k, 0.0) / 2 / margin;
     }

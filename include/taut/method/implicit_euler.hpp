@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/LU>
 #include <limits>
 
 #include "detail/scalar_mode.hpp"
@@ -33,17 +32,6 @@ struct ImplicitEuler : KeepsNoEnergy {
     static double critical_step(double k, double d) {
         if (k >= 0) return std::numeric_limits<double>::infinity();
         return (d / 2 + taut::method_detail::discriminant_root(d, -k) / 2) / -k;
-    }
-    /// (I − hC)⁻¹.
-    template <class Matrix>
-    static Matrix step_matrix(const Matrix& C, typename Matrix::Scalar h, Eigen::Index) {
-        const Matrix I = Matrix::Identity(C.rows(), C.cols());
-        return (I - h * C).partialPivLu().inverse();
-    }
-    /// w/(1 − w), w = hλ.
-    static std::complex<double> multiplier_less_one(double z, double zeta) {
-        const std::complex<double> w = taut::method_detail::exponent(z, zeta);
-        return w / (1.0 - w);
     }
 };
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <limits>
 
 #include "detail/scalar_mode.hpp"
@@ -33,24 +32,6 @@ struct SymplecticEuler {
     static double critical_step(double k, double d) {
         const double root = taut::method_detail::discriminant_root(d, k);
         return root < 0 ? std::numeric_limits<double>::infinity() : 2 / (d / 2 + root / 2);
-    }
-    /// v⁺ from the old x, then x⁺ from v⁺.
-    template <class Matrix>
-    static Matrix step_matrix(const Matrix& C, typename Matrix::Scalar h, Eigen::Index positions) {
-        const Eigen::Index r = positions;
-        const Eigen::Index N = C.rows() - r;
-        Matrix step = Matrix::Identity(C.rows(), C.cols());
-        step.bottomRows(N) += h * C.bottomRows(N);
-        step.topRows(r) += h * C.block(0, r, r, r).diagonal().asDiagonal() * step.middleRows(r, r);
-        return step;
-    }
-    /// ε² + bε + z² = 0 for ε = μ − 1, from μ² − (2 − hd − h²k)μ + (1 − hd) = 0 [T10].
-    static std::complex<double> multiplier_less_one(double z, double zeta) {
-        const double b = z * (2 * zeta + z);
-        const double under = (2 * z - b) * (2 * z + b);
-        if (under > 0) return {-b / 2, std::sqrt(under) / 2};
-        const double far = -(b + std::sqrt(-under)) / 2;
-        return b > 2 ? far : z * z / far;
     }
     /// H + ½h v·f − ¼h vᵀDv, J [T36].
     template <class Books>

@@ -30,11 +30,8 @@ using Description =
     std::tuple<decltype(D::method), decltype(D::name), decltype(D::order), decltype(D::is_implicit),
                decltype(D::averages_forces), typename D::Limit, decltype(D::any_pose),
                decltype(D::step_quadratic)*, decltype(D::spectral_radius(0.0, 0.0, 0.0)),
-               decltype(D::critical_step(0.0, 0.0)), decltype(D::multiplier_less_one(0.0, 0.0)),
-               decltype(D::step_matrix(std::declval<const Eigen::MatrixXd&>(), 0.0,
-                                       Eigen::Index())),
-               decltype(D::kept_energy(0, 0.0)), decltype(D::energy_lag(0, 0.0)),
-               decltype(D::energy_band(0.0, 0.0))>;
+               decltype(D::critical_step(0.0, 0.0)), decltype(D::kept_energy(0, 0.0)),
+               decltype(D::energy_lag(0, 0.0)), decltype(D::energy_band(0.0, 0.0))>;
 
 /// Whether these are the methods of the enum, each once and in its order.
 template <class... Descriptors>

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -120,7 +119,9 @@ Eigen::VectorXd areas_of_vertices(const Points<Scalar, 3>& vertices,
         double whole = 0;
         for_each_triangle(face, [&](Index a, Index b, Index c) {
             const Eigen::Vector3d u = x.col(b) - x.col(a), w = x.col(c) - x.col(a);
-            whole += u.cross(w).norm() / 2;
+            const Eigen::Vector3d across(u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2],
+                                         u[0] * w[1] - u[1] * w[0]);
+            whole += across.norm() / 2;
         });
         for (const Index corner : face) area[corner] += whole / static_cast<double>(face.size());
     }

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <complex>
 
-#include "../method/visit.hpp"
 #include "../stability/pencil.hpp"
+#include "detail/step_matrix.hpp"
 
 namespace taut {
 
@@ -135,7 +135,7 @@ Real DenseAnalysis<Real>::spectral_radius(Method method, Real h) const {
     const Index n = C.rows();
     const Index r = n - root_.size();
     const Matrix step = method::visit(
-        method, [&](auto descriptor) { return decltype(descriptor)::step_matrix(C, h, r); });
+        method, [&](auto descriptor) { return method::step_matrix(descriptor, C, h, r); });
     Real radius = 0;
     for (const auto& mu : ComplexVector(step.eigenvalues())) {
         // The velocity of an undamped zero mode: multiplier exactly 1.

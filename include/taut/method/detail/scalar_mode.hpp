@@ -42,9 +42,4 @@ inline double largest_root(const StepQuadratic& polynomial) {
     return std::max(std::abs(mu[0]), std::abs(mu[1]));
 }
 
-/// hλ of ẍ + 2ζω ẋ + ω² x = 0, λ = ω(−ζ + i√(1 − ζ²)), by z = hω.
-inline std::complex<double> exponent(double z, double zeta) {
-    return {-zeta * z, std::sqrt((1 - zeta) * (1 + zeta)) * z};
-}
-
 }  // namespace taut::method_detail

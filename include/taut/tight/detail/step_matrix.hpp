@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Eigenvalues>
+
+#include "../../method/visit.hpp"
+
+// step_matrix(descriptor, C, h, positions): the matrix whose eigenvalues are the multipliers of a
+// whole system.
+// C: [T1], n × n, 1/s: the rate of positions in its first `positions` rows, then that of
+// velocities. h: s.
+
+namespace taut::method {
+
+template <class Matrix>
+Matrix step_matrix(ExplicitEuler, const Matrix& C, typename Matrix::Scalar h, Eigen::Index) {
+    return Matrix::Identity(C.rows(), C.cols()) + h * C;
+}
+
+/// v⁺ from the old x, then x⁺ from v⁺. Velocity Verlet's too.
+template <class Matrix>
+Matrix step_matrix(const SymplecticEuler&, const Matrix& C, typename Matrix::Scalar h,
+                   Eigen::Index positions) {
+    const Eigen::Index r = positions;
+    const Eigen::Index N = C.rows() - r;
+    Matrix step = Matrix::Identity(C.rows(), C.cols());
+    step.bottomRows(N) += h * C.bottomRows(N);
+    step.topRows(r) += h * C.block(0, r, r, r).diagonal().asDiagonal() * step.middleRows(r, r);
+    return step;
+}
+
+/// (I − hC)⁻¹.
+template <class Matrix>
+Matrix step_matrix(ImplicitEuler, const Matrix& C, typename Matrix::Scalar h, Eigen::Index) {
+    const Matrix I = Matrix::Identity(C.rows(), C.cols());
+    return (I - h * C).partialPivLu().inverse();
+}
+
+/// [[4S, −S], [I, 0]] with S = (3 − 2hC)⁻¹, on the state and the one before it: 2n × 2n.
+template <class Matrix>
+Matrix step_matrix(Bdf2, const Matrix& C, typename Matrix::Scalar h, Eigen::Index) {
+    using Real = typename Matrix::Scalar;
+    const Eigen::Index n = C.rows();
+    const Matrix I = Matrix::Identity(n, n);
+    const Matrix solved = (3 * I - 2 * h * C).partialPivLu().inverse();
+    Matrix step = Matrix::Zero(2 * n, 2 * n);
+    step.topLeftCorner(n, n) = Real(4) * solved;
+    step.topRightCorner(n, n) = -solved;
+    step.bottomLeftCorner(n, n) = I;
+    return step;
+}
+
+/// Symplectic Euler's, with A in place of M and D + D_i in place of D; both are of K⁺.
+template <class Matrix>
+Matrix step_matrix(const GraphInertia&, const Matrix& C, typename Matrix::Scalar h,
+                   Eigen::Index positions) {
+    using Real = typename Matrix::Scalar;
+    const Eigen::Index r = positions;
+    const Eigen::Index N = C.rows() - r;
+    // M⁻¹K in the coordinates of the velocities, the first r of which move positions.
+    Matrix K = Matrix::Zero(N, N);
+    K.leftCols(r) = -C.bottomLeftCorner(N, r) * C.block(0, r, r, r).diagonal().asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Matrix> modes((K + K.transpose()) / 2);
+    const Matrix& U = modes.eigenvectors();
+    const Matrix projected = U * modes.eigenvalues().cwiseMax(Real(0)).asDiagonal() * U.transpose();
+    const Matrix D = -C.bottomRightCorner(N, N);
+    constexpr Real theta = GraphInertia::margin, delta = GraphInertia::dissipation;
+    const Matrix heavier =
+        Matrix::Identity(N, N) + (h / 2 * D + (1 + delta) * h * h / 4 * projected) / theta;
+    Matrix slower = C;
+    slower.bottomRightCorner(N, N) -= delta * h / 2 / theta * projected;
+    slower.bottomRows(N) = heavier.partialPivLu().solve(slower.bottomRows(N)).eval();
+    return step_matrix(SymplecticEuler{}, slower, h, positions);
+}
+
+}  // namespace taut::method
