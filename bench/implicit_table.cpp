@@ -11,6 +11,8 @@
 #include <functional>
 #include <string>
 #include <taut/bdf2/bdf2.hpp>
+#include <taut/lattice/chain.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/projective/projective.hpp>
 #include <taut/solver/sparse_cholesky.hpp>
 #include <taut/suitesparse/suitesparse.hpp>
@@ -219,6 +221,45 @@ void ratios() {
                 residual, static_cast<long long>(iterations));
 }
 
+/// Where a direct solver is the faster one, beside where it is not.
+void direct_table() {
+    std::printf(
+        "## A direct solver or conjugate gradients, 60 steps of 1/60 s\n\n"
+        "| scene | SparseCholesky, ms: min (median) | ConjugateGradient 1e-3 | ratio |\n"
+        "|---|---|---|---|\n");
+    const auto compare = [](const std::string& name, const auto& system) {
+        using System = std::decay_t<decltype(system)>;
+        const auto times = [&](auto stepper) {
+            auto state = system.initial_state();
+            Stopwatch watch(clock_used);
+            bool good = true;
+            for (int k = 0; k < 60; ++k) {
+                watch.run([&] { good = bool(stepper.step(state, h)) && good; });
+            }
+            return good ? watch.times() : Times{};
+        };
+        using Solver = taut::ConjugateGradient<double, System::Dim>;
+        const Times direct =
+            times(taut::ImplicitEuler<System, taut::SparseCholesky<double>>(system));
+        const Times gradients = times(taut::ImplicitEuler<System, Solver>(system));
+        std::printf("| %s | %.4f (%.4f) | %.4f (%.4f) | %.2f (%.2f) |\n", name.c_str(),
+                    direct.least, direct.median, gradients.least, gradients.median,
+                    direct.least / gradients.least, direct.median / gradients.median);
+        std::fflush(stdout);
+    };
+    for (const Index n : {4, 8, 16, 32, 64}) {
+        compare("hanging_cloth " + std::to_string(n), taut::hanging_cloth<double>({n, n}));
+    }
+    for (const Index n : {100, 1000}) {
+        auto row = taut::chain<double, 1>({n, taut::ChainEnds::fixed_fixed, 1e-3, 1e4});
+        row.set_gravity(Eigen::Matrix<double, 1, 1>(9.81));
+        compare("chain of " + std::to_string(n) + ", in one dimension", row);
+    }
+    const Cloth cloth = taut::hanging_cloth<double>({32, 32});
+    compare("the matrices of hanging_cloth 32: one factor", cloth.linearize(cloth.initial_state()));
+    std::printf("\n");
+}
+
 /// One iteration of projective dynamics beside a plain local step and three of Eigen's solves.
 void projective() {
     const Cloth cloth = taut::hanging_cloth<double>({100, 100});
@@ -308,6 +349,7 @@ int main(int argc, char** argv) {
         scenes.push_back({"mesh", bench::mesh_in<double>(example::read_obj(mesh)).system});
     }
     ratios();
+    direct_table();
     gradients_table(scenes);
     projective();
     steps(scenes);

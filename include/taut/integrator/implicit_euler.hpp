@@ -19,7 +19,7 @@ namespace taut {
 /// The default solver of springs is ConjugateGradient to 1e-3 of the right-hand side: on hanging
 /// cloths of 1e3 to 1e5 N/m its error in the positions of a step was below 0.06 of what the step
 /// itself was off (steps of 1/60 and 1/480 s, beside eight of h/8). SparseCholesky and other direct
-/// solvers are exact to rounding; docs/figures.md says where they are the faster ones: many steps
+/// solvers are exact to rounding; docs/modules.md says where they are the faster ones: many steps
 /// on one factor, chains, tiny scenes. Every solve starts from 0, so a step depends on the state
 /// alone.
 /// @tparam Solver  Eigen's sparse solver interface (analyzePattern, factorize, solve, info). Not

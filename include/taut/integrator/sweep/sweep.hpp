@@ -121,17 +121,20 @@
 //   order         the particle at each place
 //   plane         one coordinate of one vector, of all places                        planes.hpp
 //   block         consecutive places: what a thread does at a time                     tile.hpp
-//   reach         the most blocks between the ends of a spring, or others that a force ties
-//   together wave          steps that are taken block by block, not one by one waves.hpp tile 256
-//   of them: what the first cache holds                              tile.hpp view          what
-//   springs and other forces of a tile read and write               tile.hpp ends a, b     of a
-//   spring, places, a < b offset        b - a run           springs of one offset and ascending a
-//   sorted_springs.hpp gap           a place between springs of a run where no spring begins; or
-//   what a star lacks segment       what one tile takes of a run run_plan.hpp star          up to
-//   four springs with one end in common                           stars.hpp hub, tip      that end,
-//   and another end of a star                                  hubs.hpp outer         of a star: in
-//   more than one block point         one vector of one place, x y z 0; with stars a plane has
-//   points outside       of a force: a module's, which makes a plan of its own outside_force.hpp
+//   reach         the most blocks between places that a force ties together
+//   wave          steps that are taken block by block, not one by one                 waves.hpp
+//   tile          256 of them: what the first cache holds                              tile.hpp
+//   view          what springs and other forces of a tile read and write               tile.hpp
+//   ends a, b     of a spring, places, a < b
+//   offset        b - a
+//   run           springs of one offset and ascending a                      sorted_springs.hpp
+//   gap           a place between springs of a run where no spring begins; or what a star lacks
+//   segment       what one tile takes of a run                                     run_plan.hpp
+//   star          up to four springs with one end in common                           stars.hpp
+//   hub, tip      that end, and another end of a star                                  hubs.hpp
+//   outer         of a star: in more than one block
+//   point         one vector of one place, x y z 0; with stars a plane has points
+//   outside       of a force: a module's, with a plan of its own         model/outside_force.hpp
 //   grain         scalars of a place in a plane: 1, or 4 with stars
 //   scattered     of a spring: in no run
 //   batch         scattered springs of one tile that touch few places            batch_plan.hpp
