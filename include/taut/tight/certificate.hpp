@@ -43,11 +43,14 @@ public:
     DefinitenessProof operator()(SparseMatrix<double>&& A, Error&& max_error);
     /// Spent by all calls.
     int factorizations() const { return factorizations_; }
+    /// Patterns analysed: one, whatever the number of calls.
+    int analyses() const { return analyses_; }
 
 private:
     EigenCholesky cholesky_;
     Index widest_ = 0;  // most nonzeros in a row of the factor; 0: not analysed yet
     int factorizations_ = 0;
+    int analyses_ = 0;
 };
 
 template <class Error>
@@ -65,7 +68,10 @@ DefinitenessProof Prover::operator()(SparseMatrix<double>&& A, Error&& max_error
             entry.valueRef() = scale[entry.row()] * entry.value() * scale[j];
         }
     }
-    if (widest_ == 0) widest_ = cholesky_.analyze(A);
+    if (widest_ == 0) {
+        widest_ = cholesky_.analyze(A);
+        ++analyses_;
+    }
 
     const double u = std::numeric_limits<double>::epsilon();
     const double sum_rounding = 1 + static_cast<double>(N) * u;
