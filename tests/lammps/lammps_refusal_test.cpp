@@ -109,7 +109,7 @@ TEST_CASE("lammps: bad input: springs that are no bond are named", "[io][bad_inp
     CHECK(missing(refusal(state, files.options()), {"twice the longest spring", "inf m"}).empty());
     // Each spring has a length of its own: so many types are memory, and refused beyond a number.
     CHECK(write_lammps("", system, system.initial_state(), files.options()).bond_types == 3);
-    for (Index s = 3; s <= 1 << 20; ++s) system.add_spring(0, 1, static_cast<double>(s));
+    for (Index s = 3; s <= 1 << 20; ++s) system.add_spring(0, 1, 1000.0 + static_cast<double>(s));
     CHECK(missing(refusal(system.initial_state(), files.options()),
                   {"spring 1048576", "bond type 1048577", "at most 1048576"})
               .empty());
