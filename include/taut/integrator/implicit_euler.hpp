@@ -20,8 +20,8 @@ namespace taut {
 /// cloths of 1e3 to 1e5 N/m its error in the positions of a step was below 0.06 of what the step
 /// itself was off (steps of 1/60 and 1/480 s, beside eight of h/8). SparseCholesky and other direct
 /// solvers are exact to rounding; docs/modules.md says where they are the faster ones: many steps
-/// on one factor, chains, tiny scenes. Every solve starts from 0, so a step depends on the state
-/// alone.
+/// on one factor, and chains in one dimension. Every solve starts from 0, so a step depends on the
+/// state alone.
 /// @tparam Solver  Eigen's sparse solver interface (analyzePattern, factorize, solve, info). Not
 ///                 SimplicialLDLT: it calls an indefinite matrix a success.
 template <class System, class Solver = DefaultSolver<System>>

@@ -9,7 +9,7 @@
 namespace taut {
 
 /// Eigen's sparse LLᵀ in an order of particles: a direct Solver, exact to rounding. It is faster
-/// than ConjugateGradient where one factor serves many steps, on chains and in tiny scenes.
+/// than ConjugateGradient where one factor serves many steps and on chains in one dimension.
 template <class Scalar>
 using SparseCholesky = Eigen::SimplicialLLT<SparseMatrix<Scalar>, Eigen::Lower, BlockOrdering<>>;
 
