@@ -4,6 +4,7 @@
 // The steppers that solve linear systems, compiled beside those that do not.
 
 #include <taut/bdf2/bdf2.hpp>
+#include <taut/graph_inertia/graph_contacts.hpp>
 #include <taut/graph_inertia/graph_inertia.hpp>
 #include <taut/newton/newton.hpp>
 #include <taut/projective/projective.hpp>
