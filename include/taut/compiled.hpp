@@ -3,6 +3,7 @@
 #pragma once
 
 #include "integrator/bdf2.hpp"
+#include "integrator/energy_stable_euler.hpp"
 #include "integrator/explicit_euler.hpp"
 #include "integrator/guarded.hpp"
 #include "integrator/implicit_euler.hpp"
@@ -17,6 +18,7 @@
 #include "stability/any_pose.hpp"
 #include "stability/detail/low_modes.hpp"
 #include "stability/energy_limit.hpp"
+#include "stability/energy_stable_limit.hpp"
 #include "stability/explicit_estimate.hpp"
 #include "stability/stability.hpp"
 
@@ -90,6 +92,7 @@
     KIND Index SpringSystem<__VA_ARGS__>::add_particle(const Vector&, SCALAR);                  \
     KIND State<SCALAR, DIM> SpringSystem<__VA_ARGS__>::initial_state() const;                   \
     KIND void SpringSystem<__VA_ARGS__>::force(const State&, Force&, const StepDamping&) const; \
+    KIND void SpringSystem<__VA_ARGS__>::force_ahead(const State&, SCALAR, Force&) const;       \
     KIND SCALAR SpringSystem<__VA_ARGS__>::kinetic_energy(const State&) const;                  \
     KIND SCALAR SpringSystem<__VA_ARGS__>::potential_energy(const State&) const;                \
     KIND LinearSystem<SCALAR> SpringSystem<__VA_ARGS__>::linearize(const State&) const;         \
@@ -102,12 +105,15 @@
     KIND StepLimit<SCALAR> any_pose_limit(const SpringSystem<__VA_ARGS__>&);                    \
     KIND StepLimit<SCALAR> any_pose_limit(const SpringSystem<__VA_ARGS__>&, double);            \
     KIND EnergyLimit<SCALAR> energy_limit(const SpringSystem<__VA_ARGS__>&);                    \
-    KIND EnergyLimit<SCALAR> energy_limit(const SpringSystem<__VA_ARGS__>&, double);
+    KIND EnergyLimit<SCALAR> energy_limit(const SpringSystem<__VA_ARGS__>&, double);            \
+    KIND StepLimit<SCALAR> energy_stable_limit(const SpringSystem<__VA_ARGS__>&);               \
+    KIND StepLimit<SCALAR> energy_stable_limit(const SpringSystem<__VA_ARGS__>&, double);
 
 #define TAUT_COMPILED_EXPLICIT(KIND, SCALAR, DIM, ...)                      \
     TAUT_COMPILED_STEPPER(KIND, SymplecticEuler<SpringSystem<__VA_ARGS__>>) \
     TAUT_COMPILED_STEPPER(KIND, ExplicitEuler<SpringSystem<__VA_ARGS__>>)   \
-    TAUT_COMPILED_STEPPER(KIND, VelocityVerlet<SpringSystem<__VA_ARGS__>>)
+    TAUT_COMPILED_STEPPER(KIND, VelocityVerlet<SpringSystem<__VA_ARGS__>>)  \
+    TAUT_COMPILED_STEPPER(KIND, EnergyStableEuler<SpringSystem<__VA_ARGS__>>)
 
 #define TAUT_COMPILED_IMPLICIT(KIND, SCALAR, DIM, ...)                                           \
     TAUT_COMPILED_STEPPER(KIND, ImplicitEuler<SpringSystem<__VA_ARGS__>>)                        \

@@ -78,6 +78,7 @@ struct TileView {
     Planes<Scalar> force_b;
     /// For forces on places of other blocks. Its numbers are never used.
     Planes<Scalar> discard;
+    Planes<const Scalar> here;  // m, of all places, as they are
 };
 
 }  // namespace taut::integrator_detail::sweep
