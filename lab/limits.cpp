@@ -22,7 +22,7 @@ using taut::Method;
 struct Limits {
     taut::StepLimit<double> any_pose;
     std::optional<taut::Stability<double>> stability;
-    std::array<std::optional<taut::StepLimit<double>>, 6> at_pose;  // by method
+    std::array<std::optional<taut::StepLimit<double>>, 7> at_pose;  // by method
     LabMode mode{};
     taut::Points<double, 3> kick;
     std::vector<int> blamed;
@@ -39,6 +39,7 @@ double any_pose(Method method) {
     const AnyPose safe =
         taut::method::visit(method, [](auto descriptor) { return decltype(descriptor)::any_pose; });
     if (safe == AnyPose::limited) return found.any_pose.certified;
+    if (safe == AnyPose::proved) return found.any_pose.certified / 2;  // and never less [T42]
     return safe == AnyPose::every_step ? std::numeric_limits<double>::infinity() : 0;
 }
 

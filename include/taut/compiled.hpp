@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "integrator/energy_stable_euler.hpp"
 #include "integrator/explicit_euler.hpp"
 #include "integrator/guarded.hpp"
 #include "integrator/implicit_euler.hpp"
@@ -14,6 +15,7 @@
 #include "solver/interleaved_llt.hpp"
 #include "stability/any_pose.hpp"
 #include "stability/energy_limit.hpp"
+#include "stability/energy_stable_limit.hpp"
 #include "stability/stability.hpp"
 
 // What the library Taut::Compiled holds: explicit instantiations for float and double, two and
@@ -60,6 +62,7 @@
     KIND Index SpringSystem<__VA_ARGS__>::add_particle(const Vector&, SCALAR);                  \
     KIND State<SCALAR, DIM> SpringSystem<__VA_ARGS__>::initial_state() const;                   \
     KIND void SpringSystem<__VA_ARGS__>::force(const State&, Force&, const StepDamping&) const; \
+    KIND void SpringSystem<__VA_ARGS__>::force_ahead(const State&, SCALAR, Force&) const;       \
     KIND SCALAR SpringSystem<__VA_ARGS__>::kinetic_energy(const State&) const;                  \
     KIND SCALAR SpringSystem<__VA_ARGS__>::potential_energy(const State&) const;                \
     KIND SpringPencil<DIM> SpringPencil<DIM>::at_pose(const SpringSystem<__VA_ARGS__>&,         \
@@ -69,12 +72,14 @@
     KIND void Stability<SCALAR>::update(const SpringSystem<__VA_ARGS__>&,                       \
                                         const State<SCALAR, DIM>&);                             \
     KIND StepLimit<SCALAR> any_pose_limit(const SpringSystem<__VA_ARGS__>&);                    \
-    KIND EnergyLimit<SCALAR> energy_limit(const SpringSystem<__VA_ARGS__>&);
+    KIND EnergyLimit<SCALAR> energy_limit(const SpringSystem<__VA_ARGS__>&);                    \
+    KIND StepLimit<SCALAR> energy_stable_limit(const SpringSystem<__VA_ARGS__>&);
 
 #define TAUT_COMPILED_EXPLICIT(KIND, SCALAR, DIM, ...)                      \
     TAUT_COMPILED_STEPPER(KIND, SymplecticEuler<SpringSystem<__VA_ARGS__>>) \
     TAUT_COMPILED_STEPPER(KIND, ExplicitEuler<SpringSystem<__VA_ARGS__>>)   \
-    TAUT_COMPILED_STEPPER(KIND, VelocityVerlet<SpringSystem<__VA_ARGS__>>)
+    TAUT_COMPILED_STEPPER(KIND, VelocityVerlet<SpringSystem<__VA_ARGS__>>)  \
+    TAUT_COMPILED_STEPPER(KIND, EnergyStableEuler<SpringSystem<__VA_ARGS__>>)
 
 #define TAUT_COMPILED_IMPLICIT(KIND, SCALAR, DIM, ...) \
     TAUT_COMPILED_STEPPER(KIND, ImplicitEuler<SpringSystem<__VA_ARGS__>>)

@@ -6,6 +6,7 @@
 // folder with a header of its name: docs/modules.md lists them.
 
 #include "core/version.hpp"
+#include "integrator/energy_stable_euler.hpp"
 #include "integrator/explicit_euler.hpp"
 #include "integrator/guarded.hpp"
 #include "integrator/implicit_euler.hpp"
@@ -20,6 +21,7 @@
 #include "solver/conjugate_gradient.hpp"
 #include "stability/any_pose.hpp"
 #include "stability/energy_limit.hpp"
+#include "stability/energy_stable_limit.hpp"
 #include "stability/rayleigh.hpp"
 #include "stability/stability.hpp"
 

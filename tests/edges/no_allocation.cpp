@@ -59,6 +59,7 @@ bool any_allocates(const System& system) {
     return allocates<taut::SymplecticEuler<System>>("symplectic_euler", system) ||
            allocates<taut::ExplicitEuler<System>>("explicit_euler", system) ||
            allocates<taut::VelocityVerlet<System>>("velocity_verlet", system) ||
+           allocates<taut::EnergyStableEuler<System>>("energy_stable_euler", system) ||
            allocates<taut::GraphInertia<System>>("graph_inertia", system, 1e-3);
 }
 

@@ -17,6 +17,7 @@ TEST_CASE("method: names are spelled as in the programs' JSON", "[method]") {
     CHECK(std::string(taut::name(Method::velocity_verlet)) == "velocity_verlet");
     CHECK(std::string(taut::name(Method::implicit_euler)) == "implicit_euler");
     CHECK(std::string(taut::name(Method::bdf2)) == "bdf2");
+    CHECK(std::string(taut::name(Method::energy_stable_euler)) == "energy_stable_euler");
     CHECK(std::string(taut::name(static_cast<Method>(99))) == "unknown");
 }
 
@@ -44,6 +45,11 @@ TEST_CASE("method: what is not proved is refused by name", "[method]") {
         (void)taut::method::visit_limited("a function", Method::bdf2, [](auto) { return 1; });
     });
     CHECK(missing(message, {"a function", "bdf2", "proved"}) == "");
+    const auto other = message_of([] {
+        (void)taut::method::visit_limited("a function", Method::energy_stable_euler,
+                                          [](auto) { return 1; });
+    });
+    CHECK(missing(other, {"a function", "energy_stable_euler", "energy_stable_limit"}) == "");
     CHECK(limited_methods.size() == 5);
     for (const Method method : limited_methods)
         CHECK(taut::method::visit_limited("", method, [](auto) { return 1; }) == 1);

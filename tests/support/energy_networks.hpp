@@ -11,8 +11,9 @@ namespace taut_test {
 
 /// Networks with masses and stiffnesses over `decades`, pins, springs of no rest length and
 /// particles on one another.
+/// @param dampers  whether every other spring has a damper, up to that of a stiff oscillator
 template <class System>
-System random_network(Random& random, double decades) {
+System random_network(Random& random, double decades, bool dampers = false) {
     using Scalar = typename System::Scalar;
     constexpr int Dim = System::Dim;
     const double side = std::pow(10, decades / 2);
@@ -33,7 +34,11 @@ System random_network(Random& random, double decades) {
                 random.below(6) == 0 ? Scalar(0) : static_cast<Scalar>(random.uniform(0.1, 1.5));
             auto parameters = draw_parameters<Scalar>(random, Law{});
             parameters.stiffness = any();
-            system.add_spring(taut::Spring<Scalar, Law>{a, b, parameters, rest});
+            const double most = std::sqrt(static_cast<double>(parameters.stiffness));
+            const bool damped = dampers && s % 2 == 0;
+            const auto damping = damped ? log_uniform(random, 1e-2, 1) * most : 0;
+            system.add_spring(
+                taut::Spring<Scalar, Law>{a, b, parameters, rest, static_cast<Scalar>(damping)});
         }
     });
     for (Index pins = random.below(3); pins > 0; --pins) system.pin(random.below(particles));

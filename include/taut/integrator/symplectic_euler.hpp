@@ -36,14 +36,6 @@ public:
     const StepDamping& damping() const { return steps_.damping(); }
 
 private:
-    struct Update {
-        template <class X, class V, class A, class Step>
-        EIGEN_ALWAYS_INLINE void operator()(X&& x, V&& v, const A& a, const Step& h) const {
-            v += h * a;
-            x += h * v;
-        }
-    };
-
     const System* system_;
     integrator_detail::ExplicitSteps<System> steps_;
 };
@@ -51,7 +43,7 @@ private:
 template <class System>
 template <class AnyState>
 Report SymplecticEuler<System>::step(AnyState& state, Scalar h, Index count) {
-    return steps_.run(*system_, state, h, count, Update{});
+    return steps_.run(*system_, state, h, count, integrator_detail::KickAndDrift{});
 }
 
 }  // namespace taut

@@ -14,7 +14,8 @@ enum class Method {
     implicit_euler,
     bdf2,
     graph_inertia,
-    last = graph_inertia  ///< the last method above; move it when you add one, at the end
+    energy_stable_euler,
+    last = energy_stable_euler  ///< the last method above; move it when you add one, at the end
 };
 
 /// The characteristic polynomial μ² + b μ + c of one step on one mode.
@@ -50,6 +51,7 @@ struct LimitedByDrag {};
 enum class AnyPose {
     no_step,    ///< none is certified: Guarded refuses the method, recommend() passes it over
     limited,    ///< those below any_pose_limit [T23]
+    proved,     ///< those below energy_stable_limit, and not linearised only [T42]
     every_step  ///< all, of an implicit method
 };
 

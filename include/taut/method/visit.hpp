@@ -8,6 +8,7 @@
 #include "../core/concepts.hpp"
 #include "../core/error.hpp"
 #include "bdf2.hpp"
+#include "energy_stable_euler.hpp"
 #include "explicit_euler.hpp"
 #include "graph_inertia.hpp"
 #include "implicit_euler.hpp"
@@ -22,7 +23,8 @@ template <class... Descriptors>
 struct List {};
 
 /// Every method, in the order of the enum: the one list.
-using All = List<ExplicitEuler, SymplecticEuler, VelocityVerlet, ImplicitEuler, Bdf2, GraphInertia>;
+using All = List<ExplicitEuler, SymplecticEuler, VelocityVerlet, ImplicitEuler, Bdf2, GraphInertia,
+                 EnergyStableEuler>;
 
 /// What a descriptor must have.
 template <class D>
@@ -76,8 +78,10 @@ auto visit_limited(const char* function, Method method, Action&& action) {
     return visit(method, [&](auto descriptor) -> Answer {
         using Descriptor = decltype(descriptor);
         if constexpr (is_absent_v<typename Descriptor::Limit>) {
-            fail(function, ": no step of ", Descriptor::name,
-                 " is proved safe at a pose; ask for implicit_euler, whose steps are");
+            fail(function, ": no step of ", Descriptor::name, " is proved safe at a pose; ask ",
+                 Descriptor::any_pose == AnyPose::proved
+                     ? "energy_stable_limit, which proves steps at every pose"
+                     : "for implicit_euler, whose steps are");
         } else {
             return action(descriptor);
         }

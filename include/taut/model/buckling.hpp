@@ -24,6 +24,7 @@ namespace taut {
 /// beam shows where c_b > 31.5 k_b/L³; a softer line is never exceeded. Not convex: it pushes.
 struct Buckling {
     static constexpr bool convex = false;
+    static constexpr bool monotone = true;
 
     /// What one spring needs beside its rest length.
     template <class Scalar>

@@ -14,6 +14,9 @@ namespace taut {
 struct Hookean {
     /// Whether the energy is convex in the positions, as theory [T24] asks.
     static constexpr bool convex = false;
+    /// Whether the tension never falls as the length grows; optional, false unless said. A convex
+    /// law's never does [T42].
+    static constexpr bool monotone = true;
     /// Whether the functions are plain arithmetic, so that Scalar may be a register of numbers.
     static constexpr bool vectorizable = true;
 

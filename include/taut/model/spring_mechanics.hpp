@@ -9,6 +9,7 @@
 #include "../core/types.hpp"
 #include "damping.hpp"
 #include "detail/law_check.hpp"
+#include "detail/where_less.hpp"
 
 namespace taut {
 
@@ -115,50 +116,47 @@ struct Pull {
     Real of_dv;  ///< N·s/m
 };
 
-namespace model_detail {
-
-/// `yes` where a < b, `no` elsewhere; registers have their own, lane by lane.
-template <class Real>
-Real where_less(const Real& a, const Real& b, const Real& yes, const Real& no) {
-    return a < b ? yes : no;
+/// Adds to a spring's pull that of its damper where Dampers, and of damping in proportion to
+/// stiffness, D = projected·K⁺ + graph·(L_k ⊗ I)  [T2], [T28], [T34]. Numbers, or registers of as
+/// many springs.
+/// @param spring  tension_slope(l), stiffness_bound(), axial_damping(): Spring has them
+/// @param by      factors of the damping in proportion to stiffness, s
+/// @param l2      dx·dx, m², of `length`   @param over_l  T/l, N/m
+/// @param dx_dv   dx·dv, m²/s; read where Dampers, or Kind is `projected`
+template <bool Dampers, Proportional Kind, class AnySpring, class Scalar, class Real>
+EIGEN_ALWAYS_INLINE void add_damping(const AnySpring& spring, const StiffnessDamping<Scalar>& by,
+                                     const SpringLength<Real>& length, const Real& l2,
+                                     const Real& over_l, const Real& dx_dv, Pull<Real>& pull) {
+    using model_detail::where_less;
+    const Real zero(Scalar(0));
+    Real bound = zero;
+    if constexpr (Kind != Proportional::none) {
+        bound = spring.stiffness_bound();
+        pull.of_dv = Real(by.graph) * bound;
+    }
+    [[maybe_unused]] const Real strain_rate = length.divide(length.divide(dx_dv));  // 1/s
+    if constexpr (Dampers) pull.of_dx += spring.axial_damping() * strain_rate;
+    if constexpr (Kind == Proportional::projected) {
+        const Real axial = k_plus(spring.tension_slope(length.l));
+        const Real transverse = where_less(zero, l2, k_plus(over_l), bound);
+        pull.of_dv += Real(by.projected) * transverse;
+        pull.of_dx += Real(by.projected) * (axial - transverse) * strain_rate;
+    }
 }
 
-}  // namespace model_detail
-
-/// The pull of a spring, of its damper where Dampers, and of damping in proportion to stiffness,
-/// D = projected·K⁺ + graph·(L_k ⊗ I)  [T2], [T28], [T34]. Numbers, or registers of as many
-/// springs.
+/// The pull of a spring and of its damping: see add_damping.
 ///
 /// Ends that coincide (l² = 0) have no direction: of_dx then stands for nothing and must meet
 /// dx = 0, and K⁺ is the law's bound times the identity.
-/// @param spring  tension(l), tension_slope(l), stiffness_bound(), axial_damping(): Spring has them
-/// @param by      factors of the damping in proportion to stiffness, s
-/// @param l2      dx·dx, m²
-/// @param dx_dv   dx·dv, m²/s; read where Dampers, or Kind is `projected`
 template <bool Dampers, Proportional Kind, class AnySpring, class Scalar, class Real>
 EIGEN_ALWAYS_INLINE Pull<Real> pull_coefficients(const AnySpring& spring,
                                                  const StiffnessDamping<Scalar>& by, const Real& l2,
                                                  const Real& dx_dv) {
-    using model_detail::where_less;
-    const Real zero(Scalar(0));
     const SpringLength<Real> length(l2);
     const Real over_l = length.divide(spring.tension(length.l));
-    Real of_dx = over_l;
-    Real of_dv = zero;
-    Real bound = zero;
-    if constexpr (Kind != Proportional::none) {
-        bound = spring.stiffness_bound();
-        of_dv = Real(by.graph) * bound;
-    }
-    [[maybe_unused]] const Real strain_rate = length.divide(length.divide(dx_dv));  // 1/s
-    if constexpr (Dampers) of_dx += spring.axial_damping() * strain_rate;
-    if constexpr (Kind == Proportional::projected) {
-        const Real axial = k_plus(spring.tension_slope(length.l));
-        const Real transverse = where_less(zero, l2, k_plus(over_l), bound);
-        of_dv += Real(by.projected) * transverse;
-        of_dx += Real(by.projected) * (axial - transverse) * strain_rate;
-    }
-    return {of_dx, of_dv};
+    Pull<Real> pull{over_l, Real(Scalar(0))};
+    add_damping<Dampers, Kind>(spring, by, length, l2, over_l, dx_dv, pull);
+    return pull;
 }
 
 /// The force of a spring at rest on its end a, N; the opposite acts on b. @param dx  x_b − x_a, m
@@ -188,6 +186,72 @@ Vector pull(const Spring<Scalar, Law>& spring, const Vector& dx, const Vector& d
     if (!(l2 == 0)) force = c.of_dx * dx;  // what is not a number stays so
     if (proportional) force += c.of_dv * dv;
     return force;
+}
+
+/// The pull of a spring one step ahead, on its end a: of_dx·y + of_dv·dv − of_here·dx, with
+/// y = dx + h·dv.
+template <class Real>
+struct PullAhead : Pull<Real> {
+    Real of_here;  // N/m, ≥ 0
+};
+
+namespace model_detail {
+
+/// φ of [T42], N: T(y), and where E(l) lies below the tangent of E at y the least change of it that
+/// proves the step.
+/// @param of_y  T(y), N   @param y, l  lengths ahead and as it is, m
+template <class AnySpring, class Real>
+EIGEN_ALWAYS_INLINE Real tension_ahead(const AnySpring& spring, const Real& of_y, const Real& y,
+                                       const Real& l) {
+    if constexpr (is_monotone_v<typename AnySpring::Law>) {
+        return of_y;
+    } else {
+        const Real zero(0);
+        const Real k = spring.stiffness_bound();
+        const Real below = k_plus(spring.energy(y) + of_y * (l - y) - spring.energy(l));
+        const Real square = Real(0.5) * k * (y - l) * (y - l);
+        const Real change = spring.tension(l) + k * (y - l) - of_y;
+        return where_less(zero, below, of_y + change * (below / (square + below)), of_y);
+    }
+}
+
+}  // namespace model_detail
+
+/// A spring one step ahead pulls along its new direction and pushes along the old one [T42]; it is
+/// damped at y. Numbers, or registers.
+/// @param y2    y·y, m²   @param y_dv  y·dv, m²/s   @param l2  dx·dx, m²
+template <bool Dampers, Proportional Kind, class AnySpring, class Scalar, class Real>
+EIGEN_ALWAYS_INLINE PullAhead<Real> pull_ahead_coefficients(const AnySpring& spring,
+                                                            const StiffnessDamping<Scalar>& by,
+                                                            const Real& y2, const Real& y_dv,
+                                                            const Real& l2) {
+    const SpringLength<Real> ahead(y2), here(l2);
+    const Real of_y = spring.tension(ahead.l);
+    const Real tension = model_detail::tension_ahead(spring, of_y, ahead.l, here.l);
+    PullAhead<Real> pull;
+    pull.of_dx = k_plus(ahead.divide(tension));
+    pull.of_dv = Real(Scalar(0));
+    pull.of_here = k_plus(here.divide(-tension));
+    add_damping<Dampers, Kind>(spring, by, ahead, y2, ahead.divide(of_y), y_dv, pull);
+    return pull;
+}
+
+/// The force of a spring one step ahead and of its damper on its end a, N; the opposite acts on b.
+/// @param dx  x_b − x_a, m   @param dv  v_b − v_a, m/s   @param h  of the step, s
+/// @param by  damping in proportion to stiffness, s
+template <class Scalar, class Law, class Vector>
+Vector pull_ahead(const Spring<Scalar, Law>& spring, const Vector& dx, const Vector& dv, Scalar h,
+                  const StiffnessDamping<Scalar>& by) {
+    const Vector y = dx + h * dv;
+    if constexpr (Law::convex) {
+        return pull(spring, y, dv, by);
+    } else {
+        const auto c = pull_ahead_coefficients<true, Proportional::projected>(
+            spring, by, y.squaredNorm(), y.dot(dv), dx.squaredNorm());
+        Vector force = c.of_dx * y + c.of_dv * dv;
+        if (!(dx.squaredNorm() == 0)) force -= c.of_here * dx;  // what is not a number stays so
+        return force;
+    }
 }
 
 /// The power that damping takes from one spring, vᵀDv, W, by the factors of its sum.

@@ -173,6 +173,8 @@ public:
     /// f ← total force on every particle, N, Dim × n; on a pinned one, what its pin has to bear.
     /// @param added  a stepper's own damping beside the system's, StepDamping::times(h)
     void force(const State& state, Force& f, const StepDamping& added = {}) const;
+    /// The same for a step of h, s, of EnergyStableEuler: springs pull as [T42] says.
+    void force_ahead(const State& state, Scalar h, Force& f) const;
     /// Whether any external force is set.
     bool has_external_force() const { return external_.any(); }
     /// All of them.
@@ -223,6 +225,10 @@ private:
     static constexpr bool has_law = (std::is_same_v<Law, Hookean> && sizeof...(Laws) == 0) ||
                                     (std::is_same_v<Law, Laws> || ...);
 
+    /// f ← forces of which those of springs are pull(spring) on their ends a, and the opposite on
+    /// b.
+    template <class PullOf>
+    void sum_forces(const State& state, Force& f, PullOf&& pull) const;
     void require_particle(const char* function, const char* argument, Index i) const;
     void require_mass(const char* function, Index i, Scalar mass) const;
     void set_pinned(Index i, bool pinned);

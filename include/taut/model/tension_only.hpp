@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "detail/where_less.hpp"
 #include "hookean.hpp"
 
 namespace taut {
@@ -12,6 +13,7 @@ namespace taut {
 /// The stretch and shear springs of Choi & Ko, "Stable but responsive cloth", SIGGRAPH 2002.
 struct TensionOnly {
     static constexpr bool convex = true;
+    static constexpr bool vectorizable = true;
 
     template <class Scalar>
     using Parameters = Hookean::Parameters<Scalar>;
@@ -19,12 +21,14 @@ struct TensionOnly {
     /// T(l), N; never negative.
     template <class Scalar>
     static Scalar tension(const Parameters<Scalar>& p, Scalar L, Scalar l) {
-        return l > L ? p.stiffness * (l - L) : Scalar(0);
+        using model_detail::where_less;
+        return where_less(L, l, p.stiffness * (l - L), Scalar(0));
     }
     /// T′(l), N/m; at l = L that of the slack side.
     template <class Scalar>
     static Scalar tension_slope(const Parameters<Scalar>& p, Scalar L, Scalar l) {
-        return l > L ? p.stiffness : Scalar(0);
+        using model_detail::where_less;
+        return where_less(L, l, p.stiffness, Scalar(0));
     }
     /// Energy, J.
     template <class Scalar>

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "../bdf2/bdf2.hpp"
+#include "../integrator/energy_stable_euler.hpp"
 #include "../integrator/explicit_euler.hpp"
 #include "../graph_inertia/graph_inertia.hpp"
 #include "../integrator/implicit_euler.hpp"
@@ -69,12 +70,17 @@ template <class System, class Solver>
 struct StepperOf<method::GraphInertia, System, Solver> {
     using type = GraphInertia<System>;
 };
+template <class System, class Solver>
+struct StepperOf<method::EnergyStableEuler, System, Solver> {
+    using type = EnergyStableEuler<System>;
+};
 
 /// The stepper of `candidate`, which has this descriptor and this solver.
 template <class Descriptor, class Solver, class System>
 auto make_stepper(const System& system, const Candidate& candidate) {
     using Stepper = typename StepperOf<Descriptor, System, Solver>::type;
-    if constexpr (Descriptor::method == Method::graph_inertia) {
+    if constexpr (Descriptor::method == Method::graph_inertia ||
+                  Descriptor::method == Method::energy_stable_euler) {
         return Stepper(system);
     } else if constexpr (!Descriptor::is_implicit) {
         return Stepper(system, ExplicitOptions{1, candidate.damping});
@@ -93,7 +99,8 @@ void with_stepper(const System& system, const Candidate& candidate, Action&& act
     using Gradients = ConjugateGradient<Scalar, System::Dim>;
     method::visit(candidate.method, [&](auto descriptor) {
         using Descriptor = decltype(descriptor);
-        if constexpr (Descriptor::method == Method::graph_inertia &&
+        if constexpr ((Descriptor::method == Method::graph_inertia ||
+                       Descriptor::method == Method::energy_stable_euler) &&
                       !model_detail::is_spring_system_v<System>) {
             fail("with_stepper: ", Descriptor::name, " needs the springs of a SpringSystem");
         } else {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "../stability/any_pose.hpp"
+#include "../stability/energy_stable_limit.hpp"
 #include "../stability/rayleigh.hpp"
 #include "choose.hpp"
 #include "cost.hpp"
@@ -77,6 +78,9 @@ std::vector<Plan> feasible_plans(const SpringSystem<Scalar, Dim, Laws...>& syste
         } else if (safe == method::AnyPose::limited && limit > 0) {
             const double share = share_of_limit(recipe.safety, candidate.damping);
             plans.push_back(plan_for(candidate, share * limit, goal, zeta));
+        } else if (safe == method::AnyPose::proved) {
+            const auto proved = static_cast<double>(energy_stable_limit(system).certified);
+            if (proved > 0) plans.push_back(plan_for(candidate, proved, goal, zeta));
         }
     }
     return plans;

@@ -23,7 +23,7 @@ public:
     using Block = Eigen::Matrix<double, Dim, Dim>;
 
     /// What of a system's damping a pencil has.
-    enum class Damping { all, all_but_graph, none };
+    enum class Damping { all, half, all_but_graph, none };
 
     /// The tangents of `system` at x, Dim × n, m. A spring that rounding may take across a kink of
     /// its law has the larger T′ of the two sides; a bound and a proof hold for both.
@@ -223,8 +223,13 @@ SpringPencil<Dim> SpringPencil<Dim>::any_pose(const System& system, Damping coun
     pencil.set_particles(system);
     // On Laplacians it is Rayleigh damping.
     const double graph = std::exchange(pencil.graph_damping_, 0);
-    if (counted == Damping::all) pencil.rayleigh_.stiffness_proportional += graph;
+    if (counted == Damping::all || counted == Damping::half)
+        pencil.rayleigh_.stiffness_proportional += graph;
     if (counted == Damping::none) pencil.rayleigh_ = {};
+    if (counted == Damping::half) {
+        pencil.rayleigh_.mass_proportional /= 2;
+        pencil.rayleigh_.stiffness_proportional /= 2;
+    }
     system.for_each_set([&](const auto& set) {
         for (std::size_t s = 0; s < set.a.size(); ++s) {
             pencil.add_link(set, s, [&](int index) {
@@ -238,6 +243,9 @@ SpringPencil<Dim> SpringPencil<Dim>::any_pose(const System& system, Damping coun
             });
         }
     });
+    if (counted == Damping::half) {
+        for (Link& link : pencil.links_) link.damping /= 2;
+    }
     if (counted == Damping::none) {
         for (Link& link : pencil.links_) link.damping = 0;
         pencil.facts_.is_rayleigh = true;

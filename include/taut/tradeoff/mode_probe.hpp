@@ -113,12 +113,14 @@ std::optional<ModeError> fitted_mode_error(const System& system, typename System
 
 /// What the steps of `candidate` do to one mode of a linear system without load: started in the
 /// mode's shape, its swing is projected on the mode and fitted. Nothing where a step fails or the
-/// steps do not swing, and for graph inertia, which needs springs.
+/// steps do not swing, and for methods that need springs.
 /// @param most_steps  the swing is followed for less than a period where that would take more
 template <class Scalar>
 std::optional<ModeError> measured_mode_error(const LinearSystem<Scalar>& system, const Mode& mode,
                                              const Candidate& candidate, Index most_steps = 4000) {
-    if (candidate.method == Method::graph_inertia) return std::nullopt;
+    if (candidate.method == Method::graph_inertia ||
+        candidate.method == Method::energy_stable_euler)
+        return std::nullopt;
     if (candidate.damping.look_ahead > 0) {  // a linear system's steps have none of their own
         Candidate damped = candidate;
         damped.damping.look_ahead = 0;

@@ -30,6 +30,10 @@ inline std::complex<double> multiplier_less_one(const SymplecticEuler&, double z
     const double far = -(b + std::sqrt(-under)) / 2;
     return b > 2 ? far : z * z / far;
 }
+/// Of symplectic Euler with the damping ratio ζ + z/2.
+inline std::complex<double> multiplier_less_one(EnergyStableEuler, double z, double zeta) {
+    return multiplier_less_one(SymplecticEuler{}, z, zeta + z / 2);
+}
 /// w/(1 − w), w = hλ.
 inline std::complex<double> multiplier_less_one(ImplicitEuler, double z, double zeta) {
     const std::complex<double> w = exponent(z, zeta);

@@ -13,6 +13,15 @@ namespace taut {
 
 namespace integrator_detail {
 
+/// v⁺ = v + h a, then x⁺ = x + h v⁺.
+struct KickAndDrift {
+    template <class X, class V, class A, class Step>
+    EIGEN_ALWAYS_INLINE void operator()(X&& x, V&& v, const A& a, const Step& h) const {
+        v += h * a;
+        x += h * v;
+    }
+};
+
 /// Steps of an explicit method: of a SpringSystem by a sweep, of other systems by System::force.
 template <class System>
 class ExplicitSteps {
@@ -69,6 +78,20 @@ public:
         } else {
             system.force(state, f_);
         }
+    }
+    /// Steps with the springs one step ahead [T42]. @param update  as of run()
+    template <class AnyState, class Update>
+    Report run_ahead(const System& system, AnyState& state, Scalar h, Index count,
+                     const Update& update) {
+        return run(
+            system, state, h, count,
+            [&](auto& sweep, int threads, const StepDamping&) {
+                return sweep.run_ahead(system, state, h, count, threads, update);
+            },
+            [&](State& own) {
+                system.force_ahead(own, h, f_);
+                update(own.x.array(), own.v.array(), acceleration(system), h);
+            });
     }
     /// One step by accelerations that are corrected all together, by the plain path.
     /// @param correct  as of Sweep::run_corrected

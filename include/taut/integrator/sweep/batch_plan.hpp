@@ -45,11 +45,12 @@ public:
               Table& table);
 
     /// Adds the forces of the tile's batches.
-    template <bool Dampers, Proportional Kind>
+    /// @tparam Both  whether a spring takes its positions ahead and as they are [T42]
+    template <bool Dampers, Proportional Kind, bool Both>
     void add_forces(const Table& table, const TileView<Scalar>& view) const {
         const auto tile = static_cast<std::size_t>(view.tile);
         for (std::size_t s = tile == 0 ? 0 : batch_end_[tile - 1]; s < batch_end_[tile]; ++s) {
-            add_batch<Dampers, Kind>(table, view, batches_[s]);
+            add_batch<Dampers, Kind, Both>(table, view, batches_[s]);
         }
     }
 
@@ -72,7 +73,7 @@ private:
 
     using Springs = std::vector<PlacedSpring>::const_iterator;
     Springs append_batch(const Set& set, Springs next, Springs end, Table& table);
-    template <bool Dampers, Proportional Kind>
+    template <bool Dampers, Proportional Kind, bool Both>
     void add_batch(const Table& table, const TileView<Scalar>& view, const Batch& batch) const;
 
     std::vector<Batch> batches_;          // tile by tile
@@ -127,13 +128,14 @@ auto BatchPlan<Scalar, Dim, Law>::append_batch(const Set& set, Springs next, Spr
 }
 
 template <class Scalar, int Dim, class Law>
-template <bool Dampers, Proportional Kind>
+template <bool Dampers, Proportional Kind, bool Both>
 void BatchPlan<Scalar, Dim, Law>::add_batch(const Table& table, const TileView<Scalar>& view,
                                             const Batch& batch) const {
     constexpr bool velocities = Dampers || Kind != Proportional::none;
     constexpr int chunk = 64;  // springs; all that is known of them stays in the first cache
     static_assert(chunk % max_width == 0);
     alignas(64) Vector x[most_gathered];
+    alignas(64) Vector here[Both ? most_gathered : 1];
     alignas(64) Vector v[velocities ? most_gathered : 1];
     alignas(64) Vector f[most_gathered];
     const int* places = gathered_.data() + batch.first_gathered;
@@ -141,16 +143,22 @@ void BatchPlan<Scalar, Dim, Law>::add_batch(const Table& table, const TileView<S
         x[g].setZero();
         f[g].setZero();
         for (int d = 0; d < Dim; ++d) x[g][d] = view.x[d][places[g]];
+        if constexpr (Both) {
+            here[g].setZero();
+            for (int d = 0; d < Dim; ++d) here[g][d] = view.at[d][places[g]];
+        }
         if constexpr (velocities) {
             v[g].setZero();
             for (int d = 0; d < Dim; ++d) v[g][d] = view.v[d][places[g]];
         }
     }
     alignas(64) Vector dx[chunk];
+    alignas(64) Vector old_dx[Both ? chunk : 1];
     alignas(64) Vector dv[velocities ? chunk : 1];
     // Coefficients overwrite the products that they are made of.
     alignas(64) Scalar l2[chunk] = {};
     alignas(64) Scalar dx_dv[chunk] = {};
+    alignas(64) Scalar old_l2[Both ? chunk : 1] = {};
     typename Table::Reader springs(table, batch.columns, 0);
     for (int done = 0; done < batch.springs; done += chunk) {
         const Ends* ends = ends_.data() + batch.first_spring + done;
@@ -158,19 +166,34 @@ void BatchPlan<Scalar, Dim, Law>::add_batch(const Table& table, const TileView<S
         for (int s = 0; s < count; ++s) {
             dx[s] = x[ends[s].b] - x[ends[s].a];
             l2[s] = dx[s].square().sum();
+            if constexpr (Both) {
+                old_dx[s] = here[ends[s].b] - here[ends[s].a];
+                old_l2[s] = old_dx[s].square().sum();
+            }
             if constexpr (velocities) {
                 dv[s] = v[ends[s].b] - v[ends[s].a];
                 dx_dv[s] = (dx[s] * dv[s]).sum();
             }
         }
         for (int s = 0; s < count; s += Register::width, springs.next()) {
-            const auto pull = springs.template pull<Dampers, Kind>(
-                view.damping, Register::load(l2 + s), Register::load(dx_dv + s));
-            pull.of_dx.store(l2 + s);
-            pull.of_dv.store(dx_dv + s);
+            const Register square = Register::load(l2 + s);
+            const Register product = Register::load(dx_dv + s);
+            const auto keep = [&](const auto& pull) {
+                pull.of_dx.store(l2 + s);
+                pull.of_dv.store(dx_dv + s);
+            };
+            if constexpr (Both) {
+                const auto pull = springs.template pull_ahead<Dampers, Kind>(
+                    view.damping, square, product, Register::load(old_l2 + s));
+                keep(pull);
+                pull.of_here.store(old_l2 + s);
+            } else {
+                keep(springs.template pull<Dampers, Kind>(view.damping, square, product));
+            }
         }
         for (int s = 0; s < count; ++s) {
             Vector force = l2[s] * dx[s];
+            if constexpr (Both) force -= old_l2[s] * old_dx[s];
             if constexpr (Kind != Proportional::none) force += dx_dv[s] * dv[s];
             f[ends[s].a] += force;
             f[ends[s].b] -= force;

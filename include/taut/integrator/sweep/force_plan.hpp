@@ -21,9 +21,18 @@ namespace taut::integrator_detail::sweep {
 /// either.
 template <class System>
 class ForcePlan {
+    template <class... Sets>
+    static constexpr bool some_law_pushes(std::tuple<Sets...>*) {
+        return (!Sets::Law::convex || ...);
+    }
+
 public:
     using Scalar = typename System::Scalar;
     static constexpr int Dim = System::Dim;
+
+    /// Whether some law may push.
+    static constexpr bool pushes =
+        some_law_pushes(static_cast<typename System::SpringSets*>(nullptr));
 
     /// Brings the plan up to date with particles, springs and the outside force. @returns whether
     /// it changed
@@ -90,12 +99,14 @@ public:
 
     /// Adds the forces of the tile's springs, of all their damping, and of the outside force, on
     /// the places of its block.
+    /// @tparam Ahead  whether springs that push do so along the old direction [T42]
+    template <bool Ahead>
     void add_forces(const TileView<Scalar>& view) const {
         if (outside_) outside_->add(*outside_plan_, view);
         std::apply(
             [&](const auto&... plan) {
                 const auto add = [&](auto kind) {
-                    (plan.template add_forces<decltype(kind)::value>(view, stars_), ...);
+                    (plan.template add_forces<decltype(kind)::value, Ahead>(view, stars_), ...);
                 };
                 if (view.damping.projected > 0) {
                     add(std::integral_constant<Proportional, Proportional::projected>{});

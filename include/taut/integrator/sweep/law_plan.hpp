@@ -28,19 +28,22 @@ public:
     /// Whether a spring has a damper of its own.
     bool damped() const { return damped_; }
     /// Adds the forces of the tile's springs on the places of its block.
-    template <Proportional Kind>
+    /// @tparam Ahead  whether springs that push do so along the old direction [T42]
+    template <Proportional Kind, bool Ahead>
     void add_forces(const TileView<Scalar>& view, bool stars) const {
-        damped_ ? add_forces<true, Kind>(view, stars) : add_forces<false, Kind>(view, stars);
+        constexpr bool both = Ahead && !Law::convex;
+        damped_ ? add_forces<true, Kind, both>(view, stars)
+                : add_forces<false, Kind, both>(view, stars);
     }
 
 private:
-    template <bool Dampers, Proportional Kind>
+    template <bool Dampers, Proportional Kind, bool Both>
     void add_forces(const TileView<Scalar>& view, bool stars) const {
         if constexpr (Dim > 1) {
-            if (stars) return stars_.template add_forces<Dampers, Kind>(view);
+            if (stars) return stars_.template add_forces<Dampers, Kind, Both>(view);
         }
-        runs_.template add_forces<Dampers, Kind>(table_, view);
-        batches_.template add_forces<Dampers, Kind>(table_, view);
+        runs_.template add_forces<Dampers, Kind, Both>(table_, view);
+        batches_.template add_forces<Dampers, Kind, Both>(table_, view);
     }
 
     SpringTable<Scalar, Law> table_;  // of runs and batches

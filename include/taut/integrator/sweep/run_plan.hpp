@@ -27,11 +27,12 @@ public:
             Table& table);
 
     /// Adds the forces of the tile's segments.
-    template <bool Dampers, Proportional Kind>
+    /// @tparam Both  whether a spring takes its positions ahead and as they are [T42]
+    template <bool Dampers, Proportional Kind, bool Both>
     void add_forces(const Table& table, const TileView<Scalar>& view) const {
         const auto tile = static_cast<std::size_t>(view.tile);
         for (std::size_t s = tile == 0 ? 0 : segment_end_[tile - 1]; s < segment_end_[tile]; ++s) {
-            add_segment<Dampers, Kind>(table, view, segments_[s]);
+            add_segment<Dampers, Kind, Both>(table, view, segments_[s]);
         }
     }
 
@@ -60,7 +61,7 @@ private:
     }
     void add_run(const Set& set, const SortedSprings::Run& run, const Blocks& blocks, Table& table,
                  std::vector<std::vector<Segment>>& segments);
-    template <bool Dampers, Proportional Kind>
+    template <bool Dampers, Proportional Kind, bool Both>
     void add_segment(const Table& table, const TileView<Scalar>& view,
                      const Segment& segment) const;
 
@@ -125,7 +126,7 @@ void RunPlan<Scalar, Dim, Law>::add_run(const Set& set, const SortedSprings::Run
 }
 
 template <class Scalar, int Dim, class Law>
-template <bool Dampers, Proportional Kind>
+template <bool Dampers, Proportional Kind, bool Both>
 void RunPlan<Scalar, Dim, Law>::add_segment(const Table& table, const TileView<Scalar>& view,
                                             const Segment& segment) const {
     const Run& run = runs_[segment.run];
@@ -133,6 +134,8 @@ void RunPlan<Scalar, Dim, Law>::add_segment(const Table& table, const TileView<S
     const int first_b = first_a + run.offset;
     const Planes<const Scalar> x_a = view.x.at(first_a);
     const Planes<const Scalar> x_b = view.x.at(first_b);
+    [[maybe_unused]] const Planes<const Scalar> here_a = view.at.at(first_a);
+    [[maybe_unused]] const Planes<const Scalar> here_b = view.at.at(first_b);
     const Planes<const Scalar> v_a = view.v.at(first_a);
     const Planes<const Scalar> v_b = view.v.at(first_b);
     const Planes<Scalar> force_a =
@@ -143,17 +146,29 @@ void RunPlan<Scalar, Dim, Law>::add_segment(const Table& table, const TileView<S
                                    static_cast<std::size_t>(first_a - run.first_a));
     for (int i = 0; i < segment.count; i += width, springs.next()) {
         Vector dx, dv;
+        [[maybe_unused]] Vector here;
         for_each_axis<Dim>([&](int d) {
             dx[d] = Register::load(x_b[d] + i) - Register::load(x_a[d] + i);
             if constexpr (Dampers || Kind != Proportional::none) {
                 dv[d] = Register::load(v_b[d] + i) - Register::load(v_a[d] + i);
             }
+            if constexpr (Both) {
+                here[d] = Register::load(here_b[d] + i) - Register::load(here_a[d] + i);
+            }
         });
         Register dx_dv(Scalar(0));
         if constexpr (Dampers || Kind == Proportional::projected) dx_dv = dot(dx, dv);
-        const auto pull = springs.template pull<Dampers, Kind>(view.damping, dot(dx, dx), dx_dv);
+        const auto pull = [&] {
+            if constexpr (Both) {
+                return springs.template pull_ahead<Dampers, Kind>(view.damping, dot(dx, dx), dx_dv,
+                                                                  dot(here, here));
+            } else {
+                return springs.template pull<Dampers, Kind>(view.damping, dot(dx, dx), dx_dv);
+            }
+        }();
         for_each_axis<Dim>([&](int d) {
             Register force = pull.of_dx * dx[d];
+            if constexpr (Both) force -= pull.of_here * here[d];
             if constexpr (Kind != Proportional::none) force += pull.of_dv * dv[d];
             Scalar* on_a = force_a[d] + i;
             Scalar* on_b = force_b[d] + i;

@@ -40,8 +40,9 @@ inline constexpr bool is_vectorizable_v<Law, std::void_t<decltype(Law::vectoriza
 
 /// Rest lengths, dampings and parameters of one law's springs, in the order in which a sweep reads
 /// them: a column for each quantity of each run and each batch, or of all stars.
-template <class Scalar, class Law, class Register = VectorRegister<Scalar>>
+template <class Scalar, class Law_, class Register = VectorRegister<Scalar>>
 class SpringTable {
+    using Law = Law_;
     using Parameters = typename Law::template Parameters<Scalar>;
     static constexpr bool vectorizable = is_vectorizable_v<Law>;
     static constexpr std::size_t fields = vectorizable ? sizeof(Parameters) / sizeof(Scalar) : 0;
@@ -114,6 +115,8 @@ public:
     /// lanes.
     class Reader {
     public:
+        using Law = Law_;
+
         /// At spring i of those columns.
         Reader(const SpringTable& table, const Columns& columns, std::size_t i)
             : rest_length_(table.reader(columns.rest_length, i)),
@@ -140,6 +143,16 @@ public:
             return evaluate([](const auto&... of) { return Law::stiffness_bound(of...); });
         }
         EIGEN_ALWAYS_INLINE Register axial_damping() const { return damping_.load(); }
+        /// Lane by lane: no law's energy need take a register.
+        Register energy(const Register& l) const {
+            const Numbers L(max(rest_length_.load(), Register(Scalar(0)))), length(l);
+            std::array<Scalar, Register::width> result;
+            for (std::size_t lane = 0; lane < result.size(); ++lane) {
+                result[lane] =
+                    Law::energy(parameters_of(lane), L.values[lane], length.values[lane]);
+            }
+            return Register::load(result.data());
+        }
         /// The pull of the springs here, 0 in the gaps: see pull_coefficients.
         template <bool Dampers, Proportional Kind>
         EIGEN_ALWAYS_INLINE Pull<Register> pull(const StiffnessDamping<Scalar>& by,
@@ -148,6 +161,18 @@ public:
             const Register L = rest_length_.load();
             return {unless_negative(L, pull.of_dx),
                     Kind == Proportional::none ? pull.of_dv : unless_negative(L, pull.of_dv)};
+        }
+        /// The pull of the springs here one step ahead, 0 in the gaps: see pull_ahead_coefficients.
+        template <bool Dampers, Proportional Kind>
+        EIGEN_ALWAYS_INLINE PullAhead<Register> pull_ahead(const StiffnessDamping<Scalar>& by,
+                                                           const Register& y2, const Register& y_dv,
+                                                           const Register& l2) const {
+            auto pull = pull_ahead_coefficients<Dampers, Kind>(*this, by, y2, y_dv, l2);
+            const Register L = rest_length_.load();
+            pull.of_dx = unless_negative(L, pull.of_dx);
+            pull.of_here = unless_negative(L, pull.of_here);
+            if constexpr (Kind != Proportional::none) pull.of_dv = unless_negative(L, pull.of_dv);
+            return pull;
         }
 
     private:
@@ -165,6 +190,20 @@ public:
                 // A gap has a length that no spring has; a law must not see it.
                 return lane_by_lane(function, Numbers(max(L, Register(Scalar(0)))),
                                     Numbers(more)...);
+            }
+        }
+        /// Of the spring in one lane.
+        Parameters parameters_of(std::size_t lane) const {
+            if constexpr (vectorizable) {
+                std::array<Scalar, fields> values;
+                for (std::size_t f = 0; f < fields; ++f) {
+                    values[f] = Numbers(field_[f].load()).values[lane];
+                }
+                Parameters p;
+                std::memcpy(&p, values.data(), sizeof p);
+                return p;
+            } else {
+                return parameters_[lane];
             }
         }
         template <class Function, class... More>

@@ -36,11 +36,14 @@ public:
     StarPlan(const Set& set, const std::vector<PlacedSpring>& springs, const Blocks& blocks);
 
     /// Adds the forces of the tile's stars; then those on its places are complete.
-    template <bool Dampers, Proportional Kind>
+    /// @tparam Both  whether a spring takes its positions ahead and as they are [T42]
+    template <bool Dampers, Proportional Kind, bool Both>
     void add_forces(const TileView<Scalar>& view) const {
         const auto tile = static_cast<std::size_t>(view.tile);
         const Index first = static_cast<Index>(view.begin) * 4;
-        Group of{view.x.first + first, view.v.first + first, nullptr, nullptr, view.force_a.first};
+        Group of{
+            view.x.first + first, view.at.first + first, view.v.first + first, nullptr, nullptr,
+            view.force_a.first};
         constexpr std::make_integer_sequence<int, group> all;
         std::size_t g = tile == 0 ? 0 : ends_[tile - 1].all;
         typename Table::Reader springs(table_, columns_, g * group * star_size);
@@ -48,11 +51,11 @@ public:
             of.stars = &stars_[g * group];
             const auto targets = within_block(of.stars, 4 * view.size);
             of.targets = targets.data();
-            add_group<Dampers, Kind>(view.damping, springs, of, all);
+            add_group<Dampers, Kind, Both>(view.damping, springs, of, all);
         }
         for (const std::size_t end = ends_[tile].all; g < end; ++g) {
             of.stars = of.targets = &stars_[g * group];
-            add_group<Dampers, Kind>(view.damping, springs, of, all);
+            add_group<Dampers, Kind, Both>(view.damping, springs, of, all);
         }
     }
 
@@ -115,44 +118,62 @@ private:
     /// What a group of stars reads and writes.
     struct Group {
         const Scalar* x;
+        const Scalar* here;
         const Scalar* v;
         const Star* stars;
         const Star* targets;
         Scalar* forces;
     };
-    template <bool Dampers, Proportional Kind, int... s>
+    template <bool Dampers, Proportional Kind, bool Both, int... s>
     static EIGEN_ALWAYS_INLINE void add_group(const StiffnessDamping<Scalar>& damping,
                                               typename Table::Reader& springs, const Group& of,
                                               Numbers<s...>);
     /// Coefficients of the springs of a group.
     struct Pulls {
-        alignas(64) std::array<Scalar, group * star_size> of_dx, of_dv;
+        alignas(64) std::array<Scalar, group * star_size> of_dx, of_dv, of_here;
     };
-    template <bool Dampers, Proportional Kind>
+    template <bool Dampers, Proportional Kind, bool Both>
     static EIGEN_ALWAYS_INLINE void pull(const StiffnessDamping<Scalar>& damping,
                                          typename Table::Reader& springs, const Register& l2,
-                                         const Register& dx_dv, Pulls& pulls, int first) {
-        const auto pull = springs.template pull<Dampers, Kind>(damping, l2, dx_dv);
-        pull.of_dx.store(pulls.of_dx.data() + first);
-        if constexpr (Kind != Proportional::none) pull.of_dv.store(pulls.of_dv.data() + first);
+                                         const Register& dx_dv,
+                                         [[maybe_unused]] const Register& old_l2, Pulls& pulls,
+                                         int first) {
+        const auto keep = [&](const auto& pull) {
+            pull.of_dx.store(pulls.of_dx.data() + first);
+            if constexpr (Kind != Proportional::none) pull.of_dv.store(pulls.of_dv.data() + first);
+            if constexpr (Both) pull.of_here.store(pulls.of_here.data() + first);
+        };
+        if constexpr (Both) {
+            keep(springs.template pull_ahead<Dampers, Kind>(damping, l2, dx_dv, old_l2));
+        } else {
+            keep(springs.template pull<Dampers, Kind>(damping, l2, dx_dv));
+        }
         springs.next();
     }
-    template <bool Dampers, Proportional Kind, int... i>
+    template <bool Dampers, Proportional Kind, bool Both, int... i>
     static EIGEN_ALWAYS_INLINE void pull(const StiffnessDamping<Scalar>& damping,
                                          typename Table::Reader& springs, const Lanes& l2,
-                                         const Lanes& dx_dv, Pulls& pulls, Numbers<i...>) {
-        (pull<Dampers, Kind>(damping, springs, l2[i], dx_dv[i], pulls, i * Register::width), ...);
+                                         const Lanes& dx_dv, const Lanes& old_l2, Pulls& pulls,
+                                         Numbers<i...>) {
+        (pull<Dampers, Kind, Both>(damping, springs, l2[i], dx_dv[i], old_l2[i], pulls,
+                                   i * Register::width),
+         ...);
     }
-    template <Proportional Kind, int... k>
+    template <Proportional Kind, bool Both, int... k>
     static EIGEN_ALWAYS_INLINE Vectors forces(const Pulls& pulls, int first, const Vectors& dx,
-                                              [[maybe_unused]] const Vectors& dv, Numbers<k...>) {
+                                              [[maybe_unused]] const Vectors& dv,
+                                              [[maybe_unused]] const Vectors& here, Numbers<k...>) {
         const auto of_dx = Point::factors(pulls.of_dx.data() + first);
-        if constexpr (Kind == Proportional::none) {
-            return {(of_dx[k] * dx[k])...};
-        } else {
-            const auto of_dv = Point::factors(pulls.of_dv.data() + first);
-            return {(of_dx[k] * dx[k] + of_dv[k] * dv[k])...};
+        Vectors force{(of_dx[k] * dx[k])...};
+        if constexpr (Both) {
+            const auto of_here = Point::factors(pulls.of_here.data() + first);
+            force = {(force[k] - of_here[k] * here[k])...};
         }
+        if constexpr (Kind != Proportional::none) {
+            const auto of_dv = Point::factors(pulls.of_dv.data() + first);
+            force = {(force[k] + of_dv[k] * dv[k])...};
+        }
+        return force;
     }
 
     std::vector<Star> stars_;  // tile by tile, in groups
@@ -199,22 +220,27 @@ StarPlan<Scalar, Law>::StarPlan(const Set& set, const std::vector<PlacedSpring>&
 }
 
 template <class Scalar, class Law>
-template <bool Dampers, Proportional Kind, int... s>
+template <bool Dampers, Proportional Kind, bool Both, int... s>
 EIGEN_ALWAYS_INLINE void StarPlan<Scalar, Law>::add_group(const StiffnessDamping<Scalar>& damping,
                                                           typename Table::Reader& springs,
                                                           const Group& of, Numbers<s...>) {
     const std::array<Vectors, group> dx{differences(of.x, of.stars[s], all_tips)...};
     [[maybe_unused]] std::array<Vectors, group> dv;
-    Lanes dx_dv{};
+    [[maybe_unused]] std::array<Vectors, group> here;
+    Lanes dx_dv{}, old_l2{};
     if constexpr (Dampers || Kind != Proportional::none) {
         dv = {differences(of.v, of.stars[s], all_tips)...};
         dx_dv = lanes({dots(dx[s], dv[s])...});
     }
+    if constexpr (Both) {
+        here = {differences(of.here, of.stars[s], all_tips)...};
+        old_l2 = lanes({dots(here[s], here[s])...});
+    }
     Pulls pulls;
-    pull<Dampers, Kind>(damping, springs, lanes({dots(dx[s], dx[s])...}), dx_dv, pulls,
-                        std::make_integer_sequence<int, std::tuple_size_v<Lanes>>());
-    (add_star(of.forces, of.targets[s], forces<Kind>(pulls, s * star_size, dx[s], dv[s], all_tips),
-              all_tips),
+    pull<Dampers, Kind, Both>(damping, springs, lanes({dots(dx[s], dx[s])...}), dx_dv, old_l2,
+                              pulls, std::make_integer_sequence<int, std::tuple_size_v<Lanes>>());
+    (add_star(of.forces, of.targets[s],
+              forces<Kind, Both>(pulls, s * star_size, dx[s], dv[s], here[s], all_tips), all_tips),
      ...);
 }
 

@@ -167,6 +167,14 @@
 
 namespace taut::integrator_detail::sweep {
 
+/// An update of steps whose springs take their positions ahead and as they are.
+template <class Update>
+struct WithBoth : Update {};
+template <class Update>
+inline constexpr bool is_with_both_v = false;
+template <class Update>
+inline constexpr bool is_with_both_v<WithBoth<Update>> = true;
+
 /// Explicit steps of a SpringSystem.
 template <class System>
 class Sweep {
@@ -181,6 +189,11 @@ public:
     template <class AnyState, class Update>
     bool run(const System& system, AnyState& state, Scalar h, Index count, int threads,
              const StepDamping& added, const Update& update);
+    /// The same with the springs one step ahead: they pull along their new direction, push along
+    /// the old one [T42].
+    template <class AnyState, class Update>
+    bool run_ahead(const System& system, AnyState& state, Scalar h, Index count, int threads,
+                   const Update& update);
     /// Takes `count` > 0 steps of velocity Verlet.
     /// @param go_on  whether state and system are as the last call of this left them, and h is the
     ///               same or `added` none
@@ -202,8 +215,10 @@ private:
     static constexpr Index scratch_stride = most_of_block + most_of_block / 16;
 
     /// Brings all members up to date.
+    /// @param both  whether springs that push take their positions as they are, too
     template <class AnyState>
-    void load(const System& system, const AnyState& state, const StepDamping& added);
+    void load(const System& system, const AnyState& state, const StepDamping& added, Scalar ahead,
+              bool both = false);
     /// Puts the state back after `count` steps. @param x  its positions, planes, m
     template <class AnyState>
     void store(const Planes<Scalar>& x, Scalar h, Index count, AnyState& state) const {
@@ -236,16 +251,18 @@ private:
 
 template <class System>
 template <class AnyState>
-void Sweep<System>::load(const System& system, const AnyState& state, const StepDamping& added) {
+void Sweep<System>::load(const System& system, const AnyState& state, const StepDamping& added,
+                         Scalar ahead, bool both) {
     damping_ = system.stiffness_damping(added).template cast<Scalar>();
-    ahead_ = static_cast<Scalar>(added.look_ahead);
+    ahead_ = ahead;
     const bool new_plan = plan_.update(system);
     if (new_plan) places_.clear();
     // A new plan may have other places for what is discarded.
     if (new_plan) scratch_.setZero();
     const Index size = plan_.size() * plan_.grain();
-    state_.resize(plan_.planes(), size, plan_.stride(), ahead_ > 0,
-                  {plan_.damped() || bool(damping_) || plan_.has_outside(), plan_.has_outside()});
+    state_.resize(
+        plan_.planes(), size, plan_.stride(), ahead_ > 0,
+        {plan_.damped() || bool(damping_) || plan_.has_outside(), plan_.has_outside() || both});
     plan_.to_planes(state.x, state_.planes().x);
     plan_.to_planes(state.v, state_.planes().v);
     if (ahead_ > 0) state_.look_ahead(ahead_);
@@ -338,7 +355,7 @@ void Sweep<System>::step_block(const StatePlanes<Scalar>& planes, int block, Sca
     constexpr Index grain = Stars ? 4 : 1;
     for (Index i = 0; i < count; i += tile_size) {
         view.tile = static_cast<int>((begin + i) / tile_size);
-        plan_.add_forces(view);
+        plan_.template add_forces<is_with_both_v<Update>>(view);
         update_.template move<Pins, Drag, Stars>(
             planes, (begin + i) * grain, std::min<Index>(tile_size, count - i) * grain, h,
             view.force_a.at(i * grain), view.force_b.at(i * grain), update);

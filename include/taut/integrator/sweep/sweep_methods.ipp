@@ -10,17 +10,33 @@ template <class System>
 template <class AnyState, class Update>
 bool Sweep<System>::run(const System& system, AnyState& state, Scalar h, Index count, int threads,
                         const StepDamping& added, const Update& update) {
-    load(system, state, added);
+    load(system, state, added, static_cast<Scalar>(added.look_ahead));
     if (!steps(h, count, threads, update)) return false;
     store(state_.planes().x, h, count, state);
     return true;
 }
 
 template <class System>
+template <class AnyState, class Update>
+bool Sweep<System>::run_ahead(const System& system, AnyState& state, Scalar h, Index count,
+                              int threads, const Update& update) {
+    constexpr bool pushes = ForcePlan<System>::pushes;
+    load(system, state, {}, h, pushes);
+    bool finite;
+    if constexpr (pushes) {
+        finite = steps(h, count, threads, WithBoth<Update>{update});
+    } else {
+        finite = steps(h, count, threads, update);
+    }
+    if (finite) store(state_.planes().x, h, count, state);
+    return finite;
+}
+
+template <class System>
 template <class AnyState>
 bool Sweep<System>::run_verlet(const System& system, AnyState& state, Scalar h, Index count,
                                int threads, const StepDamping& added, bool go_on) {
-    load(system, state, added);
+    load(system, state, added, static_cast<Scalar>(added.look_ahead));
     const Scalar half = h / 2;
     const auto kick_and_drift = [half](auto& x, auto& v, const auto& a, const auto& step) {
         v += Register(half) * a;
@@ -60,7 +76,7 @@ template <class System>
 template <class AnyState, class Correct>
 bool Sweep<System>::run_corrected(const System& system, AnyState& state, Scalar h, Index count,
                                   int threads, const Correct& correct) {
-    load(system, state, {});
+    load(system, state, {}, 0);
     const bool one_by_one = outside_.asks_for_state();
     if (one_by_one && !state_.finite()) return false;
     if (places_.empty()) places_ = plan_.places();

@@ -54,6 +54,16 @@ using usable_law = std::conditional_t<detail::LawHas<Law, Scalar>::all, Law, Any
 template <class Law, class Scalar>
 using usable_parameters = typename usable_law<Law, Scalar>::template Parameters<Scalar>;
 
+template <class Law>
+using monotone_of = std::bool_constant<static_cast<bool>(Law::monotone)>;
+
+/// Whether a law says that its tension never falls (docs/concepts.md).
+template <class Law, class = void>
+inline constexpr bool is_monotone_v = Law::convex;
+template <class Law>
+inline constexpr bool is_monotone_v<Law, std::void_t<monotone_of<Law>>> =
+    Law::convex || Law::monotone;
+
 /// The law's name as its code spells it.
 template <class Law>
 std::string law_name() {
@@ -69,7 +79,8 @@ std::string law_name() {
 }
 
 /// Fails by law and length if T/l or T′ exceeds the law's bound at one of 49 lengths from 1/4096 of
-/// the rest length to 4096 times it: every limit would be false. For debug builds.
+/// the rest length to 4096 times it: every limit would be false; or if a law that says its tension
+/// never falls has T′ < 0 there. For debug builds.
 template <class Law, class Scalar>
 void check_law(const usable_parameters<Law, Scalar>& p, Scalar L) {
     const Scalar bound = Law::stiffness_bound(p, L);
@@ -80,6 +91,11 @@ void check_law(const usable_parameters<Law, Scalar>& p, Scalar L) {
         const Scalar l = unit * std::exp2(Scalar(i) / 2);
         const Scalar slope = Law::tension_slope(p, L, l);
         const Scalar ratio = Law::tension(p, L, l) / l;
+        if (is_monotone_v<Law> && slope < bound - most) {
+            fail("SpringSystem::add_spring: ", law_name<Law>().c_str(),
+                 " says that its tension never falls, but at length ", l, " of rest length ", L,
+                 " T' is ", slope);
+        }
         if (!exceeds(slope) && !exceeds(ratio)) continue;
         fail("SpringSystem::add_spring: ", law_name<Law>().c_str(), " has stiffness_bound ", bound,
              ", but at length ", l, " of rest length ", L, exceeds(slope) ? " T' is " : " T/l is ",

@@ -5,9 +5,9 @@
 namespace taut {
 
 template <class Scalar, int Dim, class... Laws>
-void SpringSystem<Scalar, Dim, Laws...>::force(const State& state, Force& f,
-                                               const StepDamping& added) const {
-    detail::require_fits("SpringSystem::force", state, size());
+template <class PullOf>
+void SpringSystem<Scalar, Dim, Laws...>::sum_forces(const State& state, Force& f,
+                                                    PullOf&& pull) const {
     const Eigen::Map<const VectorX<Scalar>> mass(mass_.data(), size());
     f.resize(Dim, size());
     f.noalias() = gravity_ * mass.transpose();
@@ -15,30 +15,40 @@ void SpringSystem<Scalar, Dim, Laws...>::force(const State& state, Force& f,
         const Scalar d0 = static_cast<Scalar>(rayleigh_.mass_proportional);
         f.array() -= state.v.array().rowwise() * (d0 * mass.transpose().array());
     }
-    const auto by = stiffness_damping(added).template cast<Scalar>();
-    const auto ahead = static_cast<Scalar>(added.look_ahead);
-    const auto between = [](const auto& points, const auto& spring) {
-        return Vector(points.col(spring.b) - points.col(spring.a));
-    };
     for_each_set([&](const auto& set) {
-        if (!by && ahead == 0 && set.damping.empty()) {
-            for (const auto spring : set) {
-                const Vector force = pull(spring, between(state.x, spring));
-                f.col(spring.a) += force;
-                f.col(spring.b) -= force;
-            }
-            return;
-        }
         for (const auto spring : set) {
-            const Vector dv = between(state.v, spring);
-            Vector dx = between(state.x, spring);
-            if (ahead != 0) dx += ahead * dv;  // 0·∞ would hide an overflow
-            const Vector force = pull(spring, dx, dv, by);
+            const Vector force = pull(spring);
             f.col(spring.a) += force;
             f.col(spring.b) -= force;
         }
     });
     external_.add(state, f);
+}
+
+template <class Scalar, int Dim, class... Laws>
+void SpringSystem<Scalar, Dim, Laws...>::force(const State& state, Force& f,
+                                               const StepDamping& added) const {
+    detail::require_fits("SpringSystem::force", state, size());
+    const auto by = stiffness_damping(added).template cast<Scalar>();
+    const auto ahead = static_cast<Scalar>(added.look_ahead);
+    sum_forces(state, f, [&](const auto& spring) -> Vector {
+        Vector dx = state.x.col(spring.b) - state.x.col(spring.a);
+        if (!by && ahead == 0 && spring.damping == 0) return pull(spring, dx);
+        const Vector dv = state.v.col(spring.b) - state.v.col(spring.a);
+        if (ahead != 0) dx += ahead * dv;  // 0·∞ would hide an overflow
+        return pull(spring, dx, dv, by);
+    });
+}
+
+template <class Scalar, int Dim, class... Laws>
+void SpringSystem<Scalar, Dim, Laws...>::force_ahead(const State& state, Scalar h, Force& f) const {
+    detail::require_fits("SpringSystem::force_ahead", state, size());
+    const auto by = stiffness_damping().template cast<Scalar>();
+    sum_forces(state, f, [&](const auto& spring) {
+        const Vector dx = state.x.col(spring.b) - state.x.col(spring.a);
+        const Vector dv = state.v.col(spring.b) - state.v.col(spring.a);
+        return pull_ahead(spring, dx, dv, h, by);
+    });
 }
 
 template <class Scalar, int Dim, class... Laws>

@@ -30,6 +30,17 @@ Matrix step_matrix(const SymplecticEuler&, const Matrix& C, typename Matrix::Sca
     return step;
 }
 
+/// v⁺ from x + hv where k > 0, from the old x elsewhere; then x⁺ from v⁺.
+template <class Matrix>
+Matrix step_matrix(EnergyStableEuler, Matrix C, typename Matrix::Scalar h, Eigen::Index positions) {
+    const Eigen::Index r = positions;
+    const auto rise = C.block(0, r, r, r).diagonal();
+    const auto fall = C.block(r, 0, r, r).diagonal();
+    const auto pull = rise.cwiseProduct(fall).cwiseMin(0).eval();
+    C.block(r, r, r, r).diagonal() += h * pull;
+    return step_matrix(SymplecticEuler{}, C, h, positions);
+}
+
 /// (I − hC)⁻¹.
 template <class Matrix>
 Matrix step_matrix(ImplicitEuler, const Matrix& C, typename Matrix::Scalar h, Eigen::Index) {
