@@ -114,7 +114,9 @@ public:
     /// The stepper of the trials, to set its constraints or its solver. A frame taken again knows
     /// nothing of constraints.
     Stepper& stepper() { return stepper_.get(); }
+    /// The same, to ask it.
     const Stepper& stepper() const { return stepper_.get(); }
+    /// What the guard was made with.
     const Options& options() const { return options_; }
     /// any_pose_limit as it is in force; nothing before the first frame.
     const std::optional<StepLimit<Scalar>>& limit() const { return limit_; }
@@ -190,14 +192,17 @@ private:
     integrator_detail::ViewedState<State> viewed_;
 };
 
+/// By velocity Verlet.
 template <class Scalar, int Dim, class... Laws>
 Guard(const SpringSystem<Scalar, Dim, Laws...>&)
     -> Guard<VelocityVerlet<SpringSystem<Scalar, Dim, Laws...>>,
              SpringSystem<Scalar, Dim, Laws...>>;
+/// By velocity Verlet.
 template <class Scalar, int Dim, class... Laws>
 Guard(const SpringSystem<Scalar, Dim, Laws...>&, const GuardOptions<Scalar>&)
     -> Guard<VelocityVerlet<SpringSystem<Scalar, Dim, Laws...>>,
              SpringSystem<Scalar, Dim, Laws...>>;
+/// By velocity Verlet.
 template <class Scalar, int Dim, class... Laws>
 Guard(const SpringSystem<Scalar, Dim, Laws...>&, GuardOptions<Scalar>&)
     -> Guard<VelocityVerlet<SpringSystem<Scalar, Dim, Laws...>>,

@@ -20,6 +20,7 @@ struct EnergyStableEuler : KeepsNoEnergy {
     using Limit = Absent;
     static constexpr AnyPose any_pose = AnyPose::proved;
 
+    /// [T10] with d + hk⁺ in place of d.
     static StepQuadratic step_quadratic(double k, double d, double h) {
         return SymplecticEuler::step_quadratic(k, d + h * std::max(0.0, k), h);
     }

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Needs the module tight.
-
 // SuiteSparse's direct solvers, for ImplicitEuler. Link Taut::SuiteSparse.
 
 #include "cholmod.hpp"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Needs the modules accuracy, mass_scaling, recommend.
+// Needs the modules accuracy, mass_scaling, own_matrices, recommend.
 
 #include <algorithm>
 #include <cmath>
