@@ -18,6 +18,7 @@
 #include "../support/random_system.hpp"
 #include "../support/temporary_file.hpp"
 #include "../support/tolerance.hpp"
+#include "lammps_files.hpp"
 
 namespace taut_test::with_lammps_test {
 
