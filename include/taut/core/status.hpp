@@ -16,9 +16,7 @@ enum class Status {
     solver_failed,          ///< the solver returned no finite solution
     not_converged,          ///< the iteration cap was reached
     masses_lost,            ///< a step so large that rounding loses masses beside stiffness
-    too_large,              ///< a factor would not fit the memory allowed
-    frozen,                 ///< an outside force given as code is too stiff for any step tried
-    unproved_stiffness      ///< a law is stiffer than its stiffness_bound says
+    too_large               ///< a factor would not fit the memory allowed
 };
 
 /// One sentence for people.
@@ -36,12 +34,6 @@ constexpr const char* describe(Status status) {
             return "the step is so large that rounding loses the masses beside the stiffness";
         case Status::too_large:
             return "the factor of the step matrix would not fit the memory allowed";
-        case Status::frozen:
-            return "an outside force is too stiff for the step, so the frame was not taken: "
-                   "declare "
-                   "it as springs, drag or dampers";
-        case Status::unproved_stiffness:
-            return "a law is stiffer than its stiffness_bound says, so nothing is proved of it";
     }
     return "unknown status";
 }

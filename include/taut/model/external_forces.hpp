@@ -22,8 +22,6 @@ struct ExternalForces {
 
     /// Whether there is any.
     bool any() const { return whole || constant.cols() > 0 || outside; }
-    /// Whether one depends on the state or the time.
-    bool is_code() const { return whole || outside; }
     /// f ← f + all of them at a state, N, Dim × n.
     void add(const State<Scalar, Dim>& state, Points<Scalar, Dim>& f) const {
         if (constant.cols() > 0) f.leftCols(constant.cols()) += constant;
