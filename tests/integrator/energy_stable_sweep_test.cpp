@@ -6,6 +6,7 @@
 #include <taut/scene/cloth.hpp>
 #include <taut/scene/with_law.hpp>
 #include <taut/stability/energy_stable_limit.hpp>
+#include <taut/wind/wind.hpp>
 #include <vector>
 
 #include "../support/catch.hpp"
@@ -60,15 +61,13 @@ void set_all_outside(System& system) {
     system.set_external_force([](const auto& state, auto& f) {
         f += (Scalar(1) + 100 * state.time) * state.x - Scalar(0.5) * state.v;
     });
-    system.set_particle_force(
-        [](const auto& x, const auto& v, Index i) { return Scalar(i % 3) * (x - v); });
     if constexpr (System::Dim == 3) {
         taut::Wind<Scalar> wind;
         wind.velocity = {1, 2, 3};
         for (Index i = 0; i + 52 < system.size(); i += 3)
             wind.triangles.push_back(
                 {static_cast<int>(i), static_cast<int>(i + 1), static_cast<int>(i + 51)});
-        system.set_wind(wind);
+        set_wind(system, wind);
     }
 }
 

@@ -131,6 +131,10 @@ RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
         for (Index i = 0; i < N; ++i) q[i] = start[i] / by_root[i];
     }
     q /= stability_detail::norm(q.data(), N);
+    // A search that begins near some mode settles there first, and a small one is soon over:
+    // neither may stop early, where another mode may lead.
+    constexpr Index few = 300;
+    const bool may_stop = start.size() != N && N >= few;
     RitzPair pair;
     Index kept = 0;
     for (int run = 0; run <= options.restarts; ++run) {
@@ -166,7 +170,7 @@ RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
             }
             q = w / stability_detail::norm(w.data(), N);
             // H of the first run is tridiagonal, so that what its end will be is cheap to know.
-            early = run == 0 && used >= 8 && used % 2 == 0 &&
+            early = may_stop && run == 0 && used >= 8 && used % 2 == 0 &&
                     stability_detail::tridiagonal_residual(H, m, used, beta) <= options.tolerance;
         }
         std::vector<double> projected;
