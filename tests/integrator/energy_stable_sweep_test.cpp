@@ -127,7 +127,7 @@ TEMPLATE_TEST_CASE(
         options.dampers = dampers;
         const auto system = random_like<System>(random, options);
         const auto start = random_state(random, system);
-        const TestType h(1e-3);
+        const auto h = static_cast<TestType>(1e-3);
         auto together = start;
         auto apart = start;
         EnergyStableEuler<System> stepper(system);
