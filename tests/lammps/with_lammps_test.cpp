@@ -4,6 +4,7 @@
 // What LAMMPS itself makes of the files, on one rank and on two. This file is built only where
 // CMake found `lmp` and `mpirun`, whose paths it is given.
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstdlib>
 #include <string>
