@@ -209,7 +209,7 @@ TEST_CASE("energy_stable_euler: scenes without springs, wrong steps, states that
     CHECK(state.v(1, 0) == -10);
     CHECK(state.x(1, 0) == -7.5);
     for (const double h : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()})
-        CHECK_THROWS_AS(stepper.step(state, h), std::invalid_argument);
+        CHECK(stepper.step(state, h).status == taut::Status::invalid_step);
     CHECK_THROWS_AS(EnergyStableEuler<System>(system, {0}), std::invalid_argument);
     // A spring of no length that would push has no direction, and does not.
     system.add_particle({0, 0}, 1);

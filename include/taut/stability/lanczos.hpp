@@ -140,7 +140,7 @@ RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
     for (int run = 0; run <= options.restarts; ++run) {
         Index used = kept;
         // At a rough tolerance the basis of a first run needs no reorthogonalisation.
-        const bool plain = run == 0 && options.tolerance >= 1e-3;
+        const bool plain = may_stop && run == 0 && options.tolerance >= 1e-3;
         double beta = 0;
         bool early = false;
         while (used < m && !early) {

@@ -32,13 +32,14 @@ Matrix step_matrix(const SymplecticEuler&, const Matrix& C, typename Matrix::Sca
 
 /// v⁺ from x + hv where k > 0, from the old x elsewhere; then x⁺ from v⁺.
 template <class Matrix>
-Matrix step_matrix(EnergyStableEuler, Matrix C, typename Matrix::Scalar h, Eigen::Index positions) {
-    const Eigen::Index r = positions;
-    const auto rise = C.block(0, r, r, r).diagonal();
-    const auto fall = C.block(r, 0, r, r).diagonal();
-    const auto pull = rise.cwiseProduct(fall).cwiseMin(0).eval();
-    C.block(r, r, r, r).diagonal() += h * pull;
-    return step_matrix(SymplecticEuler{}, C, h, positions);
+Matrix step_matrix(EnergyStableEuler, const Matrix& C, typename Matrix::Scalar h,
+                   Eigen::Index positions) {
+    Matrix damped = C;
+    for (Eigen::Index i = 0; i < positions; ++i) {
+        const auto k = -C(i, positions + i) * C(positions + i, i);
+        if (k > 0) damped(positions + i, positions + i) -= h * k;
+    }
+    return step_matrix(SymplecticEuler{}, damped, h, positions);
 }
 
 /// (I − hC)⁻¹.
