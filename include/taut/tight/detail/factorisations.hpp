@@ -8,6 +8,7 @@
 
 #include "../../core/detail/bisection.hpp"
 #include "../../stability/detail/explicit_limit.hpp"
+#include "../../stability/detail/symplectic_limit.hpp"
 #include "../certificate.hpp"
 #include "../dense.hpp"
 #include "../explicit_estimate.hpp"
