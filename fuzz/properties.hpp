@@ -5,7 +5,7 @@
 #include <memory>
 #include <taut/bdf2/bdf2.hpp>
 #include <taut/constraints/constraints.hpp>
-#include <taut/modal/modal_analysis.hpp>
+#include <taut/modal/modal.hpp>
 #include <taut/newton/newton.hpp>
 #include <taut/equilibrium/equilibrium.hpp>
 #include <taut/mass_scaling/mass_scaling.hpp>

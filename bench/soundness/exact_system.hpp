@@ -5,7 +5,7 @@
 #include <array>
 #include <functional>
 #include <limits>
-#include <taut/own_matrices/linear_system.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/model/spring_system.hpp>
 
 #include "exact_law.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <taut/model/buckling.hpp>
-#include <taut/own_matrices/linear_system.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/model/spring_system.hpp>
 #include <taut/model/tension_only.hpp>
 #include <vector>
