@@ -18,7 +18,7 @@ StepLimit<Scalar> any_pose_bracket(const SpringSystem<Scalar, Dim, Laws...>& sys
         return rounded<Scalar>({0, infinity, Cause::overflow}, system.revision());
     }
     const auto start = [&](double h) {
-        return largest_ritz_pair(laplacian, 2 * h * D + h * h * K_plus).vector;
+        return leading_pair(laplacian, 2 * h * D + h * h * K_plus).vector;
     };
     return rounded<Scalar>(symplectic_limit(laplacian, effort, 0, start), system.revision());
 }

@@ -79,7 +79,7 @@ EnergyLimit<Scalar> energy_bracket(const SpringSystem<Scalar, Dim, Laws...>& sys
     const auto damped = SpringPencil<1>::any_pose(system, Damping::all_but_graph);
     if (springs.size() > 0) limit.drag = damped.rayleigh().mass_proportional;
     const UnroundedLimit bracket = symplectic_limit(
-        springs, effort, 0, [&](double) { return largest_ritz_pair(springs, K_plus).vector; });
+        springs, effort, 0, [&](double) { return leading_pair(springs, K_plus).vector; });
     if (!(bracket.certified > 0)) return overflow();
     const bool only_drag = damped.is_rayleigh() && damped.rayleigh().stiffness_proportional == 0;
     if (springs.size() > 0 && !only_drag) {

@@ -20,7 +20,7 @@ StepLimit<Scalar> energy_stable_bracket(const SpringSystem<Scalar, Dim, Laws...>
         return rounded<Scalar>({0, infinity, Cause::overflow}, system.revision());
     }
     const auto start = [&](double h) {
-        return largest_ritz_pair(laplacian, 2 * h * D + h * h * K_plus).vector;
+        return leading_pair(laplacian, 2 * h * D + h * h * K_plus).vector;
     };
     UnroundedLimit limit = symplectic_limit(laplacian, effort, 0, start);
     limit.certified /= 2;

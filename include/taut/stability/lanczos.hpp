@@ -109,38 +109,28 @@ private:
     std::vector<Real> numbers_;
 };
 
-}  // namespace stability_detail
-
-/// The largest eigenvalue of M⁻¹S from below: Lanczos with full reorthogonalisation and thick
-/// restart (K. Wu and H. Simon, Thick-restart Lanczos method for large symmetric eigenvalue
-/// problems, 2000). Negate the factors of `c` for the smallest one.
-/// @param start  an approximate eigenvector to begin with, N; empty: a fixed scattered vector
-template <class Real = double>  // a template: only its callers compile it
-RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
-                           const LanczosOptions& options = {}, const Eigen::VectorXd& start = {}) {
+/// largest_ritz_pair, or a rough one: its first run is not reorthogonalised and stops early.
+template <class Real>
+RitzPair ritz_search(const Pencil& pencil, const Combination& c, const LanczosOptions& options,
+                     const Eigen::VectorXd& start, bool rough) {
     const Index N = pencil.size();
     const Index m = std::min<Index>(options.basis, N);
     VectorX<Real> by_root(N);  // M⁻½
     for (Index i = 0; i < N; ++i) by_root[i] = 1 / std::sqrt(pencil.mass()[i]);
-    stability_detail::Basis<Real> Q(N, m);                      // orthonormal
+    Basis<Real> Q(N, m);                                        // orthonormal
     std::vector<double> H(static_cast<std::size_t>(m * m), 0);  // QᵀAQ with A = M⁻½SM⁻½
     VectorX<Real> u(N);
     VectorX<Real> w(N);
-    VectorX<Real> q = stability_detail::scattered_vector(N);
+    VectorX<Real> q = scattered_vector(N);
     if (start.size() == N) {
         for (Index i = 0; i < N; ++i) q[i] = start[i] / by_root[i];
     }
-    q /= stability_detail::norm(q.data(), N);
-    // A search that begins near some mode settles there first, and a small one is soon over:
-    // neither may stop early, where another mode may lead.
-    constexpr Index few = 300;
-    const bool may_stop = start.size() != N && N >= few;
+    q /= norm(q.data(), N);
     RitzPair pair;
     Index kept = 0;
     for (int run = 0; run <= options.restarts; ++run) {
         Index used = kept;
-        // At a rough tolerance the basis of a first run needs no reorthogonalisation.
-        const bool plain = may_stop && run == 0 && options.tolerance >= 1e-3;
+        const bool plain = rough && run == 0;
         double beta = 0;
         bool early = false;
         while (used < m && !early) {
@@ -157,7 +147,7 @@ RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
                 norm = std::hypot(norm, h[i]);
             }
             beta = stability_detail::norm(w.data(), N);
-            if (!(beta > 0.1 * norm)) {
+            if (!rough || !(beta > 0.1 * norm)) {
                 // Twice is enough (Parlett): the basis stays orthogonal to rounding.
                 Q.remove_from(w, 0, used);
                 beta = stability_detail::norm(w.data(), N);
@@ -165,20 +155,19 @@ RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
             if (!(beta > 1e-14 * norm)) {
                 // An invariant subspace, maybe not that of the largest eigenvalue.
                 beta = 0;
-                w = stability_detail::scattered_vector(N, used);
+                w = scattered_vector(N, used);
                 for (int pass = 0; pass < 2; ++pass) Q.remove_from(w, 0, used);
             }
             q = w / stability_detail::norm(w.data(), N);
             // H of the first run is tridiagonal, so that what its end will be is cheap to know.
-            early = may_stop && run == 0 && used >= 8 && used % 2 == 0 &&
-                    stability_detail::tridiagonal_residual(H, m, used, beta) <= options.tolerance;
+            early = rough && run == 0 && used >= 8 && used % 2 == 0 &&
+                    tridiagonal_residual(H, m, used, beta) <= options.tolerance;
         }
         std::vector<double> projected;
         for (Index j = 0; j < used; ++j) {
             projected.insert(projected.end(), H.begin() + j * m, H.begin() + j * m + used);
         }
-        const auto ritz =
-            stability_detail::small_spectrum(std::move(projected), static_cast<std::size_t>(used));
+        const auto ritz = small_spectrum(std::move(projected), static_cast<std::size_t>(used));
         const double earlier = pair.value;
         pair.value = ritz.values[used - 1];
         pair.residual = beta * std::abs(ritz.vector(used - 1)[used - 1]);
@@ -197,10 +186,33 @@ RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
         }
     }
     const double* shape = Q[kept - 1];
-    const double length = stability_detail::norm(shape, N);
+    const double length = norm(shape, N);
     pair.vector.resize(N);
     for (Index i = 0; i < N; ++i) pair.vector[i] = by_root[i] * (shape[i] / length);
     return pair;
+}
+
+}  // namespace stability_detail
+
+/// The largest eigenvalue of M⁻¹S from below: Lanczos with full reorthogonalisation and thick
+/// restart (K. Wu and H. Simon, Thick-restart Lanczos method for large symmetric eigenvalue
+/// problems, 2000). Negate the factors of `c` for the smallest one.
+/// @param start  an approximate eigenvector to begin with, N; empty: a fixed scattered vector
+template <class Real = double>  // a template: only its callers compile it
+RitzPair largest_ritz_pair(const Pencil& pencil, const Combination& c,
+                           const LanczosOptions& options = {}, const Eigen::VectorXd& start = {}) {
+    return stability_detail::ritz_search<Real>(pencil, c, options, start, false);
+}
+
+/// The same for half of the time, where a vector near the leading one is enough. A search that
+/// begins near some mode settles there first, and a small one is soon over: these are not cut
+/// short.
+template <class Real = double>
+RitzPair leading_pair(const Pencil& pencil, const Combination& c,
+                      const Eigen::VectorXd& start = {}) {
+    constexpr Index few = 300;
+    const bool rough = start.size() != pencil.size() && pencil.size() >= few;
+    return stability_detail::ritz_search<Real>(pencil, c, {}, start, rough);
 }
 
 }  // namespace taut

@@ -199,7 +199,7 @@ void Stability<Scalar>::update(const SpringSystem<Scalar, Dim, Laws...>& system,
             start *= 4 / start.norm();
             start += stability_detail::scattered_vector(start.size()).normalized();
         }
-        stiffest_ = largest_ritz_pair(*pencil, matrices::K_plus, {}, start);
+        stiffest_ = leading_pair(*pencil, matrices::K_plus, start);
     }
     pencil_ = std::move(pencil);
     revision_ = system.revision();
