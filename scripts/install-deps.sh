@@ -13,7 +13,7 @@ libcli11-dev nlohmann-json3-dev"
 case "${1-}" in
     '') ;;
     --ci) packages="$packages git clang-format-14 clang-16 libclang-rt-16-dev chromium pkgconf doxygen
-libjs-mathjax libboost-dev libmpfr-dev" ;;
+libjs-mathjax libboost-dev libmpfr-dev time" ;;
     --bench) packages="$packages libboost-dev libmpfr-dev libbullet-dev libsundials-dev
 python3-matplotlib valgrind lammps openmpi-bin" ;;
     *) echo "install-deps: unknown option '$1'; there are --ci and --bench" >&2; exit 1 ;;

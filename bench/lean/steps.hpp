@@ -11,7 +11,7 @@ namespace bench {
 using Cloth = taut::SpringSystem<double, 3>;
 
 /// The same steps of a scene that somebody else has built, each alone in an object file: lean_step
-/// counts their instructions, lean_size.sh their bytes.
+/// counts their instructions.
 void plain_steps(PlainLoop<double>& loop, double h, int count);
 taut::Report taut_steps(taut::SymplecticEuler<Cloth>& stepper, Cloth::State& state, double h,
                         int count);
