@@ -51,10 +51,15 @@ risen() {
     awk -v reasons="$(grep -c '^Budget: *[^ ]' "$3")" '
         /^#/ || !NF { next }
         from == "old" { old[$1] = $2; next }
+        { new[$1] = $2 }
         !($1 in old) { if (!reasons) print $1 ": new in the budget" wanted; next }
         $2 <= old[$1] { next }
         !/^(module|tests|readme)\./ { print $1 ": up from " old[$1] " to " $2 "; the core may not rise"; next }
         !reasons { print $1 ": up from " old[$1] " to " $2 wanted }
+        END {
+            for (name in old)
+                if (!(name in new) && name !~ /^module\./ && !reasons) print name ": gone from the budget" wanted
+        }
         ' wanted='; that needs a line "Budget: REASON" in the message' from=old "$1" from=new "$2"
 }
 

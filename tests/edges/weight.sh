@@ -61,6 +61,10 @@ numbers measured 1000 1000
 echo 'module.new 7' >>measured
 expect fail "a new module" "module.new: new in the budget" -- compare measured budget silent
 expect pass "a new module with a reason" -- compare measured budget reason
+numbers measured 1000 1000
+sed -i '/^core.lines/d; /^module/d' measured
+expect fail "a number of the core dropped" "core.lines: gone from the budget" -- compare measured budget silent
+expect pass "the same with a reason" -- compare measured budget reason
 expect fail "no budget" -- compare absent budget silent
 
 # The past of the file.
