@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <taut/recommend/recommend.hpp>
 #include <taut/taut.hpp>
 
 #include "scenes.hpp"
