@@ -152,7 +152,11 @@ Run run(System system, const typename System::State& start, const Setting& setti
         } else {
             using Stepper =
                 typename taut::tradeoff_detail::StepperOf<Descriptor, System, void>::type;
-            return run_with<Stepper>(system, start, own, h, steps);
+            if constexpr (std::is_constructible_v<Stepper, const System&, taut::ExplicitOptions>) {
+                return run_with<Stepper>(system, start, own, h, steps);
+            } else {
+                taut::fail("survival: ", Descriptor::name, " is not compared here");
+            }
         }
     });
 }
