@@ -256,7 +256,8 @@ void direct_table() {
         compare("chain of " + std::to_string(n) + ", in one dimension", row);
     }
     const Cloth cloth = taut::hanging_cloth<double>({32, 32});
-    compare("the matrices of hanging_cloth 32: one factor", taut::linearize(cloth, cloth.initial_state()));
+    compare("the matrices of hanging_cloth 32: one factor",
+            taut::linearize(cloth, cloth.initial_state()));
     std::printf("\n");
 }
 
