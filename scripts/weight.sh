@@ -17,8 +17,9 @@
 # core.unasked counts functions that taut.hpp, nothing called, compiles at -O0 and Eigen's headers do not.
 #
 # What is 3 % off its budget fails, above and below. A number of the budget may rise only with a line "Budget:
-# REASON" in a message since, one of the core not at all. The past is every version on HEAD's line of first
-# parents: neither several commits at once nor a merge hides a rise, and what fell again is mended.
+# REASON" in a message since, one of the core not at all; a module's may be dropped, any other only with such a
+# line. The past is every version on HEAD's line of first parents: neither several commits at once nor a merge
+# hides a rise, and what fell again is mended.
 set -eu
 export LC_ALL=C
 work=$(mktemp -d)

@@ -8,6 +8,7 @@
 #include <string>
 #include <taut/recommend/recommend.hpp>
 #include <taut/taut.hpp>
+#include <type_traits>
 
 #include "scenes.hpp"
 

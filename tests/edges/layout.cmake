@@ -3,6 +3,7 @@
 
 # cmake -D INCLUDE=include/taut -P layout.cmake
 # Follows every #include "..." and fails, with all that it found, where
+# - a header includes <taut/...>, which is not followed;
 # - a room, a folder of the core, includes a room that comes later in the order below;
 # - the core (taut.hpp, compiled.hpp and the rooms) includes a module, which any other folder is;
 # - a module has no header of its name, or that header's first line after #pragma once does not name
@@ -11,6 +12,7 @@
 cmake_minimum_required(VERSION 3.21)
 cmake_path(ABSOLUTE_PATH INCLUDE)
 set(rooms core method model scene solver stability integrator)
+set(include "^[ \t]*#[ \t]*include[ \t]*")
 set(modules "")
 set(faults "")
 
@@ -27,13 +29,13 @@ foreach(header IN LISTS headers)
         set(is_module TRUE)
         list(APPEND modules ${folder})
     endif()
-    file(STRINGS ${INCLUDE}/${header} unfollowed REGEX "^[ \t]*#[ \t]*include[ \t]*(<taut/|\"taut/)")
+    file(STRINGS ${INCLUDE}/${header} unfollowed REGEX "${include}<taut/")
     if(unfollowed)
         list(APPEND faults "${header} includes Taut by a path that is not relative: ${unfollowed}")
     endif()
-    file(STRINGS ${INCLUDE}/${header} includes REGEX "^[ \t]*#[ \t]*include[ \t]*\"")
+    file(STRINGS ${INCLUDE}/${header} includes REGEX "${include}\"")
     foreach(line IN LISTS includes)
-        string(REGEX REPLACE "^[ \t]*#[ \t]*include[ \t]*\"([^\"]*)\".*" "\\1" included "${line}")
+        string(REGEX REPLACE "${include}\"([^\"]*)\".*" "\\1" included "${line}")
         cmake_path(APPEND place "${included}" OUTPUT_VARIABLE included)
         cmake_path(NORMAL_PATH included)
         string(REGEX REPLACE "/.*" "" other "${included}")

@@ -96,7 +96,7 @@ Outcome push(double stiffness) {
 }  // namespace
 
 TEST_CASE("strip: pushed together it buckles out of its plane, over six decades of stiffness",
-          "[integrator]") {
+          "[integrator][slow]") {
     for (const double stiffness : {1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
         INFO("stiffness " << stiffness);
         CHECK(push<taut::Bdf2<Strip>>(stiffness).as_claimed());

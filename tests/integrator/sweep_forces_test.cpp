@@ -51,7 +51,7 @@ taut::Wind<Scalar> draw_wind(Random& random, Index particles, int count) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("sweep: wind acts as on the plain path", "[integrator]", float, double) {
+TEMPLATE_TEST_CASE("sweep: wind acts as on the plain path", "[integrator][slow]", float, double) {
     Random random(91);
     for (const int triangles : {1, 2, 5, 300, 2600}) {
         CAPTURE(triangles);
@@ -218,7 +218,7 @@ TEST_CASE("sweep: a wind that comes, turns, moves to other triangles and ends is
 }
 
 TEMPLATE_TEST_CASE("sweep: forces of the state and constant ones act as on the plain path",
-                   "[integrator]", (Case<float, 2>), (Case<float, 3>), (Case<double, 1>),
+                   "[integrator][slow]", (Case<float, 2>), (Case<float, 3>), (Case<double, 1>),
                    (Case<double, 3>)) {
     using Scalar = typename TestType::Scalar;
     Random random(94);

@@ -103,7 +103,7 @@ void check_promise(const System& system, const typename System::State& state, do
 
 }  // namespace
 
-TEST_CASE("resolve: what meets the goal does so against the scene itself", "[tradeoff]") {
+TEST_CASE("resolve: what meets the goal does so against the scene itself", "[tradeoff][slow]") {
     for (const double stretch : {4.0, 40.0}) {
         const auto cloth = soft_cloth(40, stretch);
         for (const double goal : {0.15, 0.06}) {
@@ -234,7 +234,8 @@ void check_honest(const System& system, const typename System::State& state, dou
     CHECK(true_error(system, state, *found.coarsening, duration, found.size) <= goal);
 }
 
-TEST_CASE("resolve: no goal is said to be met where a scene gives way in one place", "[tradeoff]") {
+TEST_CASE("resolve: no goal is said to be met where a scene gives way in one place",
+          "[tradeoff][slow]") {
     // A sheet hung by its top row, with one row of springs 20 000 times as soft.
     taut::SpringSystem<double, 2> sheet;
     constexpr Index side = 33;

@@ -82,7 +82,7 @@ TEST_CASE("blame: a planted stiff spring is named", "[stability]") {
     }
 }
 
-TEST_CASE("blame: a planted light particle is named", "[stability]") {
+TEST_CASE("blame: a planted light particle is named", "[stability][slow]") {
     Random random(1301);
     for (int repeat = 0; repeat < 20; ++repeat) {
         auto cloth = cloth_of(6);
@@ -218,7 +218,7 @@ TEST_CASE("blame: scales where every step is safe, and where none is", "[stabili
     CHECK(active.min_mass_scale(Method::symplectic_euler, 1e-3) == infinity);
 }
 
-TEMPLATE_TEST_CASE("blame: scales are those of one mode, however far from 1", "[stability]",
+TEMPLATE_TEST_CASE("blame: scales are those of one mode, however far from 1", "[stability][slow]",
                    (Case<double, 1>), (Case<double, 2>), (Case<double, 3>), (Case<float, 1>),
                    (Case<float, 3>)) {
     using Scalar = typename TestType::Scalar;

@@ -156,7 +156,7 @@ TEMPLATE_TEST_CASE("energy_limit: the condition of the theorem holds on the exac
 }
 
 TEMPLATE_TEST_CASE("energy_limit: velocity Verlet's energy never rises at its half steps",
-                   "[stability]", (Mixed<double, 3>), (Strings<double, 3>)) {
+                   "[stability][slow]", (Mixed<double, 3>), (Strings<double, 3>)) {
     using System = TestType;
     Random random(3480);
     for (int repeat = 0; repeat < 30; ++repeat) {
