@@ -15,7 +15,7 @@ using Real = long double;
 // D − hK ⪰ 0 at the limit says nothing of smaller steps where K is indefinite: D = −δM and K = −κM
 // along (1, −1) meet it from δ/κ on alone, and below that the damping feeds energy in.
 TEMPLATE_TEST_CASE("explicit Euler: a negative D counts beside a buckled K at every smaller step",
-                   "[stability]", float, double) {
+                   "[stability][slow]", float, double) {
     Random random(1311);
     int claimed = 0, refused = 0;
     for (int repeat = 0; repeat < 400; ++repeat) {
