@@ -53,7 +53,7 @@ public:
         };
         std::stable_sort(order.begin(), order.end(),
                          [&](std::size_t s, std::size_t t) { return stiffness(s) > stiffness(t); });
-        while (!proved()) {
+        while (!masses_bear()) {
             for (const std::size_t s : order) {
                 if (bears(links_[s])) continue;
                 add(links_[s], links_[s].share - 1);
@@ -64,18 +64,19 @@ public:
     /// Whether (1 − ½h d0)M ⪰ Σ (1 − s)(h²k + ½hc)L_e, by Gershgorin, one column a spring: with B
     /// the differences and Q what is explicit, the non-zero eigenvalues of M⁻¹BᵀQB are those of
     /// QBM⁻¹Bᵀ.
-    bool proved() {
-        load_.assign(per_mass_.size(), 0);
-        for (const Link& link : links_) add(link, 1 - link.share);
-        return std::all_of(links_.begin(), links_.end(),
-                           [&](const Link& link) { return bears(link); });
-    }
+    bool proved() { return masses_bear() && drag_ <= 1 - rounding; }
 
 private:
     static std::size_t at(Index i) { return static_cast<std::size_t>(i); }
     void add(const Link& link, double part) {
         for (const Index i : {link.a, link.b})
             load_[at(i)] += part * link.inertia * per_mass_[at(i)];
+    }
+    bool masses_bear() {
+        load_.assign(per_mass_.size(), 0);
+        for (const Link& link : links_) add(link, 1 - link.share);
+        return std::all_of(links_.begin(), links_.end(),
+                           [&](const Link& link) { return bears(link); });
     }
     bool bears(const Link& link) const {
         return link.share == 1 || load_[at(link.a)] + load_[at(link.b)] <= 1 - drag_ - rounding;
