@@ -16,7 +16,8 @@ enum class Status {
     solver_failed,          ///< the solver returned no finite solution
     not_converged,          ///< the iteration cap was reached
     masses_lost,            ///< a step so large that rounding loses masses beside stiffness
-    too_large               ///< a factor would not fit the memory allowed
+    too_large,              ///< a factor would not fit the memory allowed
+    frozen                  ///< Guard stopped a part: no step resolves a force given as code
 };
 
 /// One sentence for people.
@@ -34,6 +35,8 @@ constexpr const char* describe(Status status) {
             return "the step is so large that rounding loses the masses beside the stiffness";
         case Status::too_large:
             return "the factor of the step matrix would not fit the memory allowed";
+        case Status::frozen:
+            return "a part was stopped: no step that was tried resolves a force given as code";
     }
     return "unknown status";
 }

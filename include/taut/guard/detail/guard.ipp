@@ -1,0 +1,343 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace taut {
+
+template <class Stepper, class System>
+void Guard<Stepper, System>::renew() {
+    if (!proved_limit_ || proved_limit_->revision != system_->revision()) {
+        proved_limit_ = energy_stable_limit(*system_);
+        any_pose_limit_ = any_pose_limit(*system_);
+    }
+    parts_.update(*system_);
+}
+
+/// The longest, s.
+template <class Stepper, class System>
+auto Guard<Stepper, System>::trial_step() const -> Scalar {
+    Scalar h = std::numeric_limits<Scalar>::infinity();
+    if constexpr (any_pose == method::AnyPose::limited) {
+        double share = 0.95;
+        if constexpr (detail::is_detected_v<guard_detail::damping_of, Stepper>) {
+            share = share_of_limit(share, stepper().damping());
+        }
+        h = static_cast<Scalar>(share) * any_pose_limit_->certified;
+    } else if constexpr (any_pose == method::AnyPose::proved) {
+        h = proved_limit_->certified;
+    }
+    return std::min(options_.max_step, h);
+}
+
+/// Measures what a frame begins with, and refuses what cannot be advanced.
+template <class Stepper, class System>
+Status Guard<Stepper, System>::open(const State& state, Scalar frame, Scalar longest,
+                                    GuardReport<Scalar>& report) {
+    const Report checked = integrator_detail::StepLoop<State>::check(*system_, state, frame);
+    report.where = checked.where;
+    if (!checked) return checked.status;
+    if (!(longest > 0) || !(proved_limit_->certified > 0)) return Status::invalid_step;
+    if (last_.is(*system_, state) && end_.size() == parts_.count()) {
+        begin_ = end_;
+    } else {
+        measure(state, begin_);
+    }
+    for (std::size_t p = 0; p < parts_.count(); ++p) {
+        if (begin_[p].finite()) continue;
+        report.where = parts_[p].first;
+        return Status::invalid_state;
+    }
+    start_ = state;
+    booked_.assign(parts_.count(), 0);
+    rounding_.assign(parts_.count(), 0);
+    taken_.assign(parts_.count(), Taken::again);
+    return Status::ok;
+}
+
+template <class Stepper, class System>
+auto Guard<Stepper, System>::cut(Scalar span, Scalar longest) -> Frame {
+    const double steps = std::ceil(static_cast<double>(span) / static_cast<double>(longest));
+    const Index count = std::max(Index(1), static_cast<Index>(steps));
+    return {span / static_cast<Scalar>(count), count};
+}
+
+/// @param take  bool take(state, h, count): steps
+/// @returns whether all steps were taken, to a finite state
+template <class Stepper, class System>
+template <class Take, class Respond>
+bool Guard<Stepper, System>::run(State& state, Frame frame, bool ahead, Take&& take,
+                                 Respond& respond) {
+    constexpr bool responds = !std::is_same_v<std::decay_t<Respond>, guard_detail::NoResponse>;
+    constexpr bool held = detail::is_detected_v<guard_detail::constraint_forces_of, Stepper>;
+    const bool stepwise = work_.stepwise(*system_, state) || responds || held;
+    work_.start(*system_, state, parts_);
+    const Index at_once = stepwise ? 1 : frame.steps;
+    for (Index done = 0; done < frame.steps; done += at_once) {
+        if (!take(state, frame.h, at_once)) return false;
+        if (!detail::fits(state, system_->size()) || !state.finite()) return false;
+        if constexpr (held) {
+            if (!ahead) work_.add_held(stepper().constraint_forces(), state, parts_);
+        }
+        work_.step(*system_, state, parts_, frame.h, ahead);
+        if constexpr (responds) {
+            touched_ = state;
+            respond(state);
+            if (!state.finite()) return false;
+            if (state.x == touched_.x && state.v == touched_.v) continue;
+            measure(touched_, before_);
+            measure(state, after_);
+            work_.add_change(before_, after_, state);
+        }
+    }
+    return true;
+}
+
+template <class Stepper, class System>
+template <class Respond>
+bool Guard<Stepper, System>::try_frame(State& state, Frame frame, Respond& respond) {
+    const auto take = [&](State& own, Scalar h, Index count) {
+        if constexpr (detail::is_detected_v<guard_detail::method_of, Stepper>) {
+            return trial_.step(own, h, count);
+        } else {
+            // Pins are not the caller's to move.
+            touched_ = own;
+            const bool taken = trial_.step(own, h, count);
+            if (!taken || !detail::fits(own, system_->size())) return false;
+            for (Index i = 0; i < system_->size(); ++i) {
+                if (!system_->is_pinned(i)) continue;
+                own.v.col(i) = touched_.v.col(i);
+                own.x.col(i) = touched_.x.col(i) + static_cast<Scalar>(count) * h * own.v.col(i);
+            }
+            return true;
+        }
+    };
+    return run(state, frame, false, take, respond);
+}
+
+/// a of a part, J: what its trial gained beyond its books and its credit.
+template <class Stepper, class System>
+double Guard<Stepper, System>::gain(std::size_t part) const {
+    return parts_[part].credit + end_[part].total - begin_[part].total - work_[part].booked -
+           rounding_[part];
+}
+
+template <class Stepper, class System>
+bool Guard<Stepper, System>::holds(std::size_t part) const {
+    return end_[part].finite() && gain(part) <= 1e-12 * end_[part].kinetic;
+}
+
+/// Says of every part what becomes of its trial, and trims what gained a little.
+template <class Stepper, class System>
+void Guard<Stepper, System>::judge(State& state, bool tried) {
+    if (!tried) return;
+    measure(state, end_);
+    std::vector<guard_detail::Gain> gains(parts_.count());
+    for (std::size_t p = 0; p < parts_.count(); ++p) {
+        if (parts_[p].skip > 0) continue;
+        if (holds(p)) {
+            taken_[p] = Taken::tried;
+        } else if (end_[p].finite() && gain(p) <= end_[p].kinetic / 4) {
+            taken_[p] = Taken::trimmed;
+            gains[p] = {gain(p), end_[p].speed};
+        }
+    }
+    if (any(Taken::trimmed)) {
+        trim(*system_, state, parts_, static_cast<double>(any_pose_limit_->certified), gains);
+        measure(state, end_);
+    }
+    for (std::size_t p = 0; p < parts_.count(); ++p) {
+        if (taken_[p] == Taken::trimmed && !holds(p)) taken_[p] = Taken::again;
+        if (taken_[p] == Taken::again) continue;
+        booked_[p] = work_[p].booked;
+        parts_[p].credit = std::max(gain(p), -0.1 * end_[p].kinetic);
+        parts_[p].again = 0;
+        parts_[p].next_skip = 2;
+    }
+}
+
+/// @returns whether what the user gives was finite
+template <class Stepper, class System>
+template <class Respond>
+bool Guard<Stepper, System>::take_again(State& state, Scalar span, bool tried,
+                                        GuardReport<Scalar>& report, Respond& respond) {
+    const auto take = [&](State& own, Scalar h, Index count) {
+        const Report stepped = proved_.step(own, h, count);
+        report.where = stepped.where;
+        return bool(stepped);
+    };
+    constexpr double unit = static_cast<double>(std::numeric_limits<Scalar>::epsilon()) / 2;
+    for (int halvings = 0; halvings < 3; ++halvings) {
+        const Frame frame =
+            cut(span, proved_limit_->certified / static_cast<Scalar>(1 << halvings));
+        again_ = start_;
+        if (!run(again_, frame, true, take, respond)) {
+            if (!stiff_by_code()) return false;
+            if (halvings == 2)
+                std::replace(taken_.begin(), taken_.end(), Taken::again, Taken::frozen);
+            continue;
+        }
+        for (Index i = 0; i < system_->size(); ++i) {
+            if (taken_of(i, tried) != Taken::again) continue;
+            state.x.col(i) = again_.x.col(i);
+            state.v.col(i) = again_.v.col(i);
+        }
+        measure(state, end_);
+        bool stiff = false;
+        for (std::size_t p = 0; p < parts_.count(); ++p) {
+            if (taken_[p] != Taken::again) continue;
+            rounding_[p] = 4 * unit * static_cast<double>(frame.steps) *
+                           std::max(begin_[p].terms, end_[p].terms);
+            stiff = stiff || !(unexplained(p) <= band(p));
+        }
+        if (!stiff) break;
+    }
+    for (std::size_t p = 0; p < parts_.count(); ++p) {
+        if (taken_[p] == Taken::again) settle_again(p, report);
+    }
+    freeze(state);
+    return true;
+}
+
+/// Whether forces given as code can be why a step was not finite: they were, where it began.
+template <class Stepper, class System>
+bool Guard<Stepper, System>::stiff_by_code() {
+    if (!work_.code()) return false;
+    system_->external_force(start_, touched_.v);
+    return touched_.v.allFinite();
+}
+
+/// What forces given as code left unexplained while a part was taken again, J.
+template <class Stepper, class System>
+double Guard<Stepper, System>::unexplained(std::size_t part) const {
+    if (!work_.code()) return 0;
+    return parts_[part].by_code + end_[part].total - begin_[part].total - work_[part].checked -
+           rounding_[part];
+}
+
+/// Of that, what is let pass, J.
+template <class Stepper, class System>
+double Guard<Stepper, System>::band(std::size_t part) const {
+    return 0.1 * std::max(begin_[part].kinetic, end_[part].kinetic);
+}
+
+/// A part that was taken again for the last time in this frame.
+template <class Stepper, class System>
+void Guard<Stepper, System>::settle_again(std::size_t part, GuardReport<Scalar>& report) {
+    guard_detail::Part& own = parts_[part];
+    booked_[part] = work_[part].booked;
+    if (!(unexplained(part) <= band(part))) taken_[part] = Taken::frozen;
+    own.by_code = std::clamp(unexplained(part), -band(part), band(part));
+    const double rise = end_[part].total - begin_[part].total;
+    if (taken_[part] == Taken::again && rise > booked_[part] + rounding_[part]) {
+        report.spring = strongest_spring(part);
+    }
+    own.credit = std::max(own.credit, -0.1 * end_[part].kinetic);
+    if (own.skip > 0) {
+        --own.skip;
+    } else if (++own.again >= 3) {
+        own.skip = own.next_skip;
+        own.next_skip = std::min(2 * own.next_skip, 64);
+    }
+}
+
+/// Stops the frozen parts where the frame began.
+template <class Stepper, class System>
+void Guard<Stepper, System>::freeze(State& state) {
+    if (!any(Taken::frozen)) return;
+    for (Index i = 0; i < system_->size(); ++i) {
+        if (taken_of(i, true) != Taken::frozen) continue;
+        state.x.col(i) = start_.x.col(i);
+        state.v.col(i).setZero();
+    }
+    measure(state, end_);
+}
+
+/// The spring of a part that exceeds its law's bound most, or −1; it counts the laws in their
+/// order. At the ends of the frame that was taken again.
+template <class Stepper, class System>
+Index Guard<Stepper, System>::strongest_spring(std::size_t part) const {
+    Index found = -1, index = -1;
+    Scalar most = 1 + 64 * std::numeric_limits<Scalar>::epsilon();
+    system_->visit_springs([&](const auto& spring) {
+        ++index;
+        if (parts_.of(spring.a, spring.b) != static_cast<Index>(part)) return;
+        for (const State* state : {&start_, &again_}) {
+            const typename System::Vector dx = state->x.col(spring.b) - state->x.col(spring.a);
+            const Scalar l = spring_length(dx);
+            const Scalar k = std::max(spring.tension_slope(l), spring.tension(l) / l);
+            if (!(k > most * spring.stiffness_bound())) continue;
+            most = k / spring.stiffness_bound();
+            found = index;
+        }
+    });
+    return found;
+}
+
+/// Sums up the frame, whose end is `state`.
+template <class Stepper, class System>
+void Guard<Stepper, System>::close(const State& state, GuardReport<Scalar>& report) {
+    last_.keep(*system_, state);
+    report.parts = static_cast<Index>(parts_.count());
+    for (std::size_t p = 0; p < parts_.count(); ++p) {
+        report.trimmed += taken_[p] == Taken::trimmed;
+        report.again += taken_[p] == Taken::again;
+        report.frozen += taken_[p] == Taken::frozen;
+        report.energy += end_[p].total;
+        report.work += booked_[p];
+        report.credit += parts_[p].credit;
+        report.rounding += rounding_[p];
+        report.blind = report.blind || rounding_[p] > end_[p].kinetic / 100;
+        if (taken_[p] <= report.taken) continue;
+        report.taken = taken_[p];
+        report.where = parts_[p].first;
+    }
+    if (report.frozen == 0) return;
+    report.status = Status::frozen;
+    report.force = force_name();
+}
+
+/// What set the forces that are given as code; null without them.
+template <class Stepper, class System>
+const char* Guard<Stepper, System>::force_name() const {
+    const auto& forces = system_->external_forces();
+    if (forces.whole) return "set_external_force";
+    return forces.outside ? forces.outside->name() : nullptr;
+}
+
+template <class Stepper, class System>
+template <class Respond>
+auto Guard<Stepper, System>::advance(State& state, Scalar frame, Respond&& respond)
+    -> GuardReport<Scalar> {
+    GuardReport<Scalar> report;
+    renew();
+    const Scalar longest = trial_step();
+    report.status = open(state, frame, longest, report);
+    if (!report) return report;
+    // Of what is taken again as many steps as an Index can count.
+    const Scalar span = std::min({frame, longest * static_cast<Scalar>(options_.max_substeps),
+                                  proved_limit_->certified * Scalar(1 << 28)});
+    const Frame trial = cut(span, longest);
+    report.substeps = trial.steps;
+    report.h = trial.h;
+    const double proved = std::ceil(static_cast<double>(span / proved_limit_->certified));
+    constexpr double unit = static_cast<double>(std::numeric_limits<Scalar>::epsilon()) / 2;
+    for (std::size_t p = 0; p < parts_.count(); ++p) {
+        rounding_[p] = 4 * unit * std::sqrt(std::max(1.0, proved)) * begin_[p].terms;
+    }
+
+    const bool tried = !parts_.all_skip() && try_frame(state, trial, respond);
+    judge(state, tried);
+    if (!tried) state = start_;
+    if ((!tried || any(Taken::again)) && !take_again(state, span, tried, report, respond)) {
+        state = start_;
+        report.status = Status::diverged;
+        report.force = force_name();
+        return report;
+    }
+    state.time = start_.time + span;
+    report.advanced = span;
+    close(state, report);
+    return report;
+}
+
+}  // namespace taut

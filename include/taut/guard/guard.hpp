@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "../integrator/detail/last_state.hpp"
+#include "../integrator/detail/step_loop.hpp"
+#include "../integrator/energy_stable_euler.hpp"
+#include "../integrator/velocity_verlet.hpp"
+#include "../stability/any_pose.hpp"
+#include "../stability/energy_stable_limit.hpp"
+#include "detail/stepper.hpp"
+#include "detail/trim.hpp"
+#include "detail/work.hpp"
+#include "report.hpp"
+
+namespace taut {
+
+/// Advances whole frames of a SpringSystem and never gives up [T43]: it tries a frame by a fast
+/// step, keeps the books of its energy, trims the end velocities where the frame gained a little,
+/// and takes it again by EnergyStableEuler, which cannot gain, where that is not enough.
+///
+/// What it promises. For each part, the free particles that springs join, let E be the kinetic
+/// energy with that of springs and gravity, K the kinetic energy about the centre of mass, W the
+/// work of outside forces, moving pins, constraints and `respond`, and ρ what rounding may hide.
+/// Between any two frames m < n of it, edits between frames apart,
+///
+///     E_n ≤ E_m + 0.1 K_m + Σ (W + ρ)
+///
+/// and no frame is refused, as long as states, forces and velocities of pins are finite and no law
+/// exceeds its stiffness_bound; the report names a spring that does. W is as
+/// detail/work.hpp books it: where a frame was taken again, that of forces given as code is theirs
+/// at the start of each step. They are checked there, too: what gains more than 0.1 K by them is
+/// taken in shorter steps, then stopped and named (Taken::frozen). Declare stiff forces as springs,
+/// dampers and drag. Not promised: accuracy, and anything inside a frame.
+///
+/// The trial takes steps of at most 0.95 of any_pose_limit [T23], an implicit one the whole frame,
+/// and the rest steps of energy_stable_limit [T42]; both are asked again when the system's
+/// revision() has moved on. Positions far from the origin make a float guard blind: see
+/// GuardReport::blind.
+///
+///     taut::Guard stepper(cloth);
+///     stepper.advance(state, 1.0 / 60);
+/// @tparam Stepper  VelocityVerlet unless named; SymplecticEuler, ImplicitEuler, Bdf2,
+///                  ProjectiveDynamics, or a call step(state, h) that takes one step of h, s, and
+///                  returns nothing or whether it could
+template <class Stepper, class System = typename guard_detail::stepped_system<Stepper>::type>
+class Guard {
+public:
+    using Scalar = typename System::Scalar;
+    using State = typename System::State;
+    using Options = GuardOptions<Scalar>;
+    static constexpr method::AnyPose any_pose = guard_detail::any_pose_of<Stepper>();
+    static_assert(any_pose != method::AnyPose::no_step,
+                  "taut::Guard: the stepper's method, like explicit Euler, has no limit that "
+                  "holds at every pose; guard SymplecticEuler, which costs the same");
+
+    /// Keeps a reference: the system must outlive the guard, which makes a trial stepper of its
+    /// own. Options out of range go to fail().
+    /// @param arguments  further ones of the stepper's constructor, such as its Options
+    template <class... Arguments>
+    explicit Guard(const System& system, const Options& options = {}, Arguments&&... arguments)
+        : system_(&system),
+          options_(options),
+          trial_(std::in_place, system, std::forward<Arguments>(arguments)...),
+          proved_(system) {
+        options.require_valid();
+    }
+    template <class... Arguments>
+    explicit Guard(const System&&, const Options& = {}, Arguments&&...) = delete;
+    /// Guards a stepper or a call of yours, as it is. Keeps references: both must outlive the
+    /// guard.
+    template <class Lent, class = std::enable_if_t<std::is_same_v<Lent, Stepper>>>
+    Guard(const System& system, Lent& stepper, const Options& options = {})
+        : system_(&system), options_(options), trial_(stepper), proved_(system) {
+        options.require_valid();
+    }
+    template <class Lent, class = std::enable_if_t<std::is_same_v<Lent, Stepper>>>
+    Guard(const System&&, Lent&, const Options& = {}) = delete;
+
+    /// Advances by `frame`, s, finite and > 0. Refused, and then the state is as it was: a frame or
+    /// a state that is not finite, no certified step (overflow: invalid_step), a force that is not
+    /// finite, by name.
+    /// @param respond  respond(state) after every step: contacts, for example. What it adds to the
+    ///                 energy counts as work. It must leave the system as it is: tear and pin
+    ///                 between frames.
+    template <class Respond = guard_detail::NoResponse>
+    GuardReport<Scalar> advance(State& state, Scalar frame, Respond&& respond = {});
+    /// Advances an engine's own arrays by `frame`, s: copied back once a frame, and there if they
+    /// are not what the last frame left.
+    template <class Stored, class Respond = guard_detail::NoResponse>
+    GuardReport<Scalar> advance(StateView<Stored, System::Dim>& view, Scalar frame,
+                                Respond&& respond = {}) {
+        return viewed_.advance(view, [&](State& state) { return advance(state, frame, respond); });
+    }
+
+    /// The trial stepper, to set its solver.
+    Stepper& stepper() { return trial_.get(); }
+    /// The trial stepper, to ask it.
+    const Stepper& stepper() const { return trial_.get(); }
+    /// What the guard was made with.
+    const Options& options() const { return options_; }
+    /// any_pose_limit in force; nothing before the first frame.
+    const std::optional<StepLimit<Scalar>>& limit() const { return any_pose_limit_; }
+    /// energy_stable_limit in force; nothing before the first frame.
+    const std::optional<StepLimit<Scalar>>& proved_limit() const { return proved_limit_; }
+
+private:
+    struct Frame {
+        Scalar h;
+        Index steps;
+    };
+    void renew();
+    Scalar trial_step() const;
+    Status open(const State& state, Scalar frame, Scalar longest, GuardReport<Scalar>& report);
+    static Frame cut(Scalar span, Scalar longest);
+    template <class Take, class Respond>
+    bool run(State& state, Frame frame, bool ahead, Take&& take, Respond& respond);
+    template <class Respond>
+    bool try_frame(State& state, Frame frame, Respond& respond);
+    double gain(std::size_t part) const;
+    bool holds(std::size_t part) const;
+    void judge(State& state, bool tried);
+    template <class Respond>
+    bool take_again(State& state, Scalar span, bool tried, GuardReport<Scalar>& report,
+                    Respond& respond);
+    bool stiff_by_code();
+    double unexplained(std::size_t part) const;
+    double band(std::size_t part) const;
+    void settle_again(std::size_t part, GuardReport<Scalar>& report);
+    void freeze(State& state);
+    Index strongest_spring(std::size_t part) const;
+    const char* force_name() const;
+    void close(const State& state, GuardReport<Scalar>& report);
+    bool any(Taken taken) const {
+        return std::find(taken_.begin(), taken_.end(), taken) != taken_.end();
+    }
+    /// What became of the part of particle i; of a pin, Taken::again where no trial stands.
+    Taken taken_of(Index i, bool tried) const {
+        const Index part = parts_.of(i);
+        if (part >= 0) return taken_[static_cast<std::size_t>(part)];
+        return tried ? Taken::tried : Taken::again;
+    }
+    void measure(const State& state, std::vector<guard_detail::Energy>& energies) {
+        meter_.measure(*system_, state, parts_, proved_limit_->certified, energies);
+    }
+
+    const System* system_;
+    Options options_;
+    guard_detail::Held<Stepper> trial_;
+    EnergyStableEuler<System> proved_;
+    std::optional<StepLimit<Scalar>> any_pose_limit_, proved_limit_;
+    guard_detail::Parts parts_;
+    guard_detail::EnergyMeter<System> meter_;
+    guard_detail::WorkMeter<System> work_;
+    integrator_detail::LastState<State> last_;          // that end_ belongs to
+    State start_, again_, touched_;                     // of the frame; taken again; responses
+    std::vector<guard_detail::Energy> begin_, end_;     // of each part, like all that follows
+    std::vector<guard_detail::Energy> before_, after_;  // a response
+    std::vector<double> rounding_;                      // ρ, J
+    std::vector<double> booked_;                        // W, J
+    std::vector<Taken> taken_;
+    guard_detail::ViewedState<State> viewed_;
+};
+
+namespace guard_detail {
+
+template <class Stepper>
+inline constexpr bool is_options_v = false;
+template <class Scalar>
+inline constexpr bool is_options_v<GuardOptions<Scalar>> = true;
+
+}  // namespace guard_detail
+
+template <class Scalar, int Dim, class... Laws>
+Guard(const SpringSystem<Scalar, Dim, Laws...>&)
+    -> Guard<VelocityVerlet<SpringSystem<Scalar, Dim, Laws...>>>;
+template <class Scalar, int Dim, class... Laws>
+Guard(const SpringSystem<Scalar, Dim, Laws...>&, const GuardOptions<Scalar>&)
+    -> Guard<VelocityVerlet<SpringSystem<Scalar, Dim, Laws...>>>;
+template <class Scalar, int Dim, class... Laws, class Stepper, class... Options,
+          class = std::enable_if_t<!guard_detail::is_options_v<Stepper>>>
+Guard(const SpringSystem<Scalar, Dim, Laws...>&, Stepper&, const Options&...)
+    -> Guard<Stepper, SpringSystem<Scalar, Dim, Laws...>>;
+
+}  // namespace taut
+
+#include "detail/guard.ipp"

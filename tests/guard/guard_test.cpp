@@ -1,0 +1,414 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <taut/guard/guard.hpp>
+#include <taut/integrator/implicit_euler.hpp>
+#include <taut/integrator/symplectic_euler.hpp>
+#include <taut/model/state_view.hpp>
+#include <taut/model/tension_only.hpp>
+#include <taut/scene/cloth.hpp>
+#include <taut/scene/with_law.hpp>
+#include <vector>
+
+#include "../support/catch.hpp"
+
+using taut::Index;
+using taut::Taken;
+
+namespace {
+
+constexpr double frame = 1.0 / 60;  // s
+
+double uniform(std::mt19937_64& random, double low, double high) {
+    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+}
+
+/// A net whose springs, masses, pins, dampers and velocities are drawn; two nets where `apart`.
+template <class System>
+System random_net(std::mt19937_64& random, bool damped, bool pinned, bool apart) {
+    using Scalar = typename System::Scalar;
+    System net;
+    const Index n = 12;
+    for (Index i = 0; i < n; ++i) {
+        typename System::Vector x;
+        for (int d = 0; d < System::Dim; ++d) x[d] = static_cast<Scalar>(uniform(random, -1, 1));
+        net.add_particle(x, static_cast<Scalar>(std::exp(uniform(random, -3, 3))));
+    }
+    for (Index i = 0; i < n; ++i) {
+        for (Index j = i + 1; j < std::min(n, i + 4); ++j) {
+            if (apart && i < n / 2 && j >= n / 2) continue;
+            taut::Spring<Scalar, typename System::FirstLaw> spring{
+                i,
+                j,
+                {static_cast<Scalar>(std::exp(uniform(random, 3, 8)))},
+                static_cast<Scalar>(uniform(random, 0, 1)),
+                damped ? static_cast<Scalar>(uniform(random, 0, 0.5)) : Scalar(0)};
+            net.add_spring(spring);
+        }
+    }
+    if (pinned) net.pin(0);
+    if (damped) net.set_rayleigh({uniform(random, 0, 1), uniform(random, 0, 1e-4)});
+    typename System::Vector g = System::Vector::Zero();
+    g[System::Dim - 1] = Scalar(-9.81);
+    if (pinned) net.set_gravity(g);
+    return net;
+}
+
+template <class State>
+void throw_about(std::mt19937_64& random, State& state, double speed) {
+    using Scalar = typename State::Scalar;
+    for (Index i = 0; i < state.x.size(); ++i) {
+        state.x.data()[i] += static_cast<Scalar>(uniform(random, -0.5, 0.5));
+        state.v.data()[i] = static_cast<Scalar>(uniform(random, -speed, speed));
+    }
+}
+
+/// E − Σ(W + ρ) of the whole scene must never exceed what any frame before left by more than 0.1 K
+/// of that frame, which one number follows: the least of E + 0.1 K so far.
+struct Promise {
+    double granted = std::numeric_limits<double>::infinity();
+
+    /// @param kinetic  at least K, J
+    template <class Report>
+    bool holds(const Report& report, double kinetic) {
+        granted += report.work + report.rounding;
+        const double scale = std::abs(report.energy) + kinetic + std::abs(granted);
+        const bool kept = !(report.energy > granted + 1e-9 * (std::isfinite(scale) ? scale : 0));
+        granted = std::min(granted, report.energy + 0.1 * kinetic);
+        return kept;
+    }
+};
+
+/// What a user's stepper may do to a state.
+template <class State>
+void spoil(std::mt19937_64& random, State& state) {
+    using Scalar = typename State::Scalar;
+    const Index i = static_cast<Index>(random() % static_cast<unsigned long>(state.x.cols()));
+    switch (random() % 7) {
+        case 0: state.v.setConstant(std::numeric_limits<Scalar>::quiet_NaN()); break;
+        case 1: state.v = -2 * state.v; break;
+        case 2: state.x.col(i).array() += Scalar(1); break;
+        case 3: state.v.col(i).setConstant(std::numeric_limits<Scalar>::infinity()); break;
+        case 4: state.x.col(i).setConstant(std::numeric_limits<Scalar>::max() / 2); break;
+        case 5: state.v *= static_cast<Scalar>(uniform(random, 0.9, 1.2)); break;
+        default: break;
+    }
+}
+
+template <class System>
+void attack(unsigned seed, int scenes) {
+    using Scalar = typename System::Scalar;
+    std::mt19937_64 random(seed);
+    int trimmed = 0, again = 0;
+    for (int scene = 0; scene < scenes; ++scene) {
+        const bool pinned = random() % 2 == 0;
+        const System net = random_net<System>(random, random() % 2 == 0, pinned, random() % 2 == 0);
+        auto state = net.initial_state();
+        throw_about(random, state, std::exp(uniform(random, -2, 4)));
+        if (pinned) state.v.col(0).setZero();
+        taut::VelocityVerlet<System> verlet(net);
+        const bool spoils = scene % 2 == 1;
+        const auto trial = [&](auto& s, Scalar h) {
+            const auto limit = taut::any_pose_limit(net).certified;
+            const auto n = static_cast<Index>(std::ceil(h / (Scalar(0.95) * limit)));
+            (void)verlet.step(s, h / static_cast<Scalar>(n), n);
+            if (spoils && random() % 2 == 0) spoil(random, s);
+        };
+        taut::Guard guard(net, trial);
+        Promise promise;
+        for (int i = 0; i < 40; ++i) {
+            if (pinned && scene % 3 == 0)
+                state.v(0, 0) = static_cast<Scalar>(uniform(random, -3, 3));
+            const auto report = guard.advance(state, Scalar(frame));
+            INFO("scene " << scene << ", frame " << i);
+            REQUIRE(report);
+            REQUIRE(state.finite());
+            REQUIRE(report.spring == -1);
+            REQUIRE(promise.holds(report, static_cast<double>(net.kinetic_energy(state))));
+            trimmed += report.trimmed > 0;
+            again += report.again > 0;
+        }
+    }
+    CHECK(trimmed > 0);
+    CHECK(again > 0);
+}
+
+template <class System>
+System cloth_of(Index side) {
+    taut::ClothOptions options;
+    options.rows = options.columns = side;
+    return taut::with_law<typename System::FirstLaw>(
+        taut::hanging_cloth<typename System::Scalar>(options));
+}
+
+}  // namespace
+
+TEST_CASE("Guard refuses no frame and keeps its promise under attack, double", "[guard]") {
+    attack<taut::SpringSystem<double, 1>>(1, 40);
+    attack<taut::SpringSystem<double, 2, taut::TensionOnly>>(2, 40);
+    attack<taut::SpringSystem<double, 3>>(3, 40);
+    attack<taut::SpringSystem<double, 3, taut::TensionOnly>>(4, 40);
+}
+
+TEST_CASE("Guard refuses no frame and keeps its promise under attack, float", "[guard]") {
+    attack<taut::SpringSystem<float, 1, taut::TensionOnly>>(5, 40);
+    attack<taut::SpringSystem<float, 2>>(6, 40);
+    attack<taut::SpringSystem<float, 3>>(7, 40);
+    attack<taut::SpringSystem<float, 3, taut::TensionOnly>>(8, 40);
+}
+
+TEMPLATE_TEST_CASE("An undamped cloth keeps its energy for a minute under Guard", "[guard]",
+                   (taut::SpringSystem<double, 3, taut::Hookean>),
+                   (taut::SpringSystem<double, 3, taut::TensionOnly>)) {
+    const TestType cloth = cloth_of<TestType>(10);
+    taut::Guard guard(cloth);
+    auto state = cloth.initial_state();
+    const double start = cloth.potential_energy(state);
+    double fastest = 0, energy = 0, pinned = 0;
+    for (Index i = 0; i < cloth.size(); ++i) {
+        if (cloth.is_pinned(i)) pinned -= cloth.mass(i) * cloth.gravity().dot(state.x.col(i));
+    }
+    for (int i = 0; i < 3600; ++i) {
+        const auto report = guard.advance(state, frame);
+        REQUIRE(report);
+        CHECK(report.again == 0);
+        fastest = std::max(fastest, cloth.kinetic_energy(state));
+        energy = report.energy;
+    }
+    CHECK(energy - (start - pinned) <= 0.1 * fastest);
+    CHECK(energy - (start - pinned) >= -0.04 * fastest);
+}
+
+TEST_CASE("Guard keeps the spin of a free net", "[guard]") {
+    using Net = taut::SpringSystem<double, 3, taut::TensionOnly>;
+    Net net = cloth_of<Net>(8);
+    for (Index i = 0; i < net.size(); ++i) {
+        if (net.is_pinned(i)) net.unpin(i);
+    }
+    net.set_gravity(Eigen::Vector3d::Zero());
+    auto state = net.initial_state();
+    const Eigen::Vector3d centre = state.x.rowwise().mean();
+    const Eigen::Vector3d axis(0.3, 0.5, 4);
+    for (Index i = 0; i < net.size(); ++i) {
+        state.v.col(i) = axis.cross(Eigen::Vector3d(state.x.col(i) - centre));
+    }
+    const auto spin = [&] {
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        for (Index i = 0; i < net.size(); ++i) {
+            sum += net.mass(i) *
+                   Eigen::Vector3d(state.x.col(i)).cross(Eigen::Vector3d(state.v.col(i)));
+        }
+        return sum;
+    };
+    const Eigen::Vector3d before = spin();
+    taut::Guard guard(net);
+    int trimmed = 0;
+    for (int i = 0; i < 600; ++i) trimmed += guard.advance(state, frame).trimmed > 0;
+    CHECK(trimmed > 0);
+    CHECK((spin() - before).norm() <= 1e-3 * before.norm());
+}
+
+TEST_CASE("Parts of a scene are judged apart", "[guard]") {
+    using Net = taut::SpringSystem<double, 2>;
+    Net net;
+    for (int i = 0; i < 4; ++i) net.add_particle({i < 2 ? 0.0 : 5.0, double(i % 2)}, 1);
+    net.add_spring(0, 1, 100);
+    net.add_spring(2, 3, 100);
+    auto state = net.initial_state();
+    state.v.col(0) << 1, 0;
+    state.v.col(2) << 1, 0;
+    taut::VelocityVerlet<Net> verlet(net);
+    const auto trial = [&](Net::State& s, double h) {
+        (void)verlet.step(s, h / 8, 8);
+        s.v.col(3).array() += 50;
+    };
+    taut::Guard guard(net, trial);
+    auto plain = state;
+    const auto report = guard.advance(state, frame);
+    CHECK(report);
+    CHECK(report.parts == 2);
+    CHECK(report.again == 1);
+    CHECK(report.taken == Taken::again);
+    CHECK(report.where == 2);
+    REQUIRE(taut::VelocityVerlet<Net>(net).step(plain, frame / 8, 8));
+    CHECK(state.x.leftCols(2) == plain.x.leftCols(2));
+    CHECK(state.v.leftCols(2) == plain.v.leftCols(2));
+    CHECK((state.v.col(3) - plain.v.col(3)).norm() < 0.1);
+}
+
+TEST_CASE("A trial that is never finite leaves every frame to the proved step", "[guard]") {
+    using Net = taut::SpringSystem<double, 3, taut::Hookean>;
+    const Net cloth = cloth_of<Net>(6);
+    const auto trial = [](Net::State& s, double) {
+        s.v.setConstant(std::numeric_limits<double>::quiet_NaN());
+    };
+    taut::Guard guard(cloth, trial);
+    auto state = cloth.initial_state();
+    for (int i = 0; i < 30; ++i) {
+        const auto report = guard.advance(state, frame);
+        REQUIRE(report);
+        CHECK(report.taken == Taken::again);
+    }
+    auto alone = cloth.initial_state();
+    taut::EnergyStableEuler<Net> stepper(cloth);
+    const double limit = taut::energy_stable_limit(cloth).certified;
+    const auto n = static_cast<Index>(std::ceil(frame / limit));
+    REQUIRE(stepper.step(alone, frame / static_cast<double>(n), 30 * n));
+    CHECK((state.x - alone.x).norm() <= 1e-9);
+}
+
+TEST_CASE("Stiff forces given as code never explode under Guard, and are named", "[guard]") {
+    using Net = taut::SpringSystem<double, 3, taut::Hookean>;
+    const int kind = GENERATE(0, 1, 2, 3);
+    Net cloth = cloth_of<Net>(6);
+    const double h = 0.95 * taut::any_pose_limit(cloth).certified;
+    double mass = 0;
+    for (Index i = 0; i < cloth.size(); ++i) mass = std::max(mass, double(cloth.mass(i)));
+    const double most = kind == 3 ? 3e5 : 3;
+    cloth.set_external_force([=](const auto& s, auto& f) {
+        if (kind == 0) f -= most * mass / h * s.v;
+        if (kind == 1) f -= most * mass / (h * h) * s.x;
+        if (kind == 2) f.row(2) -= 30 * mass / (h * h) * s.x.row(2).cwiseMin(0.0);
+        if (kind == 3) f -= most * mass / h * s.v;
+    });
+    taut::Guard guard(cloth);
+    auto state = cloth.initial_state();
+    bool named = false;
+    const double start = (state.x.colwise() - state.x.col(0)).norm();
+    for (int i = 0; i < 120; ++i) {
+        const auto report = guard.advance(state, frame);
+        if (!report) CHECK(report.status == taut::Status::frozen);
+        if (!report) CHECK(report.force != nullptr);
+        named = named || report.force != nullptr || report.again > 0;
+        REQUIRE(state.finite());
+        REQUIRE(state.v.norm() < 1e3);
+        REQUIRE((state.x.colwise() - state.x.col(0)).norm() < 10 * start);
+    }
+    CHECK(named);
+}
+
+TEST_CASE("What is not finite is refused by name, and the state stays", "[guard]") {
+    using Net = taut::SpringSystem<double, 3, taut::Hookean>;
+    Net cloth = cloth_of<Net>(6);
+    taut::Guard guard(cloth);
+    auto state = cloth.initial_state();
+    CHECK(guard.advance(state, 0).status == taut::Status::invalid_step);
+    CHECK(guard.advance(state, std::numeric_limits<double>::quiet_NaN()).status ==
+          taut::Status::invalid_step);
+    REQUIRE(guard.advance(state, 1e-12));
+    auto broken = state;
+    broken.v(1, 7) = std::numeric_limits<double>::infinity();
+    const auto refused = guard.advance(broken, frame);
+    CHECK(refused.status == taut::Status::invalid_state);
+    CHECK(refused.where == 7);
+    broken = state;
+    broken.x(1, 7) = 1e200;  // its square is not
+    CHECK(guard.advance(broken, frame).status == taut::Status::invalid_state);
+    cloth.set_external_force(
+        [](const auto&, auto& f) { f(0, 9) = std::numeric_limits<double>::quiet_NaN(); });
+    const auto before = state;
+    const auto report = guard.advance(state, frame);
+    CHECK_FALSE(report);
+    CHECK(report.force == std::string("set_external_force"));
+    CHECK(report.advanced == 0);
+    CHECK(state.x == before.x);
+    CHECK(state.v == before.v);
+    cloth.set_external_force({});
+    CHECK(guard.advance(state, frame));
+}
+
+TEST_CASE("Guard shortens a late frame to its most steps", "[guard]") {
+    using Net = taut::SpringSystem<double, 3, taut::Hookean>;
+    const Net cloth = cloth_of<Net>(6);
+    taut::GuardOptions<double> options;
+    options.max_substeps = 10;
+    taut::Guard guard(cloth, options);
+    auto state = cloth.initial_state();
+    const auto report = guard.advance(state, 10.0);
+    CHECK(report);
+    CHECK(report.substeps == 10);
+    CHECK(report.advanced == Approx(9.5 * taut::any_pose_limit(cloth).certified));
+    CHECK(state.time == report.advanced);
+}
+
+TEST_CASE("Scenes without springs, without free particles, torn and edited", "[guard]") {
+    using Net = taut::SpringSystem<double, 3>;
+    Net net;
+    taut::Guard guard(net);
+    auto state = net.initial_state();
+    CHECK(guard.advance(state, frame));
+    net.add_particle({0, 0, 0}, 1);
+    net.add_particle({1, 0, 0}, 1);
+    net.set_gravity({0, 0, -10});
+    net.pin(0);
+    state = net.initial_state();
+    state.v(0, 0) = 1;
+    auto report = guard.advance(state, 1.0);
+    CHECK(report);
+    CHECK(report.parts == 1);
+    CHECK(state.x(2, 1) == Approx(-5));
+    CHECK(state.x(0, 0) == Approx(1));
+    CHECK(std::abs(report.work) < 1e-9);  // a pin lifted or moved alone does no work
+    net.pin(1);
+    CHECK(guard.advance(state, frame).parts == 0);
+    net.unpin(0);
+    net.unpin(1);
+    net.add_spring(0, 1, 100);
+    CHECK(guard.advance(state, frame).parts == 1);
+    net.set_stiffness(0, 1e8);
+    for (int i = 0; i < 10; ++i) CHECK(guard.advance(state, frame));
+    net.remove_spring(0);
+    report = guard.advance(state, frame);
+    CHECK(report);
+    CHECK(report.parts == 2);
+}
+
+TEST_CASE("Guard counts the work of a pin that lifts a weight", "[guard]") {
+    using Net = taut::SpringSystem<double, 3>;
+    Net net;
+    net.add_particle({0, 0, 0}, 1);
+    net.add_particle({0, 0, -1}, 1);
+    net.add_spring(taut::Spring<double, taut::Hookean>{0, 1, {1e4}, 1, 20});
+    net.pin(0);
+    net.set_gravity({0, 0, -10});
+    auto state = net.initial_state();
+    taut::Guard guard(net);
+    double work = 0;
+    for (int i = 0; i < 600; ++i) {
+        state.v(2, 0) = 0.5;
+        const auto report = guard.advance(state, frame);
+        REQUIRE(report);
+        work += report.work;
+    }
+    CHECK(work == Approx(50 + 0.125).epsilon(0.02));  // m g z, and ½mv²; the damper takes a little
+}
+
+TEST_CASE("Guard takes implicit steppers, views, responses and calls", "[guard]") {
+    using Net = taut::SpringSystem<float, 3, taut::TensionOnly>;
+    const Net cloth = cloth_of<Net>(8);
+    taut::Guard<taut::ImplicitEuler<Net>> implicit(cloth);
+    taut::Guard<taut::SymplecticEuler<Net>> symplectic(cloth);
+    auto state = cloth.initial_state();
+    CHECK(implicit.advance(state, float(frame)).substeps == 1);
+    std::vector<double> x(3 * 64), v(3 * 64);
+    taut::StateView<double, 3> view(x.data(), v.data(), 64);
+    view.copy_from(cloth.initial_state());
+    double highest = 0;
+    for (int i = 0; i < 60; ++i) {
+        const auto report = symplectic.advance(view, float(frame), [&](auto& s) {
+            for (Index p = 0; p < 64; ++p) {
+                if (s.x(2, p) < -0.2f) s.v(2, p) = std::max(s.v(2, p), 0.0f);
+            }
+        });
+        REQUIRE(report);
+        highest = std::max(highest, view.v.norm());
+    }
+    CHECK(view.time == Approx(1).epsilon(1e-4));
+    CHECK(highest < 100);
+}
