@@ -35,12 +35,6 @@ public:
     template <class System>
     static SpringPencil any_pose(const System& system, Damping counted = Damping::all);
 
-    /// The pencil of what stays explicit beside implicit shares, all over the margin θ [T33]:
-    /// springs times (1 − s)/θ, d0/θ. Of any_pose.
-    /// @param shares  s of each spring of the system, in index order, 0 …; beyond 1 they take
-    ///                springs away, and only `quadratic` and `multiply` serve, with the true K
-    SpringPencil explicit_part(const std::vector<double>& shares, double margin) const;
-
     void multiply(const Combination& c, const Eigen::VectorXd& u,
                   Eigen::VectorXd& y) const override;
     Enclosed quadratic(const Combination& c, const Eigen::VectorXd& u) const override;
@@ -57,17 +51,6 @@ public:
     std::vector<double> particle_loads(const Combination& c, const std::vector<double>& p) const {
         return loads(splitting(c, p));
     }
-    /// visit(a, b, d, axial, transverse) for every spring with a free end: free particles (−1 when
-    /// pinned), unit vector, and S of the spring = axial ddᵀ + transverse(I − ddᵀ), N/m.
-    template <class Visitor>
-    void for_each_link(const Combination& c, Visitor&& visit) const {
-        for (const Link& link : links_) {
-            const auto [axial, transverse] = coefficients(c, link);
-            visit(link.a, link.b, link.d, axial, transverse);
-        }
-    }
-    /// Springs with a free end.
-    Index link_count() const { return static_cast<Index>(links_.size()); }
     std::vector<SpringShare> spring_shares(const Eigen::VectorXd& u) const override;
     std::vector<ParticleShare> particle_shares(const Eigen::VectorXd& u) const override;
     std::shared_ptr<const ScenePencil> scaled(double stiffness, double mass) const override;
@@ -347,29 +330,6 @@ std::vector<ParticleShare> SpringPencil<Dim>::particle_shares(const Eigen::Vecto
         shares.push_back({free_[j], total > 0 ? energy / total : 0});
     }
     return shares;
-}
-
-template <int Dim>
-SpringPencil<Dim> SpringPencil<Dim>::explicit_part(const std::vector<double>& shares,
-                                                   double margin) const {
-    SpringPencil pencil = *this;
-    pencil.rayleigh_.mass_proportional /= margin;
-    for (std::size_t s = 0; s < links_.size(); ++s) {
-        const double part = (1 - shares[static_cast<std::size_t>(names_[s][0])]) / margin;
-        Link& link = pencil.links_[s];
-        for (double* value :
-             {&link.axial, &link.softer, &link.transverse, &link.damping, &link.graph}) {
-            *value *= part;
-        }
-        link.bound *= std::abs(part);
-        if (part >= 0) continue;
-        // K⁺, which Rayleigh's α acts through, has no negative springs.
-        link.damping += rayleigh_.stiffness_proportional * link.axial;
-        pencil.facts_.is_rayleigh = false;
-        pencil.facts_.stiffness_semidefinite = false;
-        pencil.facts_.damping_semidefinite = false;
-    }
-    return pencil;
 }
 
 template <int Dim>
