@@ -35,6 +35,12 @@ public:
     template <class System>
     static SpringPencil any_pose(const System& system, Damping counted = Damping::all);
 
+    /// The pencil of what stays explicit beside implicit shares, all over the margin θ [T33]:
+    /// springs times (1 − s)/θ, d0/θ. Of any_pose.
+    /// @param shares  s of each spring of the system, in index order, 0 …; beyond 1 they take
+    ///                springs away, and only `quadratic` and `multiply` serve, with the true K
+    SpringPencil explicit_part(const std::vector<double>& shares, double margin) const;
+
     void multiply(const Combination& c, const Eigen::VectorXd& u,
                   Eigen::VectorXd& y) const override;
     Enclosed quadratic(const Combination& c, const Eigen::VectorXd& u) const override;
@@ -330,6 +336,29 @@ std::vector<ParticleShare> SpringPencil<Dim>::particle_shares(const Eigen::Vecto
         shares.push_back({free_[j], total > 0 ? energy / total : 0});
     }
     return shares;
+}
+
+template <int Dim>
+SpringPencil<Dim> SpringPencil<Dim>::explicit_part(const std::vector<double>& shares,
+                                                   double margin) const {
+    SpringPencil pencil = *this;
+    pencil.rayleigh_.mass_proportional /= margin;
+    for (std::size_t s = 0; s < links_.size(); ++s) {
+        const double part = (1 - shares[static_cast<std::size_t>(names_[s][0])]) / margin;
+        Link& link = pencil.links_[s];
+        for (double* value :
+             {&link.axial, &link.softer, &link.transverse, &link.damping, &link.graph}) {
+            *value *= part;
+        }
+        link.bound *= std::abs(part);
+        if (part >= 0) continue;
+        // K⁺, which Rayleigh's α acts through, has no negative springs.
+        link.damping += rayleigh_.stiffness_proportional * link.axial;
+        pencil.facts_.is_rayleigh = false;
+        pencil.facts_.stiffness_semidefinite = false;
+        pencil.facts_.damping_semidefinite = false;
+    }
+    return pencil;
 }
 
 template <int Dim>
