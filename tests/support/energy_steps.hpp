@@ -57,19 +57,20 @@ struct StepAhead {
     static constexpr int Dim = System::Dim;
     using Points = Eigen::Matrix<Real, Dim, Eigen::Dynamic>;
 
-    Points x, v;     ///< after the step
-    Points springs;  ///< forces of springs and their damping on all particles, N
-    Real size = 0;   ///< what rounding errors of the energy are relative to, J
+    Points x, v;       ///< after the step
+    Points springs;    ///< forces of springs and their damping on all particles, N
+    RealVector noise;  ///< what rounding errors of the force on each are relative to, N
+    Real size = 0;     ///< what rounding errors of the energy are relative to, J
 
     /// @param F  outside forces, Dim × n, N
     StepAhead(const System& system, const typename System::State& state, Real h, const Points& F)
         : x(state.x.template cast<Real>()),
           v(state.v.template cast<Real>()),
-          springs(Points::Zero(Dim, system.size())) {
+          springs(Points::Zero(Dim, system.size())),
+          noise(RealVector::Zero(system.size())) {
         const auto alpha = static_cast<Real>(system.rayleigh().stiffness_proportional);
         const auto d0 = static_cast<Real>(system.rayleigh().mass_proportional);
         const auto gravity = system.gravity().template cast<Real>().eval();
-        RealVector noise = RealVector::Zero(system.size());  // N
         system.for_each_set([&](const auto& set) {
             using Law = typename std::decay_t<decltype(set)>::Law;
             for (std::size_t s = 0; s < set.a.size(); ++s) {

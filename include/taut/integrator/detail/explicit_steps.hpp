@@ -94,10 +94,14 @@ public:
             });
     }
     /// One step by accelerations that are corrected all together, by the plain path.
-    /// @param correct  as of Sweep::run_corrected
-    template <class Correct>
+    /// @tparam Ahead   and correct: as of Sweep::run_corrected
+    template <bool Ahead = false, class Correct>
     void corrected_step(const System& system, State& state, Scalar h, const Correct& correct) {
-        update_force(system, state, h);
+        if constexpr (Ahead) {
+            system.force_ahead(state, h, f_);
+        } else {
+            update_force(system, state, h);
+        }
         f_ = acceleration(system).matrix().eval();
         correct(ColumnVectors{f_}, ColumnVectors{state.v});
         state.v += h * f_;

@@ -202,8 +202,9 @@ public:
                     const StepDamping& added, bool go_on);
     /// Takes `count` steps of h, s: v⁺ = v + h a, x⁺ = x + h v⁺, by accelerations that are
     /// corrected all together.
+    /// @tparam Ahead   whether springs pull as in run_ahead
     /// @param correct  correct(a, v): of accelerations and velocities by particle, PlaceVectors
-    template <class AnyState, class Correct>
+    template <bool Ahead = false, class AnyState, class Correct>
     bool run_corrected(const System& system, AnyState& state, Scalar h, Index count, int threads,
                        const Correct& correct);
 

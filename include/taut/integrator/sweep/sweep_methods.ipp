@@ -73,18 +73,23 @@ bool Sweep<System>::run_verlet(const System& system, AnyState& state, Scalar h, 
 }
 
 template <class System>
-template <class AnyState, class Correct>
+template <bool Ahead, class AnyState, class Correct>
 bool Sweep<System>::run_corrected(const System& system, AnyState& state, Scalar h, Index count,
                                   int threads, const Correct& correct) {
-    load(system, state, {}, 0);
+    // The acceleration takes the place of the new x, which must not be that of the old one.
+    load(system, state, {}, Ahead ? h : Scalar(0), Ahead);
     const bool one_by_one = outside_.asks_for_state();
     if (one_by_one && !state_.finite()) return false;
     if (places_.empty()) places_ = plan_.places();
-    // The acceleration takes the place of the new x.
     const auto take = [](auto& x, auto&, const auto& a, const auto&) { x = a; };
     for (Index i = 1; i <= count; ++i) {
+        if (Ahead && i > 1) state_.look_ahead(h);
         update_.set_external(outside_.at_state(plan_, state_.planes()));
-        some_steps(h, 1, threads, take);
+        if constexpr (Ahead && ForcePlan<System>::pushes) {
+            some_steps(h, 1, threads, WithBoth<decltype(take)>{take});
+        } else {
+            some_steps(h, 1, threads, take);
+        }
         const StatePlanes<Scalar> planes = state_.planes();
         correct(PlaceVectors<System>(plan_, places_, planes.x),
                 PlaceVectors<System>(plan_, places_, planes.v));
