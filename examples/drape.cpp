@@ -115,8 +115,7 @@ void print_start(const Options& options, const example::Scene& scene, const Plan
 /// The end of a sentence that says which step is too large.
 const char* cure(const Options& options) {
     if (!options.implicit()) return "; stability_report says which steps are safe";
-    for (const char* solved : {"newton", "projective", "graph_inertia"})
-        if (options.integrator == solved) return "";
+    if (options.integrator == "newton" || options.integrator == "projective") return "";
     return ", which makes one linearised solve of it; --integrator newton solves the step itself";
 }
 

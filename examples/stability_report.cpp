@@ -127,11 +127,9 @@ Findings report_on_scene(const Options& options, Progress& progress) {
     const double tightness = options.proof || options.any_pose ? proof_tightness : 0;
     found.any_pose = taut::any_pose_limit(scene.system, tightness);
     found.energy = example::prove_energy(scene.system, tightness);
-    found.graph_inertia = stability.max_step(Method::graph_inertia);
     if (found.remedies) {
-        progress.at("looking for masses and inertia that make the wanted step safe");
+        progress.at("looking for masses that make the wanted step safe");
         found.remedies->added_mass = taut::added_mass(scene.system, state, options.want_step);
-        found.inertia = example::tell_inertia(scene.system, options.want_step);
     }
     if (options.resolve) {
         progress.at("looking for how few particles would do");
@@ -228,8 +226,7 @@ int run(int argc, char** argv) {
     app.add_option("--blame", options.blame, "name the N springs and particles that limit the step")
         ->check(CLI::Range(0, 1'000'000));
     app.add_option("--want-step", options.want_step,
-                   "say what would make step H, s, or as 1/240, safe, and what graph inertia "
-                   "would cost")
+                   "say what would make step H, s, or as 1/240, safe")
         ->transform(example::time_quantity())
         ->check(example::positive());
     auto* resolve =

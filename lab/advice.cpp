@@ -64,7 +64,7 @@ int lab_advise() {
                                         }),
                          candidates.end());
     }
-    advice.plans = taut::feasible_plans(cloth, advice.state, goal, candidates);
+    advice.plans = taut::feasible_plans(cloth, goal, candidates);
     return static_cast<int>(advice.plans.size());
 }
 

@@ -3,7 +3,7 @@
 
 // Which integrator is the cheapest here, as the worker has timed them.
 
-import { IMPLICIT, INERTIA } from "./engine.js";
+import { IMPLICIT } from "./engine.js";
 import { FRAME, NAMES, whole } from "./words.js";
 
 /* global significant */
@@ -15,7 +15,7 @@ function planName(plan) {
   return NAMES[plan.method] + (plan.method === IMPLICIT ? (plan.gradients ? ", conjugate gradients" : ", sparse Cholesky") : "");
 }
 const steps = (plan) => (plan.substeps === 1 ? "one step a frame" : `${whole(plan.substeps)} steps a frame`);
-const REASONS = { [IMPLICIT]: "Every step is stable, so it takes the whole frame at once.", [INERTIA]: "It makes only those springs implicit that hold the step down." };
+const REASONS = { [IMPLICIT]: "Every step is stable, so it takes the whole frame at once." };
 
 /// @param plans  the cheapest first   @returns {best, second, near, close}: none is best where nothing
 /// can be chosen; near: two cost about the same; close: and are two methods
@@ -53,7 +53,7 @@ export function writeAdvice(plans) {
   }
   byId("bars").replaceChildren(...plans.flatMap((plan) => {
     const row = document.createElement("div");
-    const texts = [`${planName(plan)}${plan.method === INERTIA ? `, ${steps(plan)}` : ""}`, `${significant(1000 * plan.cost, 2)}\u00a0ms a frame`];
+    const texts = [planName(plan), `${significant(1000 * plan.cost, 2)}\u00a0ms a frame`];
     row.append(...texts.map((text) => Object.assign(document.createElement("span"), { textContent: text })));
     const bar = document.createElement("i");
     bar.style.width = `${(100 * plan.cost) / plans[plans.length - 1].cost}%`;

@@ -3,10 +3,10 @@
 
 // lab.wasm with the few calls that it needs of its host, for the page, its worker and node.
 
-export const METHODS = ["explicit_euler", "symplectic_euler", "velocity_verlet", "implicit_euler", "bdf2", "graph_inertia"];
-export const EXPLICIT = 0, SYMPLECTIC = 1, IMPLICIT = 3, INERTIA = 5;
+export const METHODS = ["explicit_euler", "symplectic_euler", "velocity_verlet", "implicit_euler", "bdf2", "energy_stable_euler"];
+export const EXPLICIT = 0, SYMPLECTIC = 1, IMPLICIT = 3;
 export const RESOLVED = ["coarse", "fine", "unpredictable", "nothing_moves", "diverged", "cut_short"];
-export const ANALYSED = [0, 1, 2, 3, 5];
+export const ANALYSED = [0, 1, 2, 3];
 
 /// @param memory  called for it   @param said  what the library says before it aborts
 /// @param told  as loadLab takes it

@@ -10,8 +10,9 @@
 #endif
 
 // One mass-spring scene for a page, or for a native program, to play with. Methods count as in
-// taut::Method: explicit Euler, symplectic Euler, velocity Verlet, implicit Euler, BDF2, graph
-// inertia. Particles count from 0. What is returned holds until the next call of the same function.
+// taut::Method: explicit Euler, symplectic Euler, velocity Verlet, implicit Euler, BDF2,
+// energy-stable Euler. Particles count from 0. What is returned holds until the next call of the
+// same function.
 
 extern "C" {
 
@@ -108,7 +109,7 @@ struct LabLimits {
     double certified;  ///< s; at the pose in which the scene starts
     double refuted;    ///< s; at that pose; infinity: none is
 };
-/// @param method  not BDF2
+/// @param method  not BDF2 or energy-stable Euler
 LAB_CALL const LabLimits* lab_limits(int method);
 /// The cause of that limit, as one sentence.
 LAB_CALL const char* lab_cause(int method);

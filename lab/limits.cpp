@@ -22,7 +22,7 @@ using taut::Method;
 struct Limits {
     taut::StepLimit<double> any_pose;
     std::optional<taut::Stability<double>> stability;
-    std::array<std::optional<taut::StepLimit<double>>, 7> at_pose;  // by method
+    std::array<std::optional<taut::StepLimit<double>>, 6> at_pose;  // by method
     LabMode mode{};
     taut::Points<double, 3> kick;
     std::vector<int> blamed;
@@ -102,9 +102,8 @@ void lab_analyse_pose() {
     // Pins change the size of what the search began at.
     found.stability.emplace(cloth, cloth.initial_state());
     found.at_pose = {};
-    for (const Method method :
-         {Method::explicit_euler, Method::symplectic_euler, Method::velocity_verlet,
-          Method::implicit_euler, Method::graph_inertia})
+    for (const Method method : {Method::explicit_euler, Method::symplectic_euler,
+                                Method::velocity_verlet, Method::implicit_euler})
         at_pose(static_cast<int>(method));
 }
 

@@ -5,7 +5,6 @@
 #include <taut/bdf2/bdf2.hpp>
 #include <taut/integrator/energy_stable_euler.hpp>
 #include <taut/integrator/explicit_euler.hpp>
-#include <taut/graph_inertia/graph_inertia.hpp>
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/integrator/velocity_verlet.hpp>
@@ -23,8 +22,7 @@ using lab::Cloth;
 using Gradients = taut::ConjugateGradient<double, 3>;
 using Stepper = std::variant<taut::ExplicitEuler<Cloth>, taut::SymplecticEuler<Cloth>,
                              taut::VelocityVerlet<Cloth>, taut::ImplicitEuler<Cloth, Gradients>,
-                             taut::Bdf2<Cloth, Gradients>, taut::GraphInertia<Cloth>,
-                             taut::EnergyStableEuler<Cloth>>;
+                             taut::Bdf2<Cloth, Gradients>, taut::EnergyStableEuler<Cloth>>;
 
 struct Motion {
     Cloth::State state;

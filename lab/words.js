@@ -3,13 +3,13 @@
 
 // What the page says about a step.
 
-import { EXPLICIT, IMPLICIT, INERTIA } from "./engine.js";
+import { EXPLICIT, IMPLICIT } from "./engine.js";
 import { standing } from "./charts.js";
 
 /* global seconds, metres, percent, significant */
 
 export const FRAME = 1 / 60;  // s
-export const NAMES = ["Explicit Euler", "Symplectic Euler", "Velocity Verlet", "Implicit Euler", "BDF2", "Graph inertia"];
+export const NAMES = ["Explicit Euler", "Symplectic Euler", "Velocity Verlet", "Implicit Euler", "BDF2"];
 export const STANDING = { certified: "certified at any pose", posed: "certified at the starting pose", open: "not decided", refuted: "refuted" };
 export const whole = (n) => n.toLocaleString("en-US");
 const rounded = (n) => whole(+n.toPrecision(1));
@@ -36,7 +36,6 @@ export function sentence({ method, h, alpha, drag }, limits, window, growth) {
   const where = standing(h, limits);
   if (method === EXPLICIT && (where === "open" || where === "refuted")) return explicitWords({ alpha, drag }, limits, window) + (growth > 1 && growth <= SLOW ? ` ${slowly(growth)}` : "");
   if (method === IMPLICIT) return `Every step h of implicit Euler is certified, linearised, at any pose. A large step costs motion, which it damps. A frame in one step is ${seconds(FRAME, 3)}.`;
-  if (method === INERTIA) return `Every step h of graph inertia is certified, linearised, at any pose: springs that would not bear the step become implicit. A large step costs inertia, which slows folds and rotation. A frame in one step is ${seconds(FRAME, 3)}.`;
   if (where === "certified") {
     if (limits.anyPose === Infinity) return "Every step is certified: nothing here can vibrate.";
     return `Certified: about no pose that the mesh takes does a small vibration grow (proved, linearised). Its energy may rise all the same; Taut’s recipe, a share of this limit with damping, keeps it down (measured, not proved). A frame of 1/60\u00a0s is ${whole(Math.ceil(FRAME / h))} such steps.`;

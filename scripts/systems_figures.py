@@ -2,14 +2,12 @@
 # SPDX-FileCopyrightText: 2026 Taut contributors
 # SPDX-License-Identifier: MIT
 
-"""Draws docs/systems/*.svg from docs/systems/*.csv, which the program systems_figures writes, and
-survival.svg from what `survival_table map --csv` does.
+"""Draws docs/systems/*.svg from docs/systems/*.csv, which the program systems_figures writes.
 
 Needs matplotlib (Debian: python3-matplotlib). Usage: systems_figures.py [FOLDER]
 """
 
 import csv
-import itertools
 import sys
 from pathlib import Path
 
@@ -151,49 +149,10 @@ def contact(folder):
     save(figure, folder, "contact")
 
 
-def survival(folder):
-    """A panel a law and damping: shade and number, the share of runs that blew up; a plus, where some ended above."""
-    table = [row for row in rows(folder, "survival") if row["method"] == "symplectic_euler"]
-    shares = list(dict.fromkeys(row["h_over_limit"] for row in table))
-    scenes = list(dict.fromkeys(row["scene"] for row in table))
-    laws = ("Hookean", "tension-only", "buckling")
-    dampings = list(dict.fromkeys(row["damping"] for row in table))
-    figure, plots = plt.subplots(len(laws), len(dampings), figsize=(2.1 * len(dampings) + 1.6, 2.3 * len(laws)),
-                                 squeeze=False, sharex=True, sharey=True)
-    for line, law in zip(plots, laws):
-        for plot, damping in zip(line, dampings):
-            cells = {(row["scene"], row["h_over_limit"]): row for row in table
-                     if row["law"] == law and row["damping"] == damping}
-            for (y, scene), (x, share) in itertools.product(enumerate(scenes), enumerate(shares)):
-                if (scene, share) not in cells:  # unstable in the linear sense already
-                    plot.add_patch(plt.Rectangle((x, y), 1, 1, facecolor="#dddddd"))
-                    continue
-                cell = cells[scene, share]
-                blown = int(cell["blew_up"]) / int(cell["runs"])
-                text = f"{100 * blown:.0f}" if blown > 0 else "+" if int(cell["rose"]) > 0 else ""
-                if blown > 0:
-                    plot.add_patch(plt.Rectangle((x, y), 1, 1, facecolor=plt.cm.Oranges(0.1 + 0.8 * blown)))
-                if text:
-                    plot.text(x + 0.5, y + 0.5, text, ha="center", va="center", fontsize=6,
-                              color="white" if blown > 0.55 else "black")
-            plot.set_xlim(0, len(shares))
-            plot.set_ylim(len(scenes), 0)
-            plot.set_xticks([x + 0.5 for x in range(len(shares))], shares, fontsize=7)
-            plot.set_yticks([y + 0.5 for y in range(len(scenes))], scenes, fontsize=7)
-            plot.tick_params(length=0)
-        line[-1].yaxis.set_label_position("right")
-        line[-1].set_ylabel(law)
-    for plot, damping in zip(plots[0], dampings):
-        plot.set_title(damping, fontsize=9)
-    for plot in plots[-1]:
-        plot.set_xlabel("h / limit", fontsize=8)
-    save(figure, folder, "survival")
-
-
 def main():
     folder = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parent.parent / "docs" / "systems"
     plt.rcParams.update({"font.size": 9, "svg.hashsalt": "taut", "svg.fonttype": "none"})
-    for draw in (large_steps, strip, swing, modal, energy, guard, contact, survival):
+    for draw in (large_steps, strip, swing, modal, energy, guard, contact):
         draw(folder)
 
 

@@ -30,15 +30,6 @@ inline Verdict certified_by(taut::method::LimitedByIndefiniteness, const Exact& 
                             double) {
     return std::isinf(h) ? Verdict::holds : certified_implicit(e, h);
 }
-/// 4θM̃ − 2hD − h²K⁺ = (4θ − 2h d0)M of springs that are all implicit; of bare matrices no more is
-/// claimed than of implicit Euler.
-inline Verdict certified_by(taut::method::LimitedByDrag, const Exact& e, double h,
-                            double admitted) {
-    const Verdict solvable = certified_by(taut::method::LimitedByIndefiniteness{}, e, h, admitted);
-    if (std::isinf(h)) return both(solvable, e.d0 == 0 ? Verdict::holds : Verdict::wrong);
-    const Real left = 4 * Real(taut::method::GraphInertia::margin) - 2 * Real(h) * e.d0;
-    return both(solvable, wrong_if(negative(Sum(e).mass(left).matrix())));
-}
 inline Verdict refuted_by(taut::method::LimitedByDamping, const Exact& e, const Real& h) {
     return refuted_explicit(e, h);
 }
@@ -46,9 +37,6 @@ inline Verdict refuted_by(taut::method::LimitedByStiffness, const Exact& e, cons
     return refuted_symplectic(e, h);
 }
 inline Verdict refuted_by(taut::method::LimitedByIndefiniteness, const Exact& e, const Real& h) {
-    return refuted_implicit(e, h);
-}
-inline Verdict refuted_by(taut::method::LimitedByDrag, const Exact& e, const Real& h) {
     return refuted_implicit(e, h);
 }
 
@@ -202,8 +190,8 @@ private:
 template <class Scalar>
 void judge_stability(Draw& draw, Judge& judge, const taut::Stability<Scalar>& stability) {
     const double tightness = std::exp2(draw.uniform(-20, -3));
-    for (const Method method : {Method::symplectic_euler, Method::explicit_euler,
-                                Method::implicit_euler, Method::graph_inertia}) {
+    for (const Method method :
+         {Method::symplectic_euler, Method::explicit_euler, Method::implicit_euler}) {
         const std::string label = taut::name(method);
         const auto bound = stability.max_step(method);
         const auto narrow = taut::max_step(stability, method, tightness);

@@ -140,11 +140,12 @@ public:
         }
         if (!goal.accuracy) return;
         // Whole nets of up to 16 rows; of larger ones a strip of two columns, which has the modes.
-        judged_ = net(cell, cell.n > 16 ? 2 : cell.n, rest_);
-        relax(cell, judged_, rest_);
-        const auto loaded = taut::linearize(judged_, rest_);
+        Net::State rest;
+        const Net judged = net(cell, cell.n > 16 ? 2 : cell.n, rest);
+        relax(cell, judged, rest);
+        const auto loaded = taut::linearize(judged, rest);
         linear_.emplace(loaded.mass(), loaded.damping(), loaded.stiffness());
-        modes_ = row_modes(cell, judged_, *linear_, goal.up_to_frequency);
+        modes_ = row_modes(cell, judged, *linear_, goal.up_to_frequency);
     }
 
     void print() {
@@ -173,7 +174,7 @@ public:
                 trial.plan.substeps == advice.pick.substeps) {
                 pick = &trial;
             }
-            if (!trial.recommended || c.method == Method::graph_inertia) continue;
+            if (!trial.recommended) continue;
             double& side = is_implicit(c.method) ? implicit_cost : explicit_cost;
             if (!(side <= trial.plan.cost)) side = trial.plan.cost;
         }
@@ -242,10 +243,7 @@ private:
     bool meets(const Plan& plan) {
         worst_ = {};
         for (const Mode& mode : modes_) {
-            const bool inertia = plan.candidate.method == Method::graph_inertia;
-            const auto error =
-                inertia ? taut::measured_mode_error(judged_, rest_, mode, plan.candidate, 1e-7, 800)
-                        : taut::measured_mode_error(*linear_, mode, plan.candidate, 800);
+            const auto error = taut::measured_mode_error(*linear_, mode, plan.candidate, 800);
             if (!error) return false;
             if (std::abs(error->artificial_damping) > std::abs(worst_.artificial_damping)) {
                 worst_.artificial_damping = error->artificial_damping;
@@ -277,8 +275,6 @@ private:
     Goal goal_;
     Net system_;
     Net::State start_;
-    Net judged_;
-    Net::State rest_;
     std::optional<taut::LinearSystem<double>> linear_;
     std::vector<Mode> modes_;
     taut::ModeError worst_;

@@ -7,8 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <taut/graph_inertia/graph_inertia.hpp>
-#include <taut/graph_inertia/inertia_price.hpp>
 #include <taut/mass_scaling/mass_scaling.hpp>
 #include <taut/resolution/resolution.hpp>
 #include <taut/taut.hpp>
@@ -101,27 +99,6 @@ EnergyProof prove_energy(const System& system, double tightness) {
     return proof;
 }
 
-/// What graph inertia would make of the wanted step [T33].
-struct InertiaTold {
-    bool possible = false;  ///< some shares make the step safe
-    taut::Index implicit_springs = 0;
-    taut::Index touched = 0;  ///< free particles at their ends
-    taut::InertiaPrice price;
-};
-
-template <class System>
-InertiaTold tell_inertia(const System& system, double h) {
-    const taut::GraphShares shares =
-        taut::graph_shares(system, h, taut::GraphInertiaOptions{}.margin);
-    InertiaTold told;
-    told.possible = shares.status == taut::Status::ok;
-    told.implicit_springs = shares.implicit_springs();
-    told.touched = taut::touched_particles(system, shares);
-    const taut::Index modes = told.implicit_springs > 0 ? 10 : 0;
-    told.price = taut::inertia_price(system, system.initial_state(), shares, modes);
-    return told;
-}
-
 /// How few particles would do.
 struct ResolutionFound {
     double duration = 0;  // s
@@ -140,8 +117,6 @@ struct Findings {
     taut::StepLimit<double> explicit_euler;
     taut::StepLimit<double> symplectic_euler;
     taut::StepLimit<double> implicit_euler;
-    /// At any pose, so at this one too; bare matrices have no springs to share.
-    std::optional<taut::StepLimit<double>> graph_inertia;
     std::optional<taut::StepLimit<double>> any_pose;
     std::optional<EnergyProof> energy;
     std::optional<taut::Certificate> proof;
@@ -151,7 +126,6 @@ struct Findings {
     double participants = 0;         // 1/Σ of the squared shares of all particles
     std::optional<Verdict> verdict;  // on a step that was asked for
     std::optional<Remedies> remedies;
-    std::optional<InertiaTold> inertia;  // at the wanted step
     std::optional<ResolutionFound> resolution;
     double window_step = 0;  // s
     taut::AlphaWindow window;

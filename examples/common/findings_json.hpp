@@ -43,17 +43,6 @@ inline Json energy_json(const std::optional<EnergyProof>& energy) {
     return json;
 }
 
-/// null: no shares make the wanted step safe, or there are no springs.
-inline Json inertia_json(const std::optional<InertiaTold>& told) {
-    if (!told || !told->possible) return nullptr;
-    Json changes = Json::array();
-    for (const auto& mode : told->price.modes) changes.push_back(mode.change());
-    return {{"implicit_springs", told->implicit_springs},
-            {"touched_particles", told->touched},
-            {"added_inertia", told->price.added},
-            {"frequency_changes", changes}};
-}
-
 inline Json verdict_json(const Verdict& verdict) {
     return {{"h", verdict.step},
             {"standing", name(verdict.standing)},
@@ -76,8 +65,6 @@ inline Json to_json(const Findings& found, double d0) {
     json["explicit_euler"] = limit_json(found.explicit_euler);
     json["symplectic_euler"] = limit_json(found.symplectic_euler);
     json["implicit_euler"] = limit_json(found.implicit_euler);
-    json["graph_inertia"] =
-        found.graph_inertia ? limit_json(*found.graph_inertia) : Json{{"certified", nullptr}};
     json["any_pose"] = found.any_pose ? limit_json(*found.any_pose)
                                       : Json{{"certified", nullptr}, {"refuted", nullptr}};
     json["energy"] = energy_json(found.energy);
@@ -112,7 +99,6 @@ inline Json to_json(const Findings& found, double d0) {
         json["want_step"]["added_mass"] = remedies.added_mass && remedies.added_mass->reached
                                               ? Json(remedies.added_mass->total)
                                               : Json(nullptr);
-        json["want_step"]["graph_inertia"] = inertia_json(found.inertia);
     }
     if (found.resolution) json["resolution"] = resolution_json(*found.resolution);
     json["seconds"] = {{"setup", found.setup}, {"analysis", found.analysis}};

@@ -18,7 +18,6 @@ inline std::string page(const Findings& found, double d0) {
     data["causes"] = {{"explicit_euler", describe(found.explicit_euler.cause)},
                       {"symplectic_euler", describe(found.symplectic_euler.cause)},
                       {"implicit_euler", describe(found.implicit_euler.cause)}};
-    if (found.graph_inertia) data["causes"]["graph_inertia"] = describe(found.graph_inertia->cause);
     data.update(found.page);
     std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
     // Inside a script element only "<" could end it.

@@ -157,28 +157,6 @@ inline void print_remedies(const Findings& found) {
     std::printf("\n");
 }
 
-/// The price of making springs implicit.
-inline void print_inertia(const InertiaTold& told, const Findings& found) {
-    std::printf("For graph inertia at h = %.4e s at any pose, ", found.remedies->verdict.step);
-    if (!told.possible) {
-        std::printf("no shares are proved to make it safe\n");
-        return;
-    }
-    std::printf("%lld of %lld springs implicit", static_cast<long long>(told.implicit_springs),
-                static_cast<long long>(*found.springs));
-    if (told.implicit_springs == 0) {
-        std::printf(": it is symplectic Euler, and safe\n");
-        return;
-    }
-    std::printf("\n  one factor of %lld particles; the inertia added is %.3g %% of the mass",
-                static_cast<long long>(told.touched), 100 * told.price.added);
-    double most = 0;
-    for (const auto& mode : told.price.modes) most = std::min(most, mode.change());
-    if (!told.price.modes.empty())
-        std::printf(";\n  the lowest frequencies change by at most %.3g %%", -100 * most);
-    std::printf("\n");
-}
-
 inline void print_table(const Findings& found, double d0) {
     std::printf("%s, %lld degrees of freedom\n", found.name.c_str(),
                 static_cast<long long>(found.degrees_of_freedom));
@@ -190,11 +168,9 @@ inline void print_table(const Findings& found, double d0) {
     print_limit("explicit Euler", found.explicit_euler);
     print_limit("symplectic Euler", found.symplectic_euler);
     print_limit("implicit Euler", found.implicit_euler);
-    if (found.graph_inertia) print_limit("graph inertia", *found.graph_inertia);
     if (found.any_pose) {
         std::printf(" at any pose (linearised)\n");
         print_limit("symplectic Euler", *found.any_pose);
-        if (found.graph_inertia) print_limit("graph inertia", *found.graph_inertia);
     }
     if (found.energy) {
         std::printf(" energy (nonlinear)\n");
@@ -207,7 +183,6 @@ inline void print_table(const Findings& found, double d0) {
     print_note("explicit Euler", found.explicit_euler);
     print_note("symplectic Euler", found.symplectic_euler);
     print_note("implicit Euler", found.implicit_euler);
-    if (found.graph_inertia) print_note("graph inertia", *found.graph_inertia);
     std::printf("\n");
 
     const auto& k = found.spectrum;
@@ -233,7 +208,6 @@ inline void print_table(const Findings& found, double d0) {
     }
     if (!found.particles_to_blame.empty()) print_blame(found);
     if (found.remedies) print_remedies(found);
-    if (found.inertia) print_inertia(*found.inertia, found);
     if (found.resolution) print_resolution(*found.resolution);
     std::printf("Seconds: setup %.3f, analysis %.3f\n", found.setup, found.analysis);
 }

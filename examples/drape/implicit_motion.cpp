@@ -4,8 +4,6 @@
 // The steppers that solve linear systems, compiled beside those that do not.
 
 #include <taut/bdf2/bdf2.hpp>
-#include <taut/graph_inertia/graph_contacts.hpp>
-#include <taut/graph_inertia/graph_inertia.hpp>
 #include <taut/newton/newton.hpp>
 #include <taut/projective/projective.hpp>
 
@@ -21,9 +19,6 @@ Advance make_implicit_motion(const Options& options, const Scene& scene) {
     };
     if (options.integrator == "projective") {
         return plain_or_guarded<taut::ProjectiveDynamics<Cloth>>(options, scene, AsItIs());
-    }
-    if (options.integrator == "graph_inertia") {
-        return plain_or_guarded<taut::GraphInertia<Cloth>>(options, scene, AsItIs());
     }
     if (options.integrator == "bdf2") {
         return plain_or_guarded<taut::Bdf2<Cloth, AnySolver>>(options, scene, choose);

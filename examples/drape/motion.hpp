@@ -20,7 +20,7 @@ struct Scene {
     const Plan& plan;
 };
 
-/// implicit, newton, bdf2, projective and graph_inertia.
+/// implicit, newton, bdf2 and projective.
 Advance make_implicit_motion(const Options& options, const Scene& scene);
 
 }  // namespace drape

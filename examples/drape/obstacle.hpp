@@ -15,13 +15,11 @@ public:
     Obstacle(const Options& options, const Cloth& cloth, const State& state);
 
     /// Puts particles out of it; nothing without --collide.
-    /// @param responding  the cloth, or a stepper that changes velocities by its own inertia
-    template <class Responding>
-    void resolve(Responding& responding, State& state) const {
+    void resolve(const Cloth& cloth, State& state) const {
         if (const auto* plane = std::get_if<Plane>(&shape_)) {
-            resolve_contacts(responding, *plane, state, contact_);
+            resolve_contacts(cloth, *plane, state, contact_);
         } else if (const auto* sphere = std::get_if<Sphere>(&shape_)) {
-            resolve_contacts(responding, *sphere, state, contact_);
+            resolve_contacts(cloth, *sphere, state, contact_);
         }
     }
     const std::string& description() const { return description_; }

@@ -81,12 +81,11 @@ inline void Options::add_to(CLI::App& app) {
 
 inline void Options::add_motion(CLI::App& app) {
     app.add_option("--integrator,--method", integrator,
-                   "symplectic, verlet, explicit: one force a step; graph_inertia: the same, with "
-                   "the stiffest springs implicit; implicit: one linearised "
+                   "symplectic, verlet, explicit: one force a step; implicit: one linearised "
                    "solve; newton: the nonlinear step, solved; bdf2: second order, livelier; "
                    "projective: ten iterations with one constant factor")
-        ->check(CLI::IsMember({"symplectic", "verlet", "explicit", "graph_inertia", "implicit",
-                               "newton", "bdf2", "projective"}))
+        ->check(CLI::IsMember(
+            {"symplectic", "verlet", "explicit", "implicit", "newton", "bdf2", "projective"}))
         ->capture_default_str();
     auto* chosen =
         app.add_option("--solver", solver,
@@ -101,12 +100,10 @@ inline void Options::add_motion(CLI::App& app) {
     app.add_flag(
         "--guard", guard,
         "watch the energy of every frame, and take one that gains any again in smaller steps");
-    app.add_option(
-           "--step", step,
-           "largest time step, s (default: the recipe's share of the any-pose limit, with "
-           "--guard the guard's; explicit 0.95; graph_inertia: the largest that leaves half of "
-           "the springs explicit and slows the lowest vibrations by 5 % at most; implicit and "
-           "bdf2: 1/60 s; newton and projective: a frame; with --collide at most 1/240 s)")
+    app.add_option("--step", step,
+                   "largest time step, s (default: the recipe's share of the any-pose limit, with "
+                   "--guard the guard's; explicit 0.95; implicit and bdf2: 1/60 s; newton and "
+                   "projective: a frame; with --collide at most 1/240 s)")
         ->transform(example::time_quantity())
         ->check(example::positive());
     app.add_option("--look-ahead", look_ahead,
@@ -196,10 +193,6 @@ inline void Options::check() const {
         throw std::runtime_error(
             "--guard: explicit Euler has no limit that holds at every pose; use --integrator "
             "symplectic, which costs the same");
-    }
-    if (integrator == "graph_inertia" && law != "hookean") {
-        throw std::runtime_error("--integrator graph_inertia: springs of --law " + law +
-                                 " turn slack or buckle, which feeds it with energy");
     }
     if (solver != "cholesky" && !solves()) {
         throw std::runtime_error("--solver: implicit, newton and bdf2 take it, not " + integrator);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
-#include <taut/recommend/recommend.hpp>
+#include <taut/taut.hpp>
 
 #include "cloth.hpp"
 
@@ -36,15 +36,7 @@ inline double default_step(const Options& options, const Cloth& cloth, double fr
     const double usual = linearised ? 1.0 / 60 : frame;
     const double contact = options.collide.empty() ? frame : between_contacts;
     const double longest = std::min({frame, usual, contact});
-    if (options.integrator == "graph_inertia") {
-        taut::Goal goal;
-        goal.frame = longest;
-        const auto plans =
-            taut::feasible_plans(cloth, goal, {taut::Candidate{taut::Method::graph_inertia}});
-        if (!plans.empty()) return plans.back().candidate.h;
-    } else if (options.implicit()) {
-        return longest;
-    }
+    if (options.implicit()) return longest;
     const auto limit = taut::any_pose_limit(cloth);
     if (limit.unbounded()) return longest;
     if (!(limit.certified > 0)) {

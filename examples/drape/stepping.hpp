@@ -27,16 +27,6 @@ std::string name_trouble(const Report& report) {
     return text + "; given up after " + std::to_string(report.retries) + " retries";
 }
 
-/// What contacts change velocities through: a stepper with inertia of its own, or the cloth.
-template <class Stepper>
-auto& who_responds(Stepper& stepper, const Cloth& cloth) {
-    if constexpr (Stepper::method == taut::Method::graph_inertia) {
-        return stepper;
-    } else {
-        return cloth;
-    }
-}
-
 template <class Stepper>
 Advance by_stepper(const Scene& scene, std::shared_ptr<Stepper> stepper) {
     const Plan plan = scene.plan;
@@ -47,7 +37,7 @@ Advance by_stepper(const Scene& scene, std::shared_ptr<Stepper> stepper) {
         for (taut::Index done = 0; done < plan.steps; done += at_once) {
             const taut::Report report = stepper->step(state, plan.h, at_once);
             if (!report) return name_particle(report.status, report.where);
-            obstacle.resolve(who_responds(*stepper, cloth), state);
+            obstacle.resolve(cloth, state);
         }
         return {};
     };
@@ -58,9 +48,8 @@ Advance by_guard(const Scene& scene, std::shared_ptr<Guard> guard) {
     return [guard, frame = scene.plan.frame, &cloth = scene.cloth,
             &obstacle = scene.obstacle](State& state) {
         if (!obstacle) return name_trouble(guard->advance(state, frame));
-        return name_trouble(guard->advance(state, frame, [&](State& s) {
-            obstacle.resolve(who_responds(guard->stepper(), cloth), s);
-        }));
+        return name_trouble(
+            guard->advance(state, frame, [&](State& s) { obstacle.resolve(cloth, s); }));
     };
 }
 

@@ -10,7 +10,6 @@ const LIMITS = [
   ["any_pose", "Symplectic Euler", "at any pose (linearised)"],
   ["energy", "Symplectic Euler", "energy (nonlinear)"],
   ["implicit_euler", "Implicit Euler", "at this pose (linear)"],
-  ["graph_inertia", "Graph inertia", "at any pose (linearised)"],
 ];
 
 /// The ends of a bracket, s: up to `certified` it is proved, from `refuted` on it fails.

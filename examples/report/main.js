@@ -65,17 +65,9 @@ function remedy(want) {
   if (!want) return "";
   const asked = ` The step asked for, ${seconds(want.h)},`;
   const refuted = want.standing === "refuted" ? ` is refuted: the limiting vibration grows ${significant(want.growth)}-fold with every step. It` : "";
-  if (want.standing === "certified") return `${asked} is certified at this pose as the mesh is.${inertia(want)}`;
+  if (want.standing === "certified") return `${asked} is certified at this pose as the mesh is.`;
   const added = want.added_mass === null ? "" : `, or ${significant(want.added_mass)} kg more on the particles that need it`;
-  return `${asked}${refuted} is certified at this pose with all stiffness times ${significant(want.stiffness_scale)}, or all masses times ${significant(want.mass_scale)}${added}.${inertia(want)}`;
-}
-
-/// What graph inertia makes of it, at any pose, and its price.
-function inertia({ graph_inertia: told }) {
-  if (!told || !told.implicit_springs) return "";
-  const changes = told.frequency_changes;
-  const slowed = changes.length ? `; the lowest frequencies change by at most ${percent(Math.max(...changes.map(Math.abs)))}` : "";
-  return ` Graph inertia is certified there at any pose with ${whole(told.implicit_springs)} of ${whole(data.findings.springs)} springs implicit: it adds ${percent(told.added_inertia)} of the mass as inertia${slowed}.`;
+  return `${asked}${refuted} is certified at this pose with all stiffness times ${significant(want.stiffness_scale)}, or all masses times ${significant(want.mass_scale)}${added}.`;
 }
 
 function frequency(f) {

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
-#include <taut/graph_inertia/graph_inertia.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/taut.hpp>
 
@@ -21,9 +20,7 @@ template class taut::ExplicitEuler<taut::SpringSystem<double, 3>>;
 template class taut::SymplecticEuler<taut::SpringSystem<double, 3>>;
 template class taut::VelocityVerlet<taut::SpringSystem<double, 3>>;
 template class taut::ImplicitEuler<taut::SpringSystem<double, 3>>;
-template class taut::GraphInertia<taut::SpringSystem<float, 2>>;
 template class taut::Guarded<taut::SymplecticEuler<taut::SpringSystem<float, 3>>>;
-template class taut::Guarded<taut::GraphInertia<taut::SpringSystem<float, 3>>>;
 template struct taut::StateView<float, 3>;
 template struct taut::StateView<double, 1>;
 template class taut::Stability<double>;

@@ -34,9 +34,7 @@ void check_numbers(const taut::StepLimit<Scalar>& limit) {
 bool in_range(double size) { return size == 0 || (size >= 0x1p-500 && size <= 0x1p500); }
 
 /// Whether stiffness does not limit the method's step.
-bool stable_everywhere(Method method) {
-    return method == Method::implicit_euler || method == Method::graph_inertia;
-}
+bool stable_everywhere(Method method) { return method == Method::implicit_euler; }
 
 /// Whether 4M − 2hD − h²K is definite at every part of h, in long double.
 bool safe(const Exact& e, double h) {

@@ -51,12 +51,6 @@ Step transition(Method method, double stiffness, double damping, double seconds)
             const Real a = 1 + h * d + h * h * k;  // determinant of I − hC
             return {(1 + h * d) / a, h / a, -h * k / a, 1 / a};
         }
-        case Method::graph_inertia: {
-            const Real theta = 0.83, delta = 0.01, stiff = std::max(k, Real(0));
-            const Real a = 1 + (h * d / 2 + (1 + delta) * h * h * stiff / 4) / theta;
-            const Real drag = (d + delta * h * stiff / 2 / theta) / a;
-            return {1 - h * h * k / a, h * (1 - h * drag), -h * k / a, 1 - h * drag};
-        }
         case Method::bdf2:                        // 4 × 4
         case Method::energy_stable_euler: break;  // descriptor_test.cpp
     }
@@ -153,15 +147,6 @@ TEST_CASE("mode: stable just below critical_step, unstable just above", "[method
                     CHECK(radius <= 1 + 1e-17L);
                     // Apart from the zero mode's 1 all is damped, without physical damping too.
                     if (k > 0) CHECK(radius < 1);
-                }
-                continue;
-            }
-            if (method == Method::graph_inertia) {
-                CHECK(h == infinity);  // a mode is heavier, the longer the step [T33]
-                for (const double z : {1e-3, 1.0, 2.0, 1e3}) {
-                    const Real radius = transition(method, k, d, z / (std::sqrt(k) + d)).radius();
-                    CHECK(radius <= 1 + 1e-14L);
-                    if (d > 0 && k > 0) CHECK(radius < 1);
                 }
                 continue;
             }

@@ -92,15 +92,6 @@ RealMatrix Multipliers::step(taut::Method method, double seconds) const {
         v.rightCols(N) = one;
         v = solve(one + h * D_ + h * h * K_plus_, v);
     }
-    if (method == taut::Method::graph_inertia) {
-        // Symplectic Euler of A = M + (½hD + ¼(1 + δ)h²K⁺)/θ and D + ½δhK⁺/θ: all springs are
-        // implicit.
-        const Real theta = 0.83, delta = 0.01;
-        const RealMatrix heavy = one + (h / 2 * D_ + (1 + delta) * h * h / 4 * K_plus_) / theta;
-        const RealMatrix damping = D_ + delta * h / 2 / theta * K_plus_;
-        v.leftCols(r) = solve(heavy, v.leftCols(r));
-        v.rightCols(N) = one - solve(heavy, h * damping);
-    }
     A.bottomRows(N) = v;
     if (method == taut::Method::explicit_euler) {
         A.topRightCorner(r, N) = h * R_.transpose();

@@ -9,9 +9,10 @@
 namespace taut {
 
 /// Step and damping for a scene that moves. A limit says that no pose's linearisation grows; a
-/// scene that moves through poses may gain energy below it (docs/survival.md), tension-only cloth
-/// does. This share of the step, and this whisper of damping, kept the energy of every scene tried:
-/// measured, not proved. energy_limit is proved, at the same step, but slows rotation.
+/// scene that moves through poses may gain energy below it, tension-only cloth does. This share of
+/// the step, and this whisper of damping, kept the energy of every scene tried: measured, not
+/// proved (docs/theory.md, section 17). energy_limit is proved, at the same step, but slows
+/// rotation.
 struct Recipe {
     double safety = 0.5;          ///< share of any_pose_limit
     StepDamping damping{0.4, 0};  ///< for ExplicitOptions

@@ -13,7 +13,6 @@ enum class Method {
     velocity_verlet,
     implicit_euler,
     bdf2,
-    graph_inertia,
     energy_stable_euler,
     last = energy_stable_euler  ///< the last method above; move it when you add one, at the end
 };
@@ -43,9 +42,6 @@ struct LimitedByStiffness {};
 /// Stable at every h where K is positive semi-definite [T20], [T21]. On springs K⁺ stands for K,
 /// and K⁺ always is [T27].
 struct LimitedByIndefiniteness {};
-
-/// Stable at every h with h·d0 < 2θ, where K is positive semi-definite or K⁺ stands for it [T33].
-struct LimitedByDrag {};
 
 /// Which steps a moving scene may be given, linearised at each of its poses.
 enum class AnyPose {

@@ -10,7 +10,6 @@
 #include "bdf2.hpp"
 #include "energy_stable_euler.hpp"
 #include "explicit_euler.hpp"
-#include "graph_inertia.hpp"
 #include "implicit_euler.hpp"
 #include "symplectic_euler.hpp"
 #include "velocity_verlet.hpp"
@@ -23,8 +22,8 @@ template <class... Descriptors>
 struct List {};
 
 /// Every method, in the order of the enum: the one list.
-using All = List<ExplicitEuler, SymplecticEuler, VelocityVerlet, ImplicitEuler, Bdf2, GraphInertia,
-                 EnergyStableEuler>;
+using All =
+    List<ExplicitEuler, SymplecticEuler, VelocityVerlet, ImplicitEuler, Bdf2, EnergyStableEuler>;
 
 /// What a descriptor must have.
 template <class D>

@@ -7,7 +7,6 @@
 #include "../bdf2/bdf2.hpp"
 #include "../integrator/energy_stable_euler.hpp"
 #include "../integrator/explicit_euler.hpp"
-#include "../graph_inertia/graph_inertia.hpp"
 #include "../integrator/implicit_euler.hpp"
 #include "../integrator/symplectic_euler.hpp"
 #include "../integrator/velocity_verlet.hpp"
@@ -67,10 +66,6 @@ struct StepperOf<method::Bdf2, System, Solver> {
     using type = Bdf2<System, Solver>;
 };
 template <class System, class Solver>
-struct StepperOf<method::GraphInertia, System, Solver> {
-    using type = GraphInertia<System>;
-};
-template <class System, class Solver>
 struct StepperOf<method::EnergyStableEuler, System, Solver> {
     using type = EnergyStableEuler<System>;
 };
@@ -79,13 +74,10 @@ struct StepperOf<method::EnergyStableEuler, System, Solver> {
 template <class Descriptor, class Solver, class System>
 auto make_stepper(const System& system, const Candidate& candidate) {
     using Stepper = typename StepperOf<Descriptor, System, Solver>::type;
-    if constexpr (Descriptor::method == Method::graph_inertia ||
-                  Descriptor::method == Method::energy_stable_euler) {
+    if constexpr (Descriptor::is_implicit || Descriptor::method == Method::energy_stable_euler) {
         return Stepper(system);
-    } else if constexpr (!Descriptor::is_implicit) {
-        return Stepper(system, ExplicitOptions{1, candidate.damping});
     } else {
-        return Stepper(system);
+        return Stepper(system, ExplicitOptions{1, candidate.damping});
     }
 }
 
@@ -99,8 +91,7 @@ void with_stepper(const System& system, const Candidate& candidate, Action&& act
     using Gradients = ConjugateGradient<Scalar, System::Dim>;
     method::visit(candidate.method, [&](auto descriptor) {
         using Descriptor = decltype(descriptor);
-        if constexpr ((Descriptor::method == Method::graph_inertia ||
-                       Descriptor::method == Method::energy_stable_euler) &&
+        if constexpr (Descriptor::method == Method::energy_stable_euler &&
                       !model_detail::is_spring_system_v<System>) {
             fail("with_stepper: ", Descriptor::name, " needs the springs of a SpringSystem");
         } else {

@@ -28,21 +28,12 @@ struct Goal {
 /// What keeps a step from being larger.
 enum class StepBound { stability, accuracy, frame };
 
-/// What graph inertia makes of a scene, and its price [T33].
-struct AddedInertia {
-    Index implicit_springs = 0;  ///< springs with a share of implicitness
-    Index springs = 0;           ///< of the scene; 0 in plans of other methods
-    double added = 0;            ///< trace of M̃ − M over that of M
-    double slowing = 0;          ///< 1 − ω̃/ω, the largest of the modes judged
-};
-
 /// One way to reach a goal.
 struct Plan {
     Candidate candidate;
     Index substeps = 1;  ///< a frame; candidate.h is frame/substeps
     StepBound bound = StepBound::frame;
-    ModeError error;       ///< predicted at Goal::up_to_frequency; 0 without a goal of accuracy
-    AddedInertia inertia;  ///< of graph inertia, whose error is the worst up to that frequency
+    ModeError error;  ///< predicted at Goal::up_to_frequency; 0 without a goal of accuracy
     double cost = std::numeric_limits<double>::infinity();  ///< CPU s a frame; infinity: it fails
 };
 
@@ -95,9 +86,7 @@ inline std::string describe(const Plan& plan) {
     char buffer[64];
     std::snprintf(buffer, sizeof buffer, " (%lld x %.3g s, ", static_cast<long long>(plan.substeps),
                   plan.candidate.h);
-    const bool inertia = plan.candidate.method == Method::graph_inertia;
-    return (inertia ? "graph inertia" : name(plan.candidate)) + buffer + milliseconds(plan.cost) +
-           " a frame)";
+    return name(plan.candidate) + buffer + milliseconds(plan.cost) + " a frame)";
 }
 constexpr const char* reason(StepBound bound) {
     switch (bound) {
@@ -106,19 +95,6 @@ constexpr const char* reason(StepBound bound) {
         case StepBound::frame: return "the whole frame in one step";
     }
     return "unknown";
-}
-/// "379 of 23938 springs implicit", and what it costs.
-inline std::string describe(const AddedInertia& inertia) {
-    char buffer[128];
-    std::snprintf(buffer, sizeof buffer,
-                  "%lld of %lld springs implicit, slowing low vibrations by at most %.2g %%",
-                  static_cast<long long>(inertia.implicit_springs),
-                  static_cast<long long>(inertia.springs), 100 * inertia.slowing);
-    return buffer;
-}
-/// How a plan comes by its step.
-inline std::string means(const Plan& plan) {
-    return plan.inertia.springs > 0 ? describe(plan.inertia) : reason(plan.bound);
 }
 
 }  // namespace tradeoff_detail
@@ -135,15 +111,14 @@ inline Recommendation choose(std::vector<Plan> plans, const Goal& goal) {
     answer.pick = plans.front();
     if (plans.size() > 1) answer.runner_up = plans[1];
     answer.within_budget = answer.pick.cost <= goal.budget;
-    const bool inertia = answer.pick.inertia.springs > 0;
-    answer.why = tradeoff_detail::describe(answer.pick) + (inertia ? " makes " : " takes ") +
-                 tradeoff_detail::means(answer.pick) + (inertia ? "," : "") +
-                 " and is the cheapest that is " + (goal.accuracy ? "accurate enough" : "stable");
+    answer.why = tradeoff_detail::describe(answer.pick) + " takes " +
+                 tradeoff_detail::reason(answer.pick.bound) + " and is the cheapest that is " +
+                 (goal.accuracy ? "accurate enough" : "stable");
     if (answer.runner_up) {
         char ratio[32];
         std::snprintf(ratio, sizeof ratio, "%.3g times", answer.runner_up->cost / answer.pick.cost);
         answer.why += "; next comes " + tradeoff_detail::describe(*answer.runner_up) + " at " +
-                      ratio + " the cost with " + tradeoff_detail::means(*answer.runner_up);
+                      ratio + " the cost with " + tradeoff_detail::reason(answer.runner_up->bound);
     }
     if (!answer.within_budget) {
         answer.why += "; none keeps to the budget of " + tradeoff_detail::milliseconds(goal.budget);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Needs the modules accuracy, bdf2, graph_inertia.
+// Needs the modules accuracy, bdf2.
 
 #include <algorithm>
 #include <limits>
@@ -14,13 +14,12 @@
 #include "../stability/rayleigh.hpp"
 #include "choose.hpp"
 #include "cost.hpp"
-#include "graph_inertia_plans.hpp"
 
 namespace taut {
 
-/// What recommend() compares: symplectic Euler by the recipe, graph inertia, and implicit Euler
-/// with both solvers; BDF2 with both where accuracy is asked for, and not where stability is all
-/// that counts, for one of its linearised steps may gain energy.
+/// What recommend() compares: symplectic Euler by the recipe, and implicit Euler with both solvers;
+/// BDF2 with both where accuracy is asked for, and not where stability is all that counts, for one
+/// of its linearised steps may gain energy.
 inline std::vector<Candidate> recommended_candidates(const Goal& goal) {
     // What is left of a linear solve must not blur the mode errors that the goal admits.
     const double tolerance = goal.accuracy ? 1e-6 : 1e-3;
@@ -28,7 +27,6 @@ inline std::vector<Candidate> recommended_candidates(const Goal& goal) {
     Candidate symplectic;
     symplectic.damping = recipe.damping;
     candidates.push_back(symplectic);
-    candidates.push_back({Method::graph_inertia});
     for (const Method method : {Method::implicit_euler, Method::bdf2}) {
         if (method == Method::bdf2 && !goal.accuracy) continue;
         for (const auto solver : {LinearSolver::conjugate_gradient, LinearSolver::direct}) {
@@ -38,22 +36,13 @@ inline std::vector<Candidate> recommended_candidates(const Goal& goal) {
     return candidates;
 }
 
-/// Explicit, implicit, or which springs implicit? The plans that reach a goal, without their costs:
-/// explicit steps at recipe.safety of any_pose_limit [T23], which with recipe.damping kept the
-/// energy of the scenes tried: measured, not proved; implicit ones, linearised stable at any pose,
-/// as large as the frame; and none above its accurate_step [T25]. The damping that accuracy is
-/// predicted with is the scene's Rayleigh damping; dampers on springs are not in it.
-///
-/// Graph inertia is tried at up to three steps: the largest that make at most 1/16, 1/4 and 1/2 of
-/// the springs implicit, are larger than the explicit ones, and whose price at the pose of
-/// `state` is admitted (inertia_price [T33] and what the step does itself): by Goal::accuracy for
-/// the ten lowest modes and all up to Goal::up_to_frequency, or else 5 % of the periods of the ten
-/// lowest. Those above the twenty lowest, which are all that is known, count as slowed in
-/// proportion to ω². Not for springs that turn slack or buckle, which feed it with energy
-/// (measured), nor above 20 000 particles, where the modes take longer than all else.
+/// Explicit or implicit? The plans that reach a goal, without their costs: explicit steps at
+/// recipe.safety of any_pose_limit [T23], which with recipe.damping kept the energy of the scenes
+/// tried: measured, not proved; implicit ones, linearised stable at any pose, as large as the
+/// frame; and none above its accurate_step [T25]. The damping that accuracy is predicted with is
+/// the scene's Rayleigh damping; dampers on springs are not in it.
 template <class Scalar, int Dim, class... Laws>
-std::vector<Plan> feasible_plans(const SpringSystem<Scalar, Dim, Laws...>& system,
-                                 const State<Scalar, Dim>& state, const Goal& goal,
+std::vector<Plan> feasible_plans(const SpringSystem<Scalar, Dim, Laws...>& system, const Goal& goal,
                                  const std::vector<Candidate>& candidates) {
     double zeta = 0;
     if (goal.accuracy) {
@@ -66,13 +55,7 @@ std::vector<Plan> feasible_plans(const SpringSystem<Scalar, Dim, Laws...>& syste
     for (const Candidate& candidate : candidates) {
         const method::AnyPose safe = method::visit(
             candidate.method, [](auto descriptor) { return decltype(descriptor)::any_pose; });
-        if (candidate.method == Method::graph_inertia) {
-            if (!(limit > 0)) continue;
-            const auto most =
-                static_cast<Index>(std::min(1e15, std::ceil(goal.frame / (recipe.safety * limit))));
-            tradeoff_detail::GraphInertiaPlans<Scalar, Dim, Laws...> inertia(system, state, goal);
-            for (const Plan& plan : inertia.plans(candidate, most)) plans.push_back(plan);
-        } else if (safe == method::AnyPose::every_step) {
+        if (safe == method::AnyPose::every_step) {
             plans.push_back(
                 plan_for(candidate, std::numeric_limits<double>::infinity(), goal, zeta));
         } else if (safe == method::AnyPose::limited && limit > 0) {
@@ -84,13 +67,6 @@ std::vector<Plan> feasible_plans(const SpringSystem<Scalar, Dim, Laws...>& syste
         }
     }
     return plans;
-}
-
-/// The same at the pose in which the system was built.
-template <class Scalar, int Dim, class... Laws>
-std::vector<Plan> feasible_plans(const SpringSystem<Scalar, Dim, Laws...>& system, const Goal& goal,
-                                 const std::vector<Candidate>& candidates) {
-    return feasible_plans(system, system.initial_state(), goal, candidates);
 }
 
 namespace tradeoff_detail {
@@ -127,7 +103,7 @@ Recommendation recommend(const SpringSystem<Scalar, Dim, Laws...>& system,
                          const State<Scalar, Dim>& state, const Goal& goal,
                          const std::vector<Candidate>& candidates,
                          const Calibration& calibration = {}) {
-    std::vector<Plan> plans = feasible_plans(system, state, goal, candidates);
+    std::vector<Plan> plans = feasible_plans(system, goal, candidates);
     tradeoff_detail::measure_costs(system, state, calibration, plans);
     return choose(std::move(plans), goal);
 }

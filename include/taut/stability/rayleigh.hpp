@@ -113,19 +113,14 @@ inline AlphaWindow window_by(method::LimitedByIndefiniteness, double, double, do
                              double) {
     return {0, std::numeric_limits<double>::infinity(), EmptyWindow::none, true};
 }
-inline AlphaWindow window_by(method::LimitedByDrag, double h, double d0, double, double, double) {
-    if (!(h * d0 < 2 * method::GraphInertia::margin))
-        return {0, 0, EmptyWindow::mass_damping_too_large, false};
-    return {0, std::numeric_limits<double>::infinity(), EmptyWindow::none, true};
-}
 
 }  // namespace stability_detail
 
 /// The feasible α of D' = d0 + αK' at step h, s, for eigenvalues of K' in [k_min, k_max] with
 /// 0 ≤ k_min, 1/s²: exact [T13]–[T16], but for its own rounding, which is inwards: whatever the
 /// window contains is stable. A mode with k = 0 and d0 = 0 is a zero mode and never counts against
-/// the window. With k_max = 0, implicit Euler or graph inertia the
-/// upper end is infinite. BDF2 is refused.
+/// the window. With k_max = 0 or implicit Euler the upper end is infinite. BDF2 and the
+/// energy-stable Euler step are refused.
 /// @param compression  a bound on M⁻¹(K⁺ − K), 1/s², 0 unless springs are compressed: the true K,
 ///                     which explicit Euler sees, weakens its second condition by that [T17]
 inline AlphaWindow rayleigh_window(Method method, double h, double d0, double k_min, double k_max,

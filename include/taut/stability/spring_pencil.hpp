@@ -57,17 +57,6 @@ public:
     std::vector<double> particle_loads(const Combination& c, const std::vector<double>& p) const {
         return loads(splitting(c, p));
     }
-    /// visit(a, b, d, axial, transverse) for every spring with a free end: free particles (−1 when
-    /// pinned), unit vector, and S of the spring = axial ddᵀ + transverse(I − ddᵀ), N/m.
-    template <class Visitor>
-    void for_each_link(const Combination& c, Visitor&& visit) const {
-        for (const Link& link : links_) {
-            const auto [axial, transverse] = coefficients(c, link);
-            visit(link.a, link.b, link.d, axial, transverse);
-        }
-    }
-    /// Springs with a free end.
-    Index link_count() const { return static_cast<Index>(links_.size()); }
     std::vector<SpringShare> spring_shares(const Eigen::VectorXd& u) const override;
     std::vector<ParticleShare> particle_shares(const Eigen::VectorXd& u) const override;
     std::shared_ptr<const ScenePencil> scaled(double stiffness, double mass) const override;

@@ -164,16 +164,6 @@ private:
         constexpr double infinity = stability_detail::infinity;
         return {infinity, infinity, Cause::unconditional};
     }
-    // Graph inertia's masses grow by D without d0·M and by K⁺: 4θM̃ − 2hD − h²K⁺ = (4θ − 2h d0)M
-    // [T33].
-    Limit limit_by(method::LimitedByDrag, Effort& effort) const {
-        Limit limit = limit_by(method::LimitedByIndefiniteness{}, effort);
-        const double drag = pencil_->rayleigh().mass_proportional;
-        if (drag == 0) return limit;
-        limit.certified = 2 * method::GraphInertia::margin / drag;
-        limit.cause = Cause::damping;
-        return limit;
-    }
 
     std::shared_ptr<const ScenePencil> pencil_;  // immutable, so copies may share it
     std::uint64_t revision_ = 0;

@@ -77,40 +77,6 @@ std::vector<Mode> lowest_modes(const SpringSystem<Scalar, Dim, Laws...>& system,
     return modes;
 }
 
-namespace tradeoff_detail {
-
-/// The swing that steps from `state` take, `swing_of(state)` of it at even times, fitted. Nothing
-/// where a step fails or the steps do not swing.
-/// @param most_steps  the swing is followed for less than a period where that would take more
-template <class System, class SwingOf>
-std::optional<ModeError> fitted_mode_error(const System& system, typename System::State state,
-                                           SwingOf&& swing_of, const Mode& mode,
-                                           const Candidate& candidate, Index most_steps) {
-    constexpr Index samples = 26;
-    constexpr Index settling = 40;  // the second multiplier of BDF2 shrinks by 3 and more a step
-    const auto h = static_cast<typename System::Scalar>(candidate.h);
-    const double z = mode.omega * static_cast<double>(h);
-    const Index stride = std::clamp<Index>(static_cast<Index>(0.5 / z), 1,
-                                           std::max<Index>(1, (most_steps - settling) / samples));
-    Eigen::VectorXd swing(samples);
-    bool alive = true;
-    with_stepper(system, candidate, [&](auto& stepper) {
-        alive = static_cast<bool>(stepper.step(state, h, settling));
-        for (Index j = 0; alive && j < samples; ++j) {
-            swing[j] = swing_of(state);
-            alive = static_cast<bool>(stepper.step(state, h, stride));
-        }
-    });
-    if (!alive) return std::nullopt;
-    const auto mu = fitted_multiplier<double>(swing);
-    if (!mu) return std::nullopt;
-    const std::complex<double> rate = std::log(*mu) / (static_cast<double>(stride) * z);
-    const double frequency = std::sqrt(std::max(0.0, (1 - mode.zeta) * (1 + mode.zeta)));
-    return ModeError{-rate.real() / std::abs(rate) - mode.zeta, frequency / rate.imag() - 1};
-}
-
-}  // namespace tradeoff_detail
-
 /// What the steps of `candidate` do to one mode of a linear system without load: started in the
 /// mode's shape, its swing is projected on the mode and fitted. Nothing where a step fails or the
 /// steps do not swing, and for methods that need springs.
@@ -118,9 +84,9 @@ std::optional<ModeError> fitted_mode_error(const System& system, typename System
 template <class Scalar>
 std::optional<ModeError> measured_mode_error(const LinearSystem<Scalar>& system, const Mode& mode,
                                              const Candidate& candidate, Index most_steps = 4000) {
-    if (candidate.method == Method::graph_inertia ||
-        candidate.method == Method::energy_stable_euler)
-        return std::nullopt;
+    constexpr Index samples = 26;
+    constexpr Index settling = 40;  // the second multiplier of BDF2 shrinks by 3 and more a step
+    if (candidate.method == Method::energy_stable_euler) return std::nullopt;
     if (candidate.damping.look_ahead > 0) {  // a linear system's steps have none of their own
         Candidate damped = candidate;
         damped.damping.look_ahead = 0;
@@ -130,38 +96,28 @@ std::optional<ModeError> measured_mode_error(const LinearSystem<Scalar>& system,
                                  system.stiffness()),
             mode, damped, most_steps);
     }
+    const auto h = static_cast<Scalar>(candidate.h);
+    const double z = mode.omega * static_cast<double>(h);
+    const Index stride = std::clamp<Index>(static_cast<Index>(0.5 / z), 1,
+                                           std::max<Index>(1, (most_steps - settling) / samples));
     const Eigen::VectorXd weights = system.mass().template cast<double>().cwiseProduct(mode.shape);
-    auto state = system.initial_state();
-    state.x = mode.shape.template cast<Scalar>().transpose();
-    const auto swing_of = [&](const auto& at) {
-        return weights.dot(at.x.transpose().template cast<double>());
-    };
-    return tradeoff_detail::fitted_mode_error(system, state, swing_of, mode, candidate, most_steps);
-}
-
-/// The same of springs at rest, as a swing so small that they stay linear: each particle sets out
-/// from its place at `rest` by its share of the shape times `amplitude`, m·√kg.
-template <class Scalar, int Dim, class... Laws>
-std::optional<ModeError> measured_mode_error(const SpringSystem<Scalar, Dim, Laws...>& system,
-                                             const State<Scalar, Dim>& rest, const Mode& mode,
-                                             const Candidate& candidate, double amplitude,
-                                             Index most_steps = 4000) {
-    const FreeParticles free(system);
-    State<Scalar, Dim> state = rest;
-    state.v.setZero();
-    const auto shape = [&](Index j) { return mode.shape.template segment<Dim>(Dim * j); };
-    for (Index j = 0; j < free.count(); ++j)
-        state.x.col(free[j]) += (amplitude * shape(j)).template cast<Scalar>();
-    const auto swing_of = [&](const auto& at) {
-        double sum = 0;
-        for (Index j = 0; j < free.count(); ++j) {
-            const Index i = free[j];
-            const auto moved = (at.x.col(i) - rest.x.col(i)).template cast<double>();
-            sum += static_cast<double>(system.mass(i)) * moved.dot(shape(j));
+    Eigen::VectorXd swing(samples);
+    bool alive = true;
+    with_stepper(system, candidate, [&](auto& stepper) {
+        auto state = system.initial_state();
+        state.x = mode.shape.template cast<Scalar>().transpose();
+        alive = static_cast<bool>(stepper.step(state, h, settling));
+        for (Index j = 0; alive && j < samples; ++j) {
+            swing[j] = weights.dot(state.x.transpose().template cast<double>());
+            alive = static_cast<bool>(stepper.step(state, h, stride));
         }
-        return sum / amplitude;
-    };
-    return tradeoff_detail::fitted_mode_error(system, state, swing_of, mode, candidate, most_steps);
+    });
+    if (!alive) return std::nullopt;
+    const auto mu = tradeoff_detail::fitted_multiplier<double>(swing);
+    if (!mu) return std::nullopt;
+    const std::complex<double> rate = std::log(*mu) / (static_cast<double>(stride) * z);
+    const double frequency = std::sqrt(std::max(0.0, (1 - mode.zeta) * (1 + mode.zeta)));
+    return ModeError{-rate.real() / std::abs(rate) - mode.zeta, frequency / rate.imag() - 1};
 }
 
 }  // namespace taut

@@ -45,11 +45,5 @@ inline std::complex<double> multiplier_less_one(Bdf2, double z, double zeta) {
     const std::complex<double> s = std::sqrt(1.0 + 2.0 * w);
     return 2.0 * w * (2.0 + s) / ((1.0 + s) * (3.0 - 2.0 * w));
 }
-/// As symplectic Euler's, of the heavier mode.
-inline std::complex<double> multiplier_less_one(const GraphInertia&, double z, double zeta) {
-    const double root = std::sqrt(GraphInertia::mass(1, 2 * zeta, z));
-    return multiplier_less_one(SymplecticEuler{}, z / root,
-                               (zeta + GraphInertia::braking(1, z) / 2) / root);
-}
 
 }  // namespace taut::method

@@ -65,15 +65,8 @@ void admit_negative_damping(Method method, const Pencil& pencil, UnroundedLimit&
 /// What is left of a limit that was found as that of springs.
 template <class Real = double>
 void amend_for_matrices(Method method, const Pencil& pencil, UnroundedLimit& limit) {
-    if (method::is_limited_by<method::LimitedByIndefiniteness>(method) ||
-        method::is_limited_by<method::LimitedByDrag>(method)) {
-        const UnroundedLimit by_drag = limit;
+    if (method::is_limited_by<method::LimitedByIndefiniteness>(method))
         limit = implicit_limit(pencil);
-        if (by_drag.certified < limit.certified) {
-            limit.certified = by_drag.certified;
-            limit.cause = by_drag.cause;
-        }
-    }
     // An explicit step is claimed by D − hK ⪰ −δM, which needs no D ⪰ 0 beside it unless K is
     // indefinite: there it says nothing of smaller steps.
     if (!method::is_limited_by<method::LimitedByDamping>(method) || !claims(limit) ||

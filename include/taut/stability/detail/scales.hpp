@@ -39,10 +39,6 @@ inline double certified_by(method::LimitedByIndefiniteness, const Pencil& pencil
     const double kappa = std::max(0.0, pencil.upper_bound(-K_plus));
     return kappa == 0 || pencil.stiffness_semidefinite() ? infinity : 1 / std::sqrt(kappa);
 }
-inline double certified_by(method::LimitedByDrag, const Pencil& pencil) {
-    const double by_drag = 2 * method::GraphInertia::margin / pencil.rayleigh().mass_proportional;
-    return std::min(by_drag, certified_by(method::LimitedByIndefiniteness{}, pencil));
-}
 
 /// How well the two scales below are found, relative.
 inline constexpr double scale_tolerance = 1e-9;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
 #include "../../method/visit.hpp"
 
@@ -61,29 +61,6 @@ Matrix step_matrix(Bdf2, const Matrix& C, typename Matrix::Scalar h, Eigen::Inde
     step.topRightCorner(n, n) = -solved;
     step.bottomLeftCorner(n, n) = I;
     return step;
-}
-
-/// Symplectic Euler's, with A in place of M and D + D_i in place of D; both are of K⁺.
-template <class Matrix>
-Matrix step_matrix(const GraphInertia&, const Matrix& C, typename Matrix::Scalar h,
-                   Eigen::Index positions) {
-    using Real = typename Matrix::Scalar;
-    const Eigen::Index r = positions;
-    const Eigen::Index N = C.rows() - r;
-    // M⁻¹K in the coordinates of the velocities, the first r of which move positions.
-    Matrix K = Matrix::Zero(N, N);
-    K.leftCols(r) = -C.bottomLeftCorner(N, r) * C.block(0, r, r, r).diagonal().asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Matrix> modes((K + K.transpose()) / 2);
-    const Matrix& U = modes.eigenvectors();
-    const Matrix projected = U * modes.eigenvalues().cwiseMax(Real(0)).asDiagonal() * U.transpose();
-    const Matrix D = -C.bottomRightCorner(N, N);
-    constexpr Real theta = GraphInertia::margin, delta = GraphInertia::dissipation;
-    const Matrix heavier =
-        Matrix::Identity(N, N) + (h / 2 * D + (1 + delta) * h * h / 4 * projected) / theta;
-    Matrix slower = C;
-    slower.bottomRightCorner(N, N) -= delta * h / 2 / theta * projected;
-    slower.bottomRows(N) = heavier.partialPivLu().solve(slower.bottomRows(N)).eval();
-    return step_matrix(SymplecticEuler{}, slower, h, positions);
 }
 
 }  // namespace taut::method
