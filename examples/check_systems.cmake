@@ -56,8 +56,9 @@ foreach(path IN LISTS pages)
     endforeach()
 endforeach()
 
-foreach(name IN ITEMS explode coming_from)
-    set(programs ${CMAKE_CURRENT_LIST_DIR}/why_explode.cpp ${CMAKE_CURRENT_LIST_DIR}/coming_from.cpp)
+foreach(name IN ITEMS explode coming_from never_explodes)
+    set(programs ${CMAKE_CURRENT_LIST_DIR}/why_explode.cpp ${CMAKE_CURRENT_LIST_DIR}/coming_from.cpp
+        ${CMAKE_CURRENT_LIST_DIR}/09_never_explodes.cpp)
     file(READ ${pages_dir}/../${name}.md page)
     check_code(${name}.md "${page}" "${programs}")
 endforeach()
