@@ -6,7 +6,7 @@
 #include <taut/stability/energy_stable_limit.hpp>
 
 #include "../support/catch.hpp"
-#include "../support/graph_matrices.hpp"
+#include "../support/hemmed_cloth.hpp"
 #include "../support/message.hpp"
 #include "../support/sweep_checks.hpp"
 #include "../support/tolerance.hpp"
