@@ -53,6 +53,7 @@ risen() {
         /^#/ || !NF { next }
         from == "old" { old[$1] = $2; next }
         { new[$1] = $2 }
+        $2 !~ /^[0-9]+$/ { print $1 ": " $2 " is no number"; next }
         !($1 in old) { if (!reasons) print $1 ": new in the budget" wanted; next }
         $2 <= old[$1] { next }
         !/^(module|tests|readme)\./ { print $1 ": up from " old[$1] " to " $2 "; the core may not rise"; next }
@@ -76,14 +77,16 @@ if [ "${1-}" = --compare ]; then
     verdict
     exit
 fi
-cd "$(dirname "$0")/.."
+CDPATH='' cd "$(dirname "$0")/.."
 budget=scripts/weight/budget
 
 # Complaints about the file beside its version at HEAD (what is not committed has no message yet), then beside
 # each older one, the newest first, until there are some.
 ratchet() {
     [ -e .git ] || { echo "weight: no git here, so the budget has no past" >&2 && return; }
-    commits=$(git rev-list --first-parent HEAD -- $budget)
+    # The line of first parents with what was merged into it: after a fast-forward to a branch that had
+    # merged main, main's last commit is a second parent.
+    commits=$(git rev-list --first-parent --parents HEAD | tr ' ' '\n' | awk '!seen[$0]++')
     for base in HEAD $commits; do
         git show "$base:$budget" >"$work/old" 2>/dev/null || continue
         git log --format=%B "$base..HEAD" >"$work/message"

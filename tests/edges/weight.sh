@@ -7,6 +7,8 @@ set -eu
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 script=$(realpath "$1")
+# shellcheck disable=SC2046  # a list of words
+unset $(git rev-parse --local-env-vars)  # of a hook, which would mean its own repository
 export GIT_CONFIG_GLOBAL=/dev/null
 cd "$work"
 

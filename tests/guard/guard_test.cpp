@@ -389,6 +389,146 @@ TEST_CASE("Guard counts the work of a pin that lifts a weight", "[guard]") {
     CHECK(work == Approx(50 + 0.125).epsilon(0.02));  // m g z, and ½mv²; the damper takes a little
 }
 
+TEST_CASE("A response cannot move a pin, and is named where it is not finite", "[guard]") {
+    using Net = taut::SpringSystem<double, 3>;
+    Net net;
+    net.add_particle({0, 0, 0}, 1);
+    net.add_particle({1, 0, 0}, 1);
+    net.add_spring(taut::Spring<double, taut::Hookean>{0, 1, {1e5}, 1, 1});
+    net.pin(0);
+    auto state = net.initial_state();
+    taut::Guard guard(net);
+    for (int i = 0; i < 60; ++i) {
+        const auto report =
+            guard.advance(state, frame, [&](auto& s) { s.v(0, 0) = 3 * std::sin(20 * s.time); });
+        REQUIRE(report);
+        REQUIRE(report.energy <= 1e-9);
+        REQUIRE(state.x.col(0).norm() == 0);
+        REQUIRE(state.v.col(0).norm() == 0);
+    }
+    const auto report = guard.advance(
+        state, frame, [](auto& s) { s.v(0, 1) = std::numeric_limits<double>::quiet_NaN(); });
+    CHECK(report.status == taut::Status::diverged);
+    CHECK(report.force == std::string("respond"));
+}
+
+TEST_CASE("Mild forces given as code stop nothing", "[guard]") {
+    using Net = taut::SpringSystem<double, 3, taut::Hookean>;
+    const int kind = GENERATE(0, 1, 2, 3);
+    Net net;
+    if (kind < 2) {
+        net.add_particle({1, 0, 0}, 1);
+    } else {
+        net = cloth_of<Net>(6);
+    }
+    for (Index i = 0; i < net.size(); ++i) {
+        if (kind == 2 && net.is_pinned(i)) net.unpin(i);
+    }
+    std::mt19937_64 random(3);
+    net.set_external_force([&](const auto& s, auto& f) {
+        if (kind == 0) f -= s.x;
+        if (kind == 1) f -= 0.1 * s.v;
+        if (kind == 2) f -= 1e-3 * s.v;
+        if (kind == 3) f.array() += 1e-3 * uniform(random, -1, 1);
+    });
+    auto state = net.initial_state();
+    if (kind < 2) state.v(1, 0) = 1;
+    taut::Guard guard(net);
+    for (int i = 0; i < 600; ++i) REQUIRE(guard.advance(state, frame).frozen == 0);
+}
+
+TEST_CASE("What is frozen while its pin moves books the work of that pin", "[guard]") {
+    using Net = taut::SpringSystem<double, 3>;
+    Net net;
+    net.add_particle({0, 0, 0}, 1);
+    net.add_particle({1, 0, 0}, 1);
+    net.add_spring(0, 1, 1000);
+    net.pin(0);
+    net.set_external_force([](const auto& s, auto& f) { f -= 1e200 * s.v; });
+    auto state = net.initial_state();
+    state.v(1, 1) = 1;
+    taut::Guard guard(net);
+    Promise promise;
+    for (int i = 0; i < 60; ++i) {
+        state.v(0, 0) = -1;
+        const auto report = guard.advance(state, frame);
+        REQUIRE(state.finite());
+        REQUIRE(promise.holds(report, net.kinetic_energy(state)));
+    }
+}
+
+TEST_CASE("A credit does not outlive the motion that earned it", "[guard]") {
+    using Net = taut::SpringSystem<double, 3>;
+    Net net;
+    net.add_particle({0, 0, 0}, 1);
+    net.add_particle({1, 0, 0}, 1);
+    net.add_spring(0, 1, 100);
+    auto state = net.initial_state();
+    state.v(1, 0) = 100;
+    double factor = 0.5, kick = 0;
+    const auto trial = [&](Net::State& s, double) {
+        s.v *= factor;
+        s.v(1, 0) += kick;
+    };
+    taut::Guard guard(net, trial);
+    CHECK(guard.advance(state, frame).credit < -1);
+    state = net.initial_state();
+    factor = 1;
+    kick = 9;
+    const auto report = guard.advance(state, frame);
+    CHECK(report.energy <= 1e-9);
+}
+
+TEST_CASE("A damper between a pin and a particle excuses no kick", "[guard]") {
+    using Net = taut::SpringSystem<double, 3>;
+    Net net;
+    net.add_particle({0, 0, 0}, 1);
+    net.add_particle({1, 0, 0}, 1);
+    net.add_spring(taut::Spring<double, taut::Hookean>{0, 1, {100}, 1, 1e4});
+    net.pin(0);
+    auto state = net.initial_state();
+    taut::ImplicitEuler<Net> implicit(net);
+    const auto trial = [&](Net::State& s, double h) {
+        (void)implicit.step(s, h);
+        s.v(1, 1) += 2;
+    };
+    taut::Guard guard(net, trial);
+    for (int i = 0; i < 120; ++i) {
+        state.v(0, 0) = i % 2 == 0 ? 1 : -1;
+        const auto report = guard.advance(state, frame);
+        REQUIRE(report);
+        REQUIRE(state.v.col(1).norm() < 10);
+    }
+}
+
+TEST_CASE("A trial that changes the time does not move a force of time", "[guard]") {
+    using Net = taut::SpringSystem<double, 3>;
+    Net net;
+    net.add_particle({0, 0, 0}, 2);
+    net.set_external_force([](const auto& s, auto& f) { f(0, 0) += std::sin(s.time); });
+    auto state = net.initial_state();
+    const auto trial = [&](Net::State& s, double h) {
+        s.v(0, 0) += h * std::sin(s.time + h / 2) / 2;
+        s.x += h * s.v;
+        s.time = 1e6;
+    };
+    taut::Guard guard(net, trial);
+    for (int i = 0; i < 60; ++i) REQUIRE(guard.advance(state, frame).taken != Taken::frozen);
+    CHECK(state.v(0, 0) == Approx((1 - std::cos(1.0)) / 2).epsilon(1e-2));
+}
+
+TEST_CASE("A soft scene far from any limit has little rounding", "[guard]") {
+    using Net = taut::SpringSystem<double, 3>;
+    Net net;
+    net.add_particle({0, 0, 0}, 1);
+    net.add_particle({1, 0, 0}, 1);
+    net.add_spring(0, 1, 1e-6);
+    auto state = net.initial_state();
+    state.v(0, 1) = 1;
+    taut::Guard guard(net);
+    CHECK(guard.advance(state, frame).rounding < 1e-12);
+}
+
 TEST_CASE("Guard takes implicit steppers, views, responses and calls", "[guard]") {
     using Net = taut::SpringSystem<float, 3, taut::TensionOnly>;
     const Net cloth = cloth_of<Net>(8);

@@ -17,7 +17,7 @@ enum class Status {
     not_converged,          ///< the iteration cap was reached
     masses_lost,            ///< a step so large that rounding loses masses beside stiffness
     too_large,              ///< a factor would not fit the memory allowed
-    frozen                  ///< Guard stopped a part: no step resolves a force given as code
+    frozen                  ///< a part was stopped: no step resolves a force given as code
 };
 
 /// One sentence for people.

@@ -90,8 +90,8 @@ public:
     /// a state that is not finite, no certified step (overflow: invalid_step), a force that is not
     /// finite, by name.
     /// @param respond  respond(state) after every step: contacts, for example. What it adds to the
-    ///                 energy counts as work. It must leave the system as it is: tear and pin
-    ///                 between frames.
+    ///                 energy counts as work. Pins and the system it leaves as they are: move
+    ///                 pins and tear between frames.
     template <class Respond = guard_detail::NoResponse>
     GuardReport<Scalar> advance(State& state, Scalar frame, Respond&& respond = {});
     /// Advances an engine's own arrays by `frame`, s: copied back once a frame, and there if they
@@ -114,6 +114,7 @@ public:
     const std::optional<StepLimit<Scalar>>& proved_limit() const { return proved_limit_; }
 
 private:
+    using Kind = typename guard_detail::WorkMeter<System>::Kind;
     struct Frame {
         Scalar h;
         Index steps;
@@ -123,7 +124,7 @@ private:
     Status open(const State& state, Scalar frame, Scalar longest, GuardReport<Scalar>& report);
     static Frame cut(Scalar span, Scalar longest);
     template <class Take, class Respond>
-    bool run(State& state, Frame frame, bool ahead, Take&& take, Respond& respond);
+    bool run(State& state, Frame frame, Kind kind, Take&& take, Respond& respond);
     template <class Respond>
     bool try_frame(State& state, Frame frame, Respond& respond);
     double gain(std::size_t part) const;
@@ -150,7 +151,7 @@ private:
         return tried ? Taken::tried : Taken::again;
     }
     void measure(const State& state, std::vector<guard_detail::Energy>& energies) {
-        meter_.measure(*system_, state, parts_, proved_limit_->certified, energies);
+        meter_.measure(*system_, state, parts_, shortest_, energies);
     }
 
     const System* system_;
@@ -165,6 +166,8 @@ private:
     State start_, again_, touched_;                     // of the frame; taken again; responses
     std::vector<guard_detail::Energy> begin_, end_;     // of each part, like all that follows
     std::vector<guard_detail::Energy> before_, after_;  // a response
+    const char* blamed_ = nullptr;                      // what the user gave that was not finite
+    Scalar shortest_ = 0;                               // step that a frame may take, s
     std::vector<double> rounding_;                      // ρ, J
     std::vector<double> booked_;                        // W, J
     std::vector<Taken> taken_;

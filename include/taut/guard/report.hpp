@@ -55,7 +55,8 @@ struct [[nodiscard]] GuardReport {
     bool blind = false;   ///< whether that is above a hundredth of a moving part's K
     Index where = -1;     ///< a particle of the worst part, or the one that is not finite
     Index spring = -1;    ///< one that pulls more than its law's stiffness_bound allows
-    const char* force = nullptr;  ///< what set a force that is not finite, or too stiff
+    const char* force =
+        nullptr;  ///< what set a force that is not finite or too stiff, or "respond"
 
     /// Whether status is ok.
     explicit operator bool() const { return status == Status::ok; }

@@ -37,6 +37,7 @@ Status Guard<Stepper, System>::open(const State& state, Scalar frame, Scalar lon
     report.where = checked.where;
     if (!checked) return checked.status;
     if (!(longest > 0) || !(proved_limit_->certified > 0)) return Status::invalid_step;
+    shortest_ = std::min(frame, proved_limit_->certified);
     if (last_.is(*system_, state) && end_.size() == parts_.count()) {
         begin_ = end_;
     } else {
@@ -47,6 +48,11 @@ Status Guard<Stepper, System>::open(const State& state, Scalar frame, Scalar lon
         report.where = parts_[p].first;
         return Status::invalid_state;
     }
+    for (std::size_t p = 0; p < parts_.count(); ++p) {
+        // An edit may have stopped what had earned it.
+        parts_[p].credit = std::max(parts_[p].credit, -0.1 * begin_[p].kinetic);
+    }
+    blamed_ = nullptr;
     start_ = state;
     booked_.assign(parts_.count(), 0);
     rounding_.assign(parts_.count(), 0);
@@ -65,7 +71,7 @@ auto Guard<Stepper, System>::cut(Scalar span, Scalar longest) -> Frame {
 /// @returns whether all steps were taken, to a finite state
 template <class Stepper, class System>
 template <class Take, class Respond>
-bool Guard<Stepper, System>::run(State& state, Frame frame, bool ahead, Take&& take,
+bool Guard<Stepper, System>::run(State& state, Frame frame, Kind kind, Take&& take,
                                  Respond& respond) {
     constexpr bool responds = !std::is_same_v<std::decay_t<Respond>, guard_detail::NoResponse>;
     constexpr bool held = detail::is_detected_v<guard_detail::constraint_forces_of, Stepper>;
@@ -76,17 +82,25 @@ bool Guard<Stepper, System>::run(State& state, Frame frame, bool ahead, Take&& t
         if (!take(state, frame.h, at_once)) return false;
         if (!detail::fits(state, system_->size()) || !state.finite()) return false;
         if constexpr (held) {
-            if (!ahead) work_.add_held(stepper().constraint_forces(), state, parts_);
+            if (kind != Kind::ahead) work_.add_held(stepper().constraint_forces(), state, parts_);
         }
-        work_.step(*system_, state, parts_, frame.h, ahead);
+        work_.step(*system_, state, parts_, frame.h, kind);
         if constexpr (responds) {
             touched_ = state;
             respond(state);
-            if (!state.finite()) return false;
+            if (!state.finite()) {
+                blamed_ = "respond";
+                return false;
+            }
+            for (Index i = 0; i < system_->size(); ++i) {
+                if (!system_->is_pinned(i)) continue;
+                state.x.col(i) = touched_.x.col(i);
+                state.v.col(i) = touched_.v.col(i);
+            }
             if (state.x == touched_.x && state.v == touched_.v) continue;
             measure(touched_, before_);
             measure(state, after_);
-            work_.add_change(before_, after_, state);
+            work_.add_change(*system_, before_, after_, state);
         }
     }
     return true;
@@ -99,7 +113,7 @@ bool Guard<Stepper, System>::try_frame(State& state, Frame frame, Respond& respo
         if constexpr (detail::is_detected_v<guard_detail::method_of, Stepper>) {
             return trial_.step(own, h, count);
         } else {
-            // Pins are not the caller's to move.
+            // Pins and time are not the caller's to move.
             touched_ = own;
             const bool taken = trial_.step(own, h, count);
             if (!taken || !detail::fits(own, system_->size())) return false;
@@ -108,10 +122,14 @@ bool Guard<Stepper, System>::try_frame(State& state, Frame frame, Respond& respo
                 own.v.col(i) = touched_.v.col(i);
                 own.x.col(i) = touched_.x.col(i) + static_cast<Scalar>(count) * h * own.v.col(i);
             }
+            own.time = touched_.time + static_cast<Scalar>(count) * h;
             return true;
         }
     };
-    return run(state, frame, false, take, respond);
+    constexpr Kind kind = any_pose == method::AnyPose::limited  ? Kind::at_both_ends
+                          : any_pose == method::AnyPose::proved ? Kind::ahead
+                                                                : Kind::at_the_end;
+    return run(state, frame, kind, take, respond);
 }
 
 /// a of a part, J: what its trial gained beyond its books and its credit.
@@ -170,8 +188,8 @@ bool Guard<Stepper, System>::take_again(State& state, Scalar span, bool tried,
         const Frame frame =
             cut(span, proved_limit_->certified / static_cast<Scalar>(1 << halvings));
         again_ = start_;
-        if (!run(again_, frame, true, take, respond)) {
-            if (!stiff_by_code()) return false;
+        if (!run(again_, frame, Kind::ahead, take, respond)) {
+            if (blamed_ || !stiff_by_code()) return false;
             if (halvings == 2)
                 std::replace(taken_.begin(), taken_.end(), Taken::again, Taken::frozen);
             continue;
@@ -217,7 +235,7 @@ double Guard<Stepper, System>::unexplained(std::size_t part) const {
 /// Of that, what is let pass, J.
 template <class Stepper, class System>
 double Guard<Stepper, System>::band(std::size_t part) const {
-    return 0.1 * std::max(begin_[part].kinetic, end_[part].kinetic);
+    return 0.05 * std::max(begin_[part].speed, end_[part].speed);
 }
 
 /// A part that was taken again for the last time in this frame.
@@ -225,7 +243,7 @@ template <class Stepper, class System>
 void Guard<Stepper, System>::settle_again(std::size_t part, GuardReport<Scalar>& report) {
     guard_detail::Part& own = parts_[part];
     booked_[part] = work_[part].booked;
-    if (!(unexplained(part) <= band(part))) taken_[part] = Taken::frozen;
+    if (!end_[part].finite() || !(unexplained(part) <= band(part))) taken_[part] = Taken::frozen;
     own.by_code = std::clamp(unexplained(part), -band(part), band(part));
     const double rise = end_[part].total - begin_[part].total;
     if (taken_[part] == Taken::again && rise > booked_[part] + rounding_[part]) {
@@ -240,7 +258,7 @@ void Guard<Stepper, System>::settle_again(std::size_t part, GuardReport<Scalar>&
     }
 }
 
-/// Stops the frozen parts where the frame began.
+/// Stops the frozen parts where the frame began: what then moves their energy is pins.
 template <class Stepper, class System>
 void Guard<Stepper, System>::freeze(State& state) {
     if (!any(Taken::frozen)) return;
@@ -250,6 +268,11 @@ void Guard<Stepper, System>::freeze(State& state) {
         state.v.col(i).setZero();
     }
     measure(state, end_);
+    for (std::size_t p = 0; p < parts_.count(); ++p) {
+        if (taken_[p] != Taken::frozen) continue;
+        booked_[p] = end_[p].total - (begin_[p].total - begin_[p].speed / 2);
+        parts_[p].credit = parts_[p].by_code = 0;
+    }
 }
 
 /// The spring of a part that exceeds its law's bound most, or −1; it counts the laws in their
@@ -331,7 +354,7 @@ auto Guard<Stepper, System>::advance(State& state, Scalar frame, Respond&& respo
     if ((!tried || any(Taken::again)) && !take_again(state, span, tried, report, respond)) {
         state = start_;
         report.status = Status::diverged;
-        report.force = force_name();
+        report.force = blamed_ ? blamed_ : force_name();
         return report;
     }
     state.time = start_.time + span;

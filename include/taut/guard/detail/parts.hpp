@@ -146,7 +146,7 @@ private:
             const auto mass = static_cast<double>(system.mass(i));
             const double speed = mass * static_cast<double>(v.squaredNorm());
             const double given =
-                constant.cols() > i ? static_cast<double>(constant.col(i).norm()) : 0;
+                constant.cols() > i ? constant.col(i).template cast<double>().norm() : 0;
             energy.speed += speed;
             energy.total += speed / 2 - mass * static_cast<double>(system.gravity().dot(x));
             energy.terms += speed + (mass * weight + given) * static_cast<double>(reach_[i]);

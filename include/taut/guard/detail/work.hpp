@@ -46,17 +46,21 @@ public:
             force_ = system.external_forces().constant;
         }
         bend_.setZero(int(System::Dim), code_ ? system.size() : 0);
+        bent_ = false;
         if (pins_move_) list_springs(system);
         x_ = state.x;
         v_ = state.v;
     }
-    /// After a step of h, s, of EnergyStableEuler if `ahead`; or once after all, unless stepwise.
-    void step(const System& system, const State& state, const Parts& parts, Scalar h, bool ahead) {
-        if (pins_move_) add_pins(system, state, parts, h, ahead);
+    /// How a step takes its forces: at both ends, at the new one, or one step ahead [T42].
+    enum class Kind { at_both_ends, at_the_end, ahead };
+    /// After a step of h, s; or once after all, unless stepwise.
+    void step(const System& system, const State& state, const Parts& parts, Scalar h, Kind kind) {
+        if (pins_move_) add_pins(system, state, parts, h, kind);
         if (code_) {
             system.external_force(state, next_);
-            add_forces(state, parts, ahead);
+            add_forces(state, parts, kind);
             std::swap(force_, next_);
+            bent_ = true;
         } else {
             add_held(force_, state, parts);
         }
@@ -68,10 +72,14 @@ public:
         for (Index i = 0; i < held.cols(); ++i) add(parts.of(i), along(held, state, i));
     }
     /// By whatever changed the state between two steps.
-    void add_change(const std::vector<Energy>& before, const std::vector<Energy>& after,
-                    const State& state) {
+    void add_change(const System& system, const std::vector<Energy>& before,
+                    const std::vector<Energy>& after, const State& state) {
         for (std::size_t p = 0; p < works_.size(); ++p) {
             add(static_cast<Index>(p), after[p].total - before[p].total);
+        }
+        if (code_) {
+            system.external_force(state, force_);
+            bent_ = false;
         }
         x_ = state.x;
         v_ = state.v;
@@ -88,17 +96,18 @@ private:
         return static_cast<double>(f.col(i).dot(state.x.col(i) - x_.col(i)));
     }
     /// force_ at the start of the step, next_ at its end.
-    void add_forces(const State& state, const Parts& parts, bool ahead) {
+    void add_forces(const State& state, const Parts& parts, Kind kind) {
         for (Index i = 0; i < force_.cols(); ++i) {
             const Vector change = next_.col(i) - force_.col(i);
             const auto way = static_cast<double>((state.x.col(i) - x_.col(i)).norm());
             const double begun = along(force_, state, i);
             const double mean = (begun + along(next_, state, i)) / 2;
-            const double doubt = static_cast<double>((change - bend_.col(i)).norm()) * way / 2;
+            const double doubt =
+                bent_ ? static_cast<double>((change - bend_.col(i)).norm()) * way / 2 : 0;
             bend_.col(i) = change;
             if (parts.of(i) < 0) continue;
             auto& work = works_[static_cast<std::size_t>(parts.of(i))];
-            work.booked += ahead ? begun : mean - doubt;
+            work.booked += kind == Kind::ahead ? begun : mean - doubt;
             work.checked += mean - doubt;
         }
     }
@@ -116,7 +125,7 @@ private:
     }
     /// By the springs and dampers between a pin and a free particle.
     void add_pins(const System& system, const State& state, const Parts& parts, Scalar h,
-                  bool ahead) {
+                  Kind kind) {
         const auto by = system.stiffness_damping().template cast<Scalar>();
         std::size_t law = 0;
         system.for_each_set([&](const auto& set) {
@@ -132,7 +141,7 @@ private:
                 };
                 const Vector old_x = to_b(x_.col(pin), x_.col(free));
                 const Vector old_v = to_b(u, v_.col(free));
-                if (ahead) {
+                if (kind == Kind::ahead) {
                     const Vector f = pull_ahead(spring, old_x, old_v, h, by);
                     add(parts.of(free), -double(h) * double((first ? f : Vector(-f)).dot(u)));
                     continue;
@@ -144,12 +153,15 @@ private:
                 };
                 const double pulled = energy(to_b(state.x.col(pin), x_.col(free))) - energy(old_x) +
                                       energy(new_x) - energy(to_b(x_.col(pin), state.x.col(free)));
-                const auto braked = [&](const Vector& dx, const Vector& dv) -> Vector {
-                    return pull(spring, dx, dv, by) - pull(spring, dx);
+                // What a damper gives the free particle: the rest of its work is heat.
+                const auto given = [&](const Vector& dx, const Vector& dv) {
+                    const Vector f = pull(spring, dx, dv, by) - pull(spring, dx);
+                    return double(
+                        (first ? Vector(-f) : f).dot(first ? Vector(dv + u) : Vector(u - dv)));
                 };
-                const Vector damped = (braked(old_x, old_v) + braked(new_x, new_v)) / 2;
-                add(parts.of(free),
-                    pulled / 2 - double(h) * double((first ? damped : Vector(-damped)).dot(u)));
+                double power = given(new_x, new_v);
+                if (kind == Kind::at_both_ends) power = (power + given(old_x, old_v)) / 2;
+                add(parts.of(free), pulled / 2 + double(h) * power);
             }
         });
     }
@@ -158,10 +170,11 @@ private:
     std::vector<std::vector<std::size_t>> springs_;  // of each law, from a pin to a free particle
     std::uint64_t revision_ = 0;                     // that they were listed at
     bool known_ = false, code_ = false, pins_move_ = false;
-    Force x_, v_;  // at the step's start, m, m/s
-    Force force_;  // outside forces there, N
-    Force next_;   // at its end
-    Force bend_;   // the last change of the force, N
+    bool bent_ = false;  // whether bend_ is known
+    Force x_, v_;        // at the step's start, m, m/s
+    Force force_;        // outside forces there, N
+    Force next_;         // at its end
+    Force bend_;         // the last change of the force, N
 };
 
 }  // namespace taut::guard_detail
