@@ -183,12 +183,15 @@ inline constexpr bool is_options_v<GuardOptions<Scalar>> = true;
 
 }  // namespace guard_detail
 
+/// Guard(system) tries velocity Verlet.
 template <class Scalar, int Dim, class... Laws>
 Guard(const SpringSystem<Scalar, Dim, Laws...>&)
     -> Guard<VelocityVerlet<SpringSystem<Scalar, Dim, Laws...>>>;
+/// Guard(system, options) does, too.
 template <class Scalar, int Dim, class... Laws>
 Guard(const SpringSystem<Scalar, Dim, Laws...>&, const GuardOptions<Scalar>&)
     -> Guard<VelocityVerlet<SpringSystem<Scalar, Dim, Laws...>>>;
+/// Guard(system, stepper) tries that, a stepper or a call of yours.
 template <class Scalar, int Dim, class... Laws, class Stepper, class... Options,
           class = std::enable_if_t<!guard_detail::is_options_v<Stepper>>>
 Guard(const SpringSystem<Scalar, Dim, Laws...>&, Stepper&, const Options&...)
