@@ -149,7 +149,7 @@ System cloth_of(Index side) {
 
 }  // namespace
 
-TEST_CASE("Guard refuses no frame and keeps its promise under attack, double", "[guard]") {
+TEST_CASE("Guard refuses no frame and keeps its promise under attack, double", "[slow]") {
     attack<taut::SpringSystem<double, 1>>(1, 40);
     attack<taut::SpringSystem<double, 2, taut::TensionOnly>>(2, 40);
     attack<taut::SpringSystem<double, 3>>(3, 40);
@@ -163,7 +163,7 @@ TEST_CASE("Guard refuses no frame and keeps its promise under attack, float", "[
     attack<taut::SpringSystem<float, 3, taut::TensionOnly>>(8, 40);
 }
 
-TEMPLATE_TEST_CASE("An undamped cloth keeps its energy for a minute under Guard", "[guard]",
+TEMPLATE_TEST_CASE("An undamped cloth keeps its energy for a minute under Guard", "[slow]",
                    (taut::SpringSystem<double, 3, taut::Hookean>),
                    (taut::SpringSystem<double, 3, taut::TensionOnly>)) {
     const TestType cloth = cloth_of<TestType>(10);
@@ -281,7 +281,7 @@ TEST_CASE("Stiff forces given as code never explode under Guard, and are named",
     auto state = cloth.initial_state();
     bool named = false;
     const double start = (state.x.colwise() - state.x.col(0)).norm();
-    for (int i = 0; i < 120; ++i) {
+    for (int i = 0; i < 60; ++i) {
         const auto report = guard.advance(state, frame);
         if (!report) CHECK(report.status == taut::Status::frozen);
         if (!report) CHECK(report.force != nullptr);
