@@ -3,7 +3,7 @@
 
 # cmake -D INCLUDE=include/taut -P layout.cmake
 # Follows every #include "..." and fails, with all that it found, where
-# - a header includes <taut/...>, which is not followed;
+# - a header includes <taut/...>, or anything by a macro or another spelling, which is not followed;
 # - a room, a folder of the core, includes a room that comes later in the order below;
 # - the core (taut.hpp, compiled.hpp and the rooms) includes a module, which any other folder is;
 # - a module has no header of its name, or that header's first line after #pragma once does not name
@@ -32,6 +32,11 @@ foreach(header IN LISTS headers)
     file(STRINGS ${INCLUDE}/${header} unfollowed REGEX "${include}<taut/")
     if(unfollowed)
         list(APPEND faults "${header} includes Taut by a path that is not relative: ${unfollowed}")
+    endif()
+    file(STRINGS ${INCLUDE}/${header} odd REGEX "^[^/\"]*(#|%:)[^\"<]*(include|import)")
+    list(FILTER odd EXCLUDE REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"]|^#include TAUT_USER_CONFIG$")
+    if(odd)
+        list(APPEND faults "${header} has an include that cannot be followed: ${odd}")
     endif()
     file(STRINGS ${INCLUDE}/${header} includes REGEX "${include}\"")
     foreach(line IN LISTS includes)
