@@ -52,7 +52,7 @@ namespace taut {
 /// @tparam Stepper  VelocityVerlet unless named; SymplecticEuler, ImplicitEuler, Bdf2,
 ///                  ProjectiveDynamics, or a call step(state, h) that takes one step of h, s, and
 ///                  returns nothing or whether it could
-template <class Stepper, class System = typename guard_detail::stepped_system<Stepper>::type>
+template <class Stepper, class System = typename integrator_detail::stepped_system<Stepper>::type>
 class Guard {
 public:
     using Scalar = typename System::Scalar;
@@ -92,11 +92,11 @@ public:
     /// @param respond  respond(state) after every step: contacts, for example. What it adds to the
     ///                 energy counts as work. Pins and the system it leaves as they are: move
     ///                 pins and tear between frames.
-    template <class Respond = guard_detail::NoResponse>
+    template <class Respond = integrator_detail::NoResponse>
     GuardReport<Scalar> advance(State& state, Scalar frame, Respond&& respond = {});
     /// Advances an engine's own arrays by `frame`, s: copied back once a frame, and there if they
     /// are not what the last frame left.
-    template <class Stored, class Respond = guard_detail::NoResponse>
+    template <class Stored, class Respond = integrator_detail::NoResponse>
     GuardReport<Scalar> advance(StateView<Stored, System::Dim>& view, Scalar frame,
                                 Respond&& respond = {}) {
         return viewed_.advance(view, [&](State& state) { return advance(state, frame, respond); });
@@ -114,6 +114,7 @@ public:
     const std::optional<StepLimit<Scalar>>& proved_limit() const { return proved_limit_; }
 
 private:
+    static constexpr double unit = static_cast<double>(std::numeric_limits<Scalar>::epsilon()) / 2;
     using Kind = typename guard_detail::WorkMeter<System>::Kind;
     struct Frame {
         Scalar h;
@@ -156,7 +157,7 @@ private:
 
     const System* system_;
     Options options_;
-    guard_detail::Held<Stepper> trial_;
+    integrator_detail::HeldStepper<Stepper> trial_;
     EnergyStableEuler<System> proved_;
     std::optional<StepLimit<Scalar>> any_pose_limit_, proved_limit_;
     guard_detail::Parts parts_;
@@ -171,7 +172,7 @@ private:
     std::vector<double> rounding_;                      // ρ, J
     std::vector<double> booked_;                        // W, J
     std::vector<Taken> taken_;
-    guard_detail::ViewedState<State> viewed_;
+    integrator_detail::ViewedState<State> viewed_;
 };
 
 namespace guard_detail {

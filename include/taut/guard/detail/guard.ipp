@@ -19,7 +19,7 @@ auto Guard<Stepper, System>::trial_step() const -> Scalar {
     Scalar h = std::numeric_limits<Scalar>::infinity();
     if constexpr (any_pose == method::AnyPose::limited) {
         double share = 0.95;
-        if constexpr (detail::is_detected_v<guard_detail::damping_of, Stepper>) {
+        if constexpr (detail::is_detected_v<integrator_detail::damping_of, Stepper>) {
             share = share_of_limit(share, stepper().damping());
         }
         h = static_cast<Scalar>(share) * any_pose_limit_->certified;
@@ -73,8 +73,8 @@ template <class Stepper, class System>
 template <class Take, class Respond>
 bool Guard<Stepper, System>::run(State& state, Frame frame, Kind kind, Take&& take,
                                  Respond& respond) {
-    constexpr bool responds = !std::is_same_v<std::decay_t<Respond>, guard_detail::NoResponse>;
-    constexpr bool held = detail::is_detected_v<guard_detail::constraint_forces_of, Stepper>;
+    constexpr bool responds = !std::is_same_v<std::decay_t<Respond>, integrator_detail::NoResponse>;
+    constexpr bool held = detail::is_detected_v<integrator_detail::constraint_forces_of, Stepper>;
     const bool stepwise = work_.stepwise(*system_, state) || responds || held;
     work_.start(*system_, state, parts_);
     const Index at_once = stepwise ? 1 : frame.steps;
@@ -110,12 +110,12 @@ template <class Stepper, class System>
 template <class Respond>
 bool Guard<Stepper, System>::try_frame(State& state, Frame frame, Respond& respond) {
     const auto take = [&](State& own, Scalar h, Index count) {
-        if constexpr (detail::is_detected_v<guard_detail::method_of, Stepper>) {
-            return trial_.step(own, h, count);
+        if constexpr (detail::is_detected_v<integrator_detail::method_of, Stepper>) {
+            return guard_detail::take_steps(stepper(), own, h, count);
         } else {
             // Pins and time are not the caller's to move.
             touched_ = own;
-            const bool taken = trial_.step(own, h, count);
+            const bool taken = guard_detail::take_steps(stepper(), own, h, count);
             if (!taken || !detail::fits(own, system_->size())) return false;
             for (Index i = 0; i < system_->size(); ++i) {
                 if (!system_->is_pinned(i)) continue;
@@ -183,7 +183,6 @@ bool Guard<Stepper, System>::take_again(State& state, Scalar span, bool tried,
         report.where = stepped.where;
         return bool(stepped);
     };
-    constexpr double unit = static_cast<double>(std::numeric_limits<Scalar>::epsilon()) / 2;
     for (int halvings = 0; halvings < 3; ++halvings) {
         const Frame frame =
             cut(span, proved_limit_->certified / static_cast<Scalar>(1 << halvings));
@@ -343,7 +342,6 @@ auto Guard<Stepper, System>::advance(State& state, Scalar frame, Respond&& respo
     report.substeps = trial.steps;
     report.h = trial.h;
     const double proved = std::ceil(static_cast<double>(span / proved_limit_->certified));
-    constexpr double unit = static_cast<double>(std::numeric_limits<Scalar>::epsilon()) / 2;
     for (std::size_t p = 0; p < parts_.count(); ++p) {
         rounding_[p] = 4 * unit * std::sqrt(std::max(1.0, proved)) * begin_[p].terms;
     }

@@ -2,105 +2,35 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
 #include <type_traits>
-#include <utility>
 
-#include "../../core/concepts.hpp"
+#include "../../integrator/detail/guarded_traits.hpp"
 #include "../../method/visit.hpp"
-#include "../../model/state_view.hpp"
 
 namespace taut::guard_detail {
-
-template <class Stepper>
-using method_of = decltype(Stepper::method);
-template <class Stepper>
-using damping_of = decltype(std::declval<const Stepper&>().damping());
-template <class Stepper>
-using constraint_forces_of = decltype(std::declval<const Stepper&>().constraint_forces());
 
 /// Which steps the trial may take: one without a `method` counts as implicit.
 template <class Stepper>
 constexpr method::AnyPose any_pose_of() {
-    if constexpr (detail::is_detected_v<method_of, Stepper>) {
-        return method::Of<Stepper::method>::any_pose;
-    } else {
-        return method::AnyPose::every_step;
-    }
+    return method::Of<integrator_detail::guarded_method<Stepper>()>::any_pose;
 }
 
-template <class Stepper>
-struct stepped_system;
-template <template <class...> class Stepper, class System, class... Policies>
-struct stepped_system<Stepper<System, Policies...>> {
-    using type = System;
-};
-
-/// The guard's trial: a stepper of its own, one that outlives it, or a call that takes one step.
-template <class Stepper>
-class Held {
-public:
-    template <class... Arguments>
-    explicit Held(std::in_place_t, Arguments&&... arguments)
-        : own_(std::in_place, std::forward<Arguments>(arguments)...) {}
-    explicit Held(Stepper& lent) : lent_(&lent) {}
-
-    Stepper& get() { return own_ ? *own_ : *lent_; }
-    const Stepper& get() const { return own_ ? *own_ : *lent_; }
-
-    /// @returns whether `count` steps of h, s, were taken
-    template <class State, class Scalar>
-    bool step(State& state, Scalar h, Index count) {
-        if constexpr (!std::is_invocable_v<Stepper&, State&, Scalar>) {
-            return bool(get().step(state, h, count));
-        } else {
-            for (Index i = 0; i < count; ++i) {
-                if constexpr (std::is_void_v<decltype(get()(state, h))>) {
-                    get()(state, h);
-                } else if (!get()(state, h)) {
-                    return false;
-                }
+/// Takes steps by a stepper, or by a call that takes one.
+/// @returns whether `count` steps of h, s, were taken
+template <class Stepper, class State, class Scalar>
+bool take_steps(Stepper& stepper, State& state, Scalar h, Index count) {
+    if constexpr (!std::is_invocable_v<Stepper&, State&, Scalar>) {
+        return bool(stepper.step(state, h, count));
+    } else {
+        for (Index i = 0; i < count; ++i) {
+            if constexpr (std::is_void_v<decltype(stepper(state, h))>) {
+                stepper(state, h);
+            } else if (!stepper(state, h)) {
+                return false;
             }
-            return true;
         }
+        return true;
     }
-
-private:
-    std::optional<Stepper> own_;
-    Stepper* lent_ = nullptr;  // used without own_
-};
-
-/// The guard's copy of an engine's arrays, in the system's precision.
-template <class State>
-class ViewedState {
-public:
-    /// Gives the copy to advance(State&), and copies it back if that got anywhere. Arrays that
-    /// hold what the last call left there are not read: they may be less precise.
-    template <class View, class Advance>
-    auto advance(View& view, Advance&& advance) {
-        model_detail::require_state<State, View>();
-        if (!is_in(view)) view.copy_to(state_);
-        const auto report = advance(state_);
-        if (report.advanced > 0) view.copy_from(state_);
-        return report;
-    }
-
-private:
-    template <class Stored, int Dim>
-    bool is_in(const StateView<Stored, Dim>& view) const {
-        return view.x.cols() == state_.x.cols() && view.v.cols() == state_.v.cols() &&
-               view.time == static_cast<double>(state_.time) &&
-               view.x == state_.x.template cast<Stored>() &&
-               view.v == state_.v.template cast<Stored>();
-    }
-
-    State state_;
-};
-
-/// In place of a response.
-struct NoResponse {
-    template <class State>
-    void operator()(State&) const {}
-};
+}
 
 }  // namespace taut::guard_detail
