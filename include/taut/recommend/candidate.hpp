@@ -24,11 +24,10 @@ enum class LinearSolver {
 
 /// One way to advance a scene.
 struct Candidate {
-    Method method = Method::symplectic_euler;
+    Method method = Method::energy_stable_euler;
     double h = 0;                                ///< s
     LinearSolver solver = LinearSolver::direct;  ///< of an implicit method
     double solver_tolerance = 1e-3;              ///< of conjugate gradients
-    StepDamping damping{};                       ///< ExplicitOptions::damping of an explicit method
 };
 
 /// The method, and the solver where there is one; without the step.
@@ -74,11 +73,7 @@ struct StepperOf<method::EnergyStableEuler, System, Solver> {
 template <class Descriptor, class Solver, class System>
 auto make_stepper(const System& system, const Candidate& candidate) {
     using Stepper = typename StepperOf<Descriptor, System, Solver>::type;
-    if constexpr (Descriptor::is_implicit || Descriptor::method == Method::energy_stable_euler) {
-        return Stepper(system);
-    } else {
-        return Stepper(system, ExplicitOptions{1, candidate.damping});
-    }
+    return Stepper(system);
 }
 
 }  // namespace tradeoff_detail
