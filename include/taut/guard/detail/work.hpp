@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -116,22 +117,27 @@ private:
     void add_code(const State& state, const Force* known) {
         if (!known) system_->external_force(state, next_);
         const Force& next = known ? *known : next_;
-        for (Index i = 0; seen_ > 0 && i < next.cols(); ++i) {
+        if (seen_ == 0) {
+            force_ = next;
+            x_ = state.x;
+            return;
+        }
+        for (Index i = 0; i < next.cols(); ++i) {
             const Vector change = next.col(i) - force_.col(i);
             const Vector way = state.x.col(i) - x_.col(i);
             const auto begun = static_cast<double>(force_.col(i).dot(way));
-            const double mean = (begun + static_cast<double>(next.col(i).dot(way))) / 2;
-            const double doubt =
-                seen_ > 1 ? static_cast<double>((change - bend_.col(i)).norm() * way.norm()) / 2
-                          : 0;
+            const auto gap = static_cast<double>((change - bend_.col(i)).squaredNorm());
+            force_.col(i) = next.col(i);
+            x_.col(i) = state.x.col(i);
             bend_.col(i) = change;
-            if (parts_->of(i) < 0) continue;
-            auto& work = works_[static_cast<std::size_t>(parts_->of(i))];
-            work.booked += kind_ == Kind::ahead ? begun : mean - doubt;
-            work.checked += mean - doubt;
+            const Index part = parts_->of(i);
+            if (part < 0) continue;
+            double mean = begun + static_cast<double>(change.dot(way)) / 2;
+            if (seen_ > 1) mean -= std::sqrt(gap * static_cast<double>(way.squaredNorm())) / 2;
+            auto& work = works_[static_cast<std::size_t>(part)];
+            work.booked += kind_ == Kind::ahead ? begun : mean;
+            work.checked += mean;
         }
-        force_ = next;
-        x_ = state.x;
     }
     void list_springs() {
         if (listed_ == system_->topology_revision() + 1) return;

@@ -292,16 +292,17 @@ void Sweep<System>::load(const System& system, const AnyState& state, Scalar ahe
 template <class System>
 template <class Update>
 bool Sweep<System>::steps(Scalar h, Index count, int threads, const Update& update) {
-    const bool one_by_one = outside_.asks_for_state() || watch_;
-    if (one_by_one && !state_.finite()) return false;  // a finite double may be infinite as a float
+    const bool asks = outside_.asks_for_state();
+    if (asks && !state_.finite()) return false;  // a finite double may be infinite as a float
     for (Index done = 0; done < count;) {
-        const Index next = one_by_one ? 1 : std::min(steps_between_checks, count - done);
+        const Index next = asks || watch_ ? 1 : std::min(steps_between_checks, count - done);
         update_.set_external(outside_.at_state(plan_, state_.planes()));
         show(outside_.state(), outside_.force());
         some_steps(h, next, threads, update);
-        if (!state_.finite()) return false;
-        outside_.pass(h);
         done += next;
+        const bool check = asks || done == count || done % steps_between_checks == 0;
+        if (check && !state_.finite()) return false;
+        outside_.pass(h);
     }
     return true;
 }
