@@ -30,12 +30,13 @@ namespace taut {
 ///
 /// What it promises. For each part, the free particles that springs join, let E be the kinetic
 /// energy with that of springs and gravity, K the kinetic energy about the centre of mass, W the
-/// work of outside forces, moving pins, constraints and `respond`, and ρ what rounding may hide.
-/// Between any two frames m < n of it, edits between frames apart,
+/// work of outside forces, moving pins, constraints and `respond`, ρ what rounding may hide, and d
+/// its balance. Between any two frames m < n of it, edits between frames apart,
 ///
-///     E_n ≤ E_m + 0.1 K_m + Σ (W + ρ)
+///     E_n ≤ E_m + 0.1 K_m + Σ W + d_n
 ///
-/// and no frame is refused, as long as states, forces and velocities of pins are finite and no law
+/// with d_n ≤ ρ_n where the trial stands; a frame that is taken again raises d by rounding alone.
+/// And no frame is refused, as long as states, forces and velocities of pins are finite and no law
 /// exceeds its stiffness_bound; the report names a spring that does. W is as
 /// detail/work.hpp books it: where a frame was taken again, that of forces given as code is theirs
 /// at the start of each step. They are checked there, too: what gains more than 0.1 K by them is

@@ -50,8 +50,8 @@ struct [[nodiscard]] GuardedReport {
     Scalar advanced = 0;  ///< s; less than the frame if max_substeps cut it, 0 if refused
     double energy = 0;    ///< E at the end, J, summed over the parts like all that follows
     double work = 0;      ///< W, by outside forces, moving pins, constraints and `respond`, J
-    double credit = 0;    ///< d ≤ 0, what may be gained back, J
-    double rounding = 0;  ///< ρ, what rounding may hide in this frame, J
+    double balance = 0;   ///< d, gained beyond the books; < 0: may be gained back, J
+    double rounding = 0;  ///< ρ, what rounding may hide, J
     bool blind = false;   ///< whether that is above a hundredth of a moving part's K
     Index where = -1;     ///< a particle of the worst part, or the one that is not finite
     Index spring = -1;    ///< one that pulls more than its law's stiffness_bound allows

@@ -46,7 +46,7 @@ Status Guarded<Stepper, System>::open(const State& state, Scalar frame, Scalar l
     }
     for (std::size_t p = 0; p < parts_.count(); ++p) {
         // An edit may have stopped what had earned it.
-        parts_[p].credit = std::max(parts_[p].credit, -0.1 * begin_[p].kinetic);
+        parts_[p].balance = std::max(parts_[p].balance, -0.1 * begin_[p].kinetic);
     }
     blamed_ = nullptr;
     start_ = state;
@@ -133,16 +133,15 @@ bool Guarded<Stepper, System>::try_frame(State& state, Frame frame, Respond& res
     return run(state, frame, kind, stepper(), take, respond);
 }
 
-/// a of a part, J: what its trial gained beyond its books and its credit.
+/// a of a part, J: what it has gained beyond its books by the end of its trial.
 template <class Stepper, class System>
 double Guarded<Stepper, System>::gain(std::size_t part) const {
-    return parts_[part].credit + end_[part].total - begin_[part].total - work_[part].booked -
-           rounding_[part];
+    return parts_[part].balance + end_[part].total - begin_[part].total - work_[part].booked;
 }
 
 template <class Stepper, class System>
 bool Guarded<Stepper, System>::holds(std::size_t part) const {
-    return end_[part].finite() && gain(part) <= 1e-12 * end_[part].kinetic;
+    return end_[part].finite() && gain(part) <= rounding_[part] + 1e-12 * end_[part].kinetic;
 }
 
 /// Says of every part what becomes of its trial, and trims what gained a little.
@@ -153,11 +152,12 @@ void Guarded<Stepper, System>::judge(State& state, bool tried) {
     std::vector<guard_detail::Gain> gains(parts_.count());
     for (std::size_t p = 0; p < parts_.count(); ++p) {
         if (parts_[p].skip > 0) continue;
+        const double quarter = end_[p].kinetic / 4;
         if (holds(p)) {
             taken_[p] = Taken::tried;
-        } else if (end_[p].finite() && gain(p) <= end_[p].kinetic / 4) {
+        } else if (end_[p].finite() && gain(p) - rounding_[p] <= quarter) {
             taken_[p] = Taken::trimmed;
-            gains[p] = {gain(p), end_[p].speed};
+            gains[p] = {std::min(gain(p), quarter), end_[p].speed};
         }
     }
     if (any(Taken::trimmed)) {
@@ -168,7 +168,7 @@ void Guarded<Stepper, System>::judge(State& state, bool tried) {
         if (taken_[p] == Taken::trimmed && !holds(p)) taken_[p] = Taken::again;
         if (taken_[p] == Taken::again) continue;
         booked_[p] = work_[p].booked;
-        parts_[p].credit = std::max(gain(p), -0.1 * end_[p].kinetic);
+        parts_[p].balance = std::max(gain(p), -0.1 * end_[p].kinetic);
         parts_[p].again = 0;
         parts_[p].next_skip = 2;
     }
@@ -245,11 +245,15 @@ void Guarded<Stepper, System>::settle_again(std::size_t part, GuardedReport<Scal
     booked_[part] = work_[part].booked;
     if (!end_[part].finite() || !(unexplained(part) <= band(part))) taken_[part] = Taken::frozen;
     own.by_code = std::clamp(unexplained(part), -band(part), band(part));
-    const double rise = end_[part].total - begin_[part].total;
-    if (taken_[part] == Taken::again && rise > booked_[part] + rounding_[part]) {
+    const double rise = end_[part].total - begin_[part].total - booked_[part];
+    if (taken_[part] == Taken::again && rise > rounding_[part]) {
         report.spring = strongest_spring(part);
     }
-    own.credit = std::max(own.credit, -0.1 * end_[part].kinetic);
+    if (taken_[part] == Taken::again) {
+        // What it lost pays what it owes, and earns nothing.
+        own.balance = std::max(own.balance + rise, std::min(own.balance, 0.0));
+        own.balance = std::max(own.balance, -0.1 * end_[part].kinetic);
+    }
     if (own.skip > 0) {
         --own.skip;
     } else if (++own.again >= 3) {
@@ -271,7 +275,8 @@ void Guarded<Stepper, System>::freeze(State& state) {
     for (std::size_t p = 0; p < parts_.count(); ++p) {
         if (taken_[p] != Taken::frozen) continue;
         booked_[p] = end_[p].total - (begin_[p].total - begin_[p].speed / 2);
-        parts_[p].credit = parts_[p].by_code = 0;
+        parts_[p].balance = std::max(0.0, parts_[p].balance - begin_[p].speed / 2);
+        parts_[p].by_code = 0;
     }
 }
 
@@ -307,7 +312,7 @@ void Guarded<Stepper, System>::close(const State& state, GuardedReport<Scalar>& 
         report.frozen += taken_[p] == Taken::frozen;
         report.energy += end_[p].total;
         report.work += booked_[p];
-        report.credit += parts_[p].credit;
+        report.balance += parts_[p].balance;
         report.rounding += rounding_[p];
         report.blind = report.blind || rounding_[p] > end_[p].kinetic / 100;
         if (taken_[p] <= report.taken) continue;
