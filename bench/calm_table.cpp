@@ -73,13 +73,13 @@ struct Run {
 
 template <class Drive>
 Run run(Cloth cloth, const taut::RayleighDamping& damping, Drive drive) {
-    const double undamped = taut::energy_stable_limit(cloth).certified;
+    const double undamped = taut::energy_limit(cloth).certified;
     const double any_pose = taut::any_pose_limit(cloth).certified;
     cloth.set_rayleigh({damping.mass_proportional, damping.stiffness_proportional * undamped});
     Run result;
-    result.proved = taut::energy_stable_limit(cloth).certified / undamped;
+    result.proved = taut::energy_limit(cloth).certified / undamped;
     result.trial = taut::any_pose_limit(cloth).certified / any_pose;
-    taut::Guard guard(cloth);
+    taut::Guarded guard(cloth);
     auto state = cloth.initial_state();
     for (int i = 0; i < frames; ++i) {
         drive(cloth, state, i * frame, i < driven ? 1 : 0);
@@ -192,7 +192,7 @@ int main(int argc, char** argv) {
     row("net", net(side), {0.5, 0}, Shaken{});
     row("net", net(side), {0.5, 0.1}, Shaken{});
     row("net", net(side), {0.5, 0.4}, Shaken{});
-    const double h = taut::energy_stable_limit(cloth).certified;
+    const double h = taut::energy_limit(cloth).certified;
     std::printf("\ndamping ratio of the garment: %.2f at 3.1 rad/s, %.3f at 1/h\n",
                 taut::damping_ratio({1, 0.1 * h}, 3.1), taut::damping_ratio({1, 0.1 * h}, 1 / h));
     if (argc > 2) draw(argv[2], curves);

@@ -73,12 +73,12 @@ template <class Stepper, class System>
 void run_guard(System& system, typename System::State state, Bytes& bytes) {
     using Scalar = typename System::Scalar;
     using Guard = taut::Guarded<Stepper>;
-    typename Guard::Options options;
+    typename Guarded::Options options;
     options.max_substeps = 40;
     options.max_retries = 3;
     options.max_step = static_cast<Scalar>(bytes.positive());
-    Guard guard(system, options);
-    constexpr taut::Method method = Guard::method;
+    Guarded guard(system, options);
+    constexpr taut::Method method = Guarded::method;
     Promise promise{1, 1, options.energy_slack, options.energy_drift};
     if (method == taut::Method::symplectic_euler) {
         promise.swing = 3.5;
@@ -90,7 +90,7 @@ void run_guard(System& system, typename System::State state, Bytes& bytes) {
     typename System::Force f;
     taut::integrator_detail::PinWork<System> pins;
     const auto books = [&] {
-        return taut::integrator_detail::energy_books(system, state, Guard::method, pins, f);
+        return taut::integrator_detail::energy_books(system, state, Guarded::method, pins, f);
     };
     const auto frame = static_cast<Scalar>(bytes.positive());
     if (!(options.max_step > 0)) return;

@@ -8,7 +8,7 @@
 #include <optional>
 #include <taut/method/visit.hpp>
 #include <taut/stability/any_pose.hpp>
-#include <taut/stability/energy_stable_limit.hpp>
+#include <taut/stability/energy_limit.hpp>
 #include <taut/stability/stability.hpp>
 #include <vector>
 
@@ -112,7 +112,7 @@ void lab::forget_limits() { found = {}; }
 
 void lab_analyse_any_pose() {
     found.any_pose = taut::any_pose_limit(lab::scene().cloth);
-    found.energy_stable = taut::energy_stable_limit(lab::scene().cloth);
+    found.energy_stable = taut::energy_limit(lab::scene().cloth);
 }
 
 void lab_analyse_pose() {

@@ -64,7 +64,7 @@ Advance plain_or_guarded(const Options& chosen, const Scene& scene, const Prepar
         return by_stepper(scene, std::move(stepper));
     }
     using Guard = taut::Guarded<Stepper>;
-    typename Guard::Options options;
+    typename Guarded::Options options;
     options.damping = chosen.own_damping();
     options.max_step = scene.plan.h;
     options.max_substeps = std::numeric_limits<taut::Index>::max() / 64;

@@ -69,9 +69,9 @@ struct StepperOf<method::EnergyStableEuler, System, Solver> {
     using type = EnergyStableEuler<System>;
 };
 
-/// The stepper of `candidate`, which has this descriptor and this solver.
+/// The stepper with this descriptor and this solver.
 template <class Descriptor, class Solver, class System>
-auto make_stepper(const System& system, const Candidate& candidate) {
+auto make_stepper(const System& system) {
     using Stepper = typename StepperOf<Descriptor, System, Solver>::type;
     return Stepper(system);
 }
@@ -92,15 +92,14 @@ void with_stepper(const System& system, const Candidate& candidate, Action&& act
         } else {
             if constexpr (Descriptor::is_implicit) {
                 if (candidate.solver == LinearSolver::conjugate_gradient) {
-                    auto stepper =
-                        tradeoff_detail::make_stepper<Descriptor, Gradients>(system, candidate);
+                    auto stepper = tradeoff_detail::make_stepper<Descriptor, Gradients>(system);
                     stepper.configure([&](Gradients& solver) {
                         solver.setTolerance(static_cast<Scalar>(candidate.solver_tolerance));
                     });
                     return action(stepper);
                 }
             }
-            auto stepper = tradeoff_detail::make_stepper<Descriptor, Direct>(system, candidate);
+            auto stepper = tradeoff_detail::make_stepper<Descriptor, Direct>(system);
             return action(stepper);
         }
     });
