@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
-// Simulates a cloth under gravity, by default in steps that cannot gain energy, and writes an OBJ
-// or PLY sequence, the energy over time, and on request a point cache.
+// Simulates a cloth under gravity, by default with a guard, and writes an OBJ or PLY sequence, the
+// energy over time, and on request a point cache.
 
 #include <chrono>
 #include <cstdio>
@@ -120,9 +120,15 @@ void print_start(const Options& options, const example::Scene& scene, const Plan
 
 /// The end of a sentence that says which step is too large.
 const char* cure(const Options& options) {
-    if (!options.implicit()) return "; --guard keeps it, and stability_report says which are safe";
-    if (options.integrator == "newton" || options.integrator == "projective") return "";
-    return ", which makes one linearised solve of it; --integrator newton solves the step itself";
+    if (options.guard) return "";
+    if (!options.implicit()) {
+        return "; stability_report says which steps are safe, and --guard takes such frames again";
+    }
+    if (options.integrator == "newton" || options.integrator == "projective") {
+        return "; --guard takes such frames again";
+    }
+    return ", which makes one linearised solve of it; --integrator newton solves the step itself, "
+           "and --guard takes such frames again";
 }
 
 /// Where a run begins: at rest, or where the one before it ended.

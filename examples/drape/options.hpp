@@ -14,7 +14,7 @@ struct Options {
     example::SceneOptions scene;
     std::string law = "hookean";
     std::optional<double> bending;  // k_b, N·m²
-    std::string integrator;         // empty on the command line: settle() chooses
+    std::string integrator;         // none named: settle() chooses
     std::string solver = "cholesky";
     std::optional<double> tolerance;  // of conjugate gradients
     bool guard = false;
@@ -42,7 +42,7 @@ struct Options {
     }
     std::string state_path() const { return output + "/state.bin"; }
     void add_to(CLI::App& app);
-    /// Fills in `integrator` and `settings` once the command line is read.
+    /// Fills in what the command line left open, and `settings`.
     void settle(const CLI::App& app);
     /// Throws naming the options that do not go together.
     void check() const;
@@ -75,8 +75,7 @@ inline void Options::add_motion(CLI::App& app) {
                    "energy_stable: cannot gain energy, damps fast vibrations; symplectic, verlet, "
                    "explicit: one force a step, too; implicit: one linearised solve; newton: the "
                    "nonlinear step, solved; bdf2: second order, livelier; projective: ten "
-                   "iterations with one constant factor (default: energy_stable; with --guard "
-                   "verlet)")
+                   "iterations with one constant factor (default: verlet with --guard)")
         ->check(CLI::IsMember({"energy_stable", "symplectic", "verlet", "explicit", "implicit",
                                "newton", "bdf2", "projective"}));
     auto* chosen =
@@ -155,7 +154,10 @@ inline void Options::add_output(CLI::App& app) {
 }
 
 inline void Options::settle(const CLI::App& app) {
-    if (integrator.empty()) integrator = guard ? "verlet" : "energy_stable";
+    if (integrator.empty()) {
+        integrator = "verlet";
+        guard = true;
+    }
     for (const CLI::Option* option : app.get_options()) {
         const std::string name = option->get_name();
         const bool may_change = name == "--duration" || name == "--output" || name == "--cache" ||
