@@ -49,8 +49,10 @@ inline Plan make_plan(const Options& options, const Cloth& cloth) {
     }
     plan.frames = std::max(1, static_cast<int>(frames));
     plan.frame = options.duration / plan.frames;
-    const double wanted =
-        options.step > 0 ? options.step : default_step(options, cloth, plan.frame);
+    double wanted = options.step > 0 ? options.step : default_step(options, cloth, plan.frame);
+    if (options.guard && !options.implicit()) {  // it takes no longer ones
+        wanted = std::min(wanted, default_step(options, cloth, plan.frame));
+    }
     if (!(plan.frame / wanted <= 1e9)) {
         throw std::runtime_error("--step: more than 1e9 steps for each frame");
     }

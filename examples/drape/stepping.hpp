@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <string>
@@ -48,11 +49,19 @@ Advance by_stepper(const Scene& scene, std::shared_ptr<Stepper> stepper) {
 template <class Guard>
 Advance by_guard(const Scene& scene, std::shared_ptr<Guard> guard) {
     return [guard, frame = scene.plan.frame, &cloth = scene.cloth,
-            &obstacle = scene.obstacle](State& state) -> Advanced {
-        const auto report =
-            obstacle ? guard->advance(state, frame, [&](State& s) { obstacle.resolve(cloth, s); })
-                     : guard->advance(state, frame);
-        return {name_trouble(report), report.taken};
+            &obstacle = scene.obstacle](State& state) {
+        Advanced advanced;
+        // Steps beyond those that an Index can count shorten a frame.
+        for (double left = frame; advanced.trouble.empty() && left > 1e-9 * frame;) {
+            const auto report =
+                obstacle
+                    ? guard->advance(state, left, [&](State& s) { obstacle.resolve(cloth, s); })
+                    : guard->advance(state, left);
+            left -= report.advanced;
+            advanced.trouble = name_trouble(report);
+            advanced.taken = std::max(advanced.taken, report.taken);
+        }
+        return advanced;
     };
 }
 
