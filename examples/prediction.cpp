@@ -203,7 +203,7 @@ bool try_moving(const example::System& system, double h, double duration) {
     good = good && most <= 1e-9 * kinetic;  // rounding
     std::printf(
         "The moving cloth, EnergyStableEuler, %.4e s, for %.3g s\n"
-        "  energy %+.2e J of a largest kinetic energy of %.2e J: %s\n",
+        "  energy changes by %+.2e J, largest kinetic energy %.2e J: %s\n",
         h, state.time, last - start, kinetic, good ? "never rises" : "NOT AS PREDICTED");
     return good;
 }
