@@ -50,12 +50,12 @@ function writeHead() {
       return box;
     }),
   );
-  const price = bracket(findings.any_pose.cause ? findings.any_pose : findings.symplectic_euler);
+  const price = bracket(findings.energy_stable.cause ? findings.energy_stable : findings.symplectic_euler);
   const frame = price.certified > 0 && price.certified < Infinity ? Math.ceil(1 / 60 / price.certified) : 0;
   fill(
     "lede",
     `Symplectic Euler: ${limitSentence(findings.symplectic_euler)}.` +
-      (frame ? ` At the step certified ${findings.any_pose.cause ? "at any pose" : "here"}, a frame of 1/60\u00a0s is ${whole(frame)} ${frame === 1 ? "step" : "steps"}.` : "") +
+      (frame ? ` At the step certified ${findings.energy_stable.cause ? "for the energy" : "here"}, a frame of 1/60\u00a0s is ${whole(frame)} ${frame === 1 ? "step" : "steps"}.` : "") +
       remedy(findings.want_step),
   );
 }
