@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <taut/guard/guard.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/scene/mesh.hpp>
 #include <taut/resolution/resolution.hpp>
@@ -47,16 +48,14 @@ Scene cloth(Index side) {
     return {"hanging_cloth " + std::to_string(side), taut::hanging_cloth<double>(options)};
 }
 
-/// Positions at 31 even times, stepped by the recipe.
+/// Positions at 31 even times, under the guard.
 Path motion(const System& system, System::State state, double duration) {
     constexpr int samples = 30;
     const double interval = duration / samples;
-    const double most = taut::recipe.safety * taut::any_pose_limit(system).certified;
-    const double steps = std::ceil(interval / most);
-    taut::SymplecticEuler stepper(system, {1, taut::recipe.damping});
+    taut::Guard guard(system);
     Path path{state.x};
     for (int s = 0; s < samples; ++s) {
-        if (!stepper.step(state, interval / steps, static_cast<Index>(steps))) std::exit(2);
+        if (!guard.advance(state, interval)) std::exit(2);
         path.push_back(state.x);
     }
     return path;

@@ -84,9 +84,9 @@ bool is_tame(const System& system, const typename System::State& state, Real fra
     const Real way = reach + longest;
     const Real most = std::pow(Real(std::numeric_limits<Scalar>::max()), Real(0.8));
     const Real least = 1 / most;
-    for (const Real large : {way * way, speed * speed, heaviest * speed * speed,
-                             heaviest * pull * way, stiffest * way * way, stiffest * way * speed,
-                             stiffest / lightest, 1 / lightest, frame}) {
+    for (const Real large :
+         {way * way, speed * speed, heaviest * speed * speed, heaviest * pull * way,
+          stiffest * way * way, stiffest * way * speed, stiffest / lightest, 1 / lightest, frame}) {
         if (!(large < most)) return false;
     }
     return frame > least && lightest > least;
@@ -107,8 +107,7 @@ void edit(System& system, typename System::State& state, Bytes& bytes) {
             break;
         case 3: {
             using Law = typename System::FirstLaw;
-            taut::Spring<Scalar, Law> spring{which,
-                                             bytes.below(system.size()),
+            taut::Spring<Scalar, Law> spring{which, bytes.below(system.size()),
                                              taut_fuzz::parameters<Scalar>(bytes, Law{}),
                                              moderate<Scalar>(bytes)};
             taut_fuzz::accepted([&] { system.add_spring(spring); });
@@ -166,8 +165,8 @@ void advance_frames(Guard& guard, System& system, typename System::State state, 
         // Not so long that it is taken again in millions of steps.
         const double limit = taut::any_pose_limit(system).certified;
         const double proved = taut::energy_stable_limit(system).certified;
-        const double frame = std::min({speed_up * (1 + bytes.byte() % 3) * limit, 300 * proved,
-                                       limit > 0 ? 1.0 / 60 : 0.0});
+        const double frame = std::min(
+            {speed_up * (1 + bytes.byte() % 3) * limit, 300 * proved, limit > 0 ? 1.0 / 60 : 0.0});
         const bool tame = proved > 1e-25 && is_tame(system, state, frame);
         const auto before = state;
         const auto advance = [&] {
@@ -221,9 +220,8 @@ void guard_scene(Bytes bytes) {
     }
     int index = 0;
     const auto run = [&](auto guard) { advance_frames(guard, system, state, bytes); };
-    taut_fuzz::accepted([&] {
-        ((index++ == chosen ? run(taut::Guard<Steppers>(system, options)) : void()), ...);
-    });
+    taut_fuzz::accepted(
+        [&] { ((index++ == chosen ? run(taut::Guard<Steppers>(system, options)) : void()), ...); });
 }
 
 using Springs = taut::SpringSystem<double, 2>;

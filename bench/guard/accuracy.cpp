@@ -66,9 +66,8 @@ bool accuracy_rows(const char* law) {
     return sound;
 }
 
-constexpr const char* codes[] = {"drag, hc/m = 3", "spring, h²k/m = 3",
-                                 "wall below 0, h²k/m = 30", "drag, hc/m = 3e5",
-                                 "wind, hc/m = 30"};
+constexpr const char* codes[] = {"drag, hc/m = 3", "spring, h²k/m = 3", "wall below 0, h²k/m = 30",
+                                 "drag, hc/m = 3e5", "wind, hc/m = 30"};
 
 template <class System>
 bool code_rows(const char* law) {

@@ -135,11 +135,11 @@ void one_scene(Scene<System> scene, Row& row) {
         }
         if (!fine || !(bare.v.norm() < 1e4)) bare = scene.state;
         books = guard_books::books_of(scene.system, scene.state, part);
-        const bool kept =
-            promise.keeps(books, report.work, report.rounding, unit_of<Scalar>());
+        const bool kept = promise.keeps(books, report.work, report.rounding, unit_of<Scalar>());
         row.tally.broken += !kept;
         if (!kept && row.tally.broken == 1) {
-            std::fprintf(stderr, "broken: frame %ld, %ld particles, taken %d, by %.3Lg J of %.3Lg\n",
+            std::fprintf(stderr,
+                         "broken: frame %ld, %ld particles, taken %d, by %.3Lg J of %.3Lg\n",
                          count(i), count(scene.system.size()), static_cast<int>(report.taken),
                          promise.over(), books.size);
         }
@@ -163,10 +163,9 @@ void rows(const char* law, double offset, All& all) {
         }
         const Tally& t = row.tally;
         std::printf("| %s, %s | %g | %ld | %ld | %ld | %ld | %.1f | %.1f | %.2f |\n",
-                    names[static_cast<int>(attack)], law, offset, count(t.frames),
-                    count(t.refused), count(t.broken), count(t.frozen),
-                    percent(t.trimmed, t.frames), percent(t.again, t.frames),
-                    row.guarded / row.bare);
+                    names[static_cast<int>(attack)], law, offset, count(t.frames), count(t.refused),
+                    count(t.broken), count(t.frozen), percent(t.trimmed, t.frames),
+                    percent(t.again, t.frames), row.guarded / row.bare);
         std::fflush(stdout);
         all.tally += t;
         all.guarded += row.guarded;

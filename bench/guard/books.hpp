@@ -89,13 +89,17 @@ class Promise {
 public:
     void open(const Books& books) { allowed_ = books.energy + books.kinetic / 10; }
     /// Whoever edits the scene changes E.
-    void edit(const Books& before, const Books& after) { allowed_ += after.energy - before.energy; }
+    void edit(const Books& before, const Books& after) {
+        scale_ = std::max({scale_, before.size, after.size});
+        allowed_ += after.energy - before.energy;
+    }
     /// A frame that ended so. @returns whether it kept the promise
     /// @param unit  the unit roundoff of what the guard measures in
     bool keeps(const Books& end, double work, double rounding, double unit) {
         allowed_ += Real(work) + rounding;
-        // Measured by the guard in a few roundings of its own.
-        const Real grain = 8 * Real(unit) * end.size + 1e-12L * (end.size + std::abs(allowed_));
+        scale_ = std::max({scale_, end.size, std::abs(allowed_)});
+        // Measured by the guard in a few roundings of its own; an edit may take away most of E.
+        const Real grain = 8 * Real(unit) * end.size + 1e-13L * scale_;
         over_ = end.energy - allowed_;
         const bool kept = !(over_ > grain);
         allowed_ = std::min(allowed_, end.energy + end.kinetic / 10);
@@ -107,6 +111,7 @@ public:
 private:
     Real allowed_ = std::numeric_limits<Real>::infinity();
     Real over_ = 0;
+    Real scale_ = 0;  // the largest energy so far, J
 };
 
 }  // namespace guard_books

@@ -58,9 +58,9 @@ bool spin(const char* law) {
     for (int i = 0; i < 3600; ++i) {
         if (!tally.add(guard.advance(state, frame))) break;
     }
-    std::printf("| %s | %.6f | %.4f | %.1f | %.2f |\n", law, momentum().dot(begun) / begun.squaredNorm(),
-                system.energy(state) / energy, percent(tally.trimmed, tally.frames),
-                percent(tally.again, tally.frames));
+    std::printf("| %s | %.6f | %.4f | %.1f | %.2f |\n", law,
+                momentum().dot(begun) / begun.squaredNorm(), system.energy(state) / energy,
+                percent(tally.trimmed, tally.frames), percent(tally.again, tally.frames));
     return tally.sound();
 }
 

@@ -112,8 +112,8 @@ bool damped_rows(const char* law) {
     // A strip along the height: its links, two diagonals at 45° and two bends carry 2.4 stretch.
     const double m = plain.mass(30), links = 27;
     const double omega = 3.14159265 / 2 * std::sqrt(2.4 * 1000 / m) / links;
-    for (const auto& [drag, share] : {std::pair{0.0, 0.0}, {1.0, 0.0}, {0.0, 0.1}, {1.0, 0.1},
-                                      {1.0, 0.4}}) {
+    for (const auto& [drag, share] :
+         {std::pair{0.0, 0.0}, {1.0, 0.0}, {0.0, 0.1}, {1.0, 0.1}, {1.0, 0.4}}) {
         const taut::RayleighDamping damping{drag, share * undamped};
         for (const Motion motion : {Motion::driven, Motion::jerked}) {
             auto system = as<System>(plain);

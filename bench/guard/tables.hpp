@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The tables of guard_table, by their letters. Each prints Markdown and returns whether no frame was
-// refused and no promise broken.
+// The tables of guard_table, by their letters. Each prints Markdown and returns whether no frame
+// was refused and no promise broken.
 
 namespace guard_table {
 
