@@ -87,6 +87,8 @@ Books books_of(const System& system, const typename System::State& state) {
 /// E_n ≤ E_m + 0.1 K_m + Σ(W + ρ) for all m < n at once: the least right side of every m so far.
 class Promise {
 public:
+    /// @param least  what underflow may hide, J
+    explicit Promise(Real least = 0) : least_(least) {}
     void open(const Books& books) { allowed_ = books.energy + books.kinetic / 10; }
     /// Whoever edits the scene changes E.
     void edit(const Books& before, const Books& after) {
@@ -99,7 +101,7 @@ public:
         allowed_ += Real(work) + rounding;
         scale_ = std::max({scale_, end.size, std::abs(allowed_)});
         // Measured by the guard in a few roundings of its own; an edit may take away most of E.
-        const Real grain = 8 * Real(unit) * end.size + 1e-13L * scale_;
+        const Real grain = 8 * Real(unit) * end.size + 1e-13L * scale_ + least_;
         over_ = end.energy - allowed_;
         const bool kept = !(over_ > grain);
         allowed_ = std::min(allowed_, end.energy + end.kinetic / 10);
@@ -111,6 +113,7 @@ public:
 private:
     Real allowed_ = std::numeric_limits<Real>::infinity();
     Real over_ = 0;
+    Real least_;
     Real scale_ = 0;  // the largest energy so far, J
 };
 

@@ -70,20 +70,24 @@ bool rest_row(const char* law, double offset) {
     const System system = hanging<System>(16, offset, state);
     const auto part = guard_books::parts_of(system);
     guard_books::Promise promise;
-    promise.open(guard_books::books_of(system, state, part));
+    const auto start = guard_books::books_of(system, state, part);
+    auto books = start;
+    promise.open(start);
     taut::Guard guard(system);
     Tally tally;
-    double fastest = 0;
+    double fastest = 0, rounding = 0;
     for (int i = 0; i < 3600; ++i) {
         const auto report = guard.advance(state, static_cast<float>(frame));
         if (!tally.add(report)) break;
-        const auto books = guard_books::books_of(system, state, part);
+        books = guard_books::books_of(system, state, part);
         tally.broken += !promise.keeps(books, report.work, report.rounding, unit_of<float>());
+        rounding += report.rounding;
         fastest = std::max(fastest, static_cast<double>(state.v.colwise().norm().maxCoeff()));
     }
-    std::printf("| %s | %g | %.2f | %.2f | %.0f | %.2g |\n", law, offset,
+    std::printf("| %s | %g | %.2f | %.2f | %.0f | %.2g | %.2g | %.2g |\n", law, offset,
                 percent(tally.trimmed, tally.frames), percent(tally.again, tally.frames),
-                percent(tally.blind, tally.frames), fastest);
+                percent(tally.blind, tally.frames), fastest,
+                static_cast<double>(books.energy - start.energy), rounding);
     std::fflush(stdout);
     return tally.sound();
 }
@@ -113,7 +117,8 @@ bool at_rest() {
     std::printf(
         "## d. A cloth of 16 × 16 at rest, in float, a minute at 60 Hz\n\n"
         "| law | from the origin, m along every axis | frames trimmed, %% | taken again, %% | "
-        "blind, %% | fastest, m/s |\n|---|---|---|---|---|---|\n");
+        "blind, %% | fastest, m/s | energy gained, J | Σρ, J "
+        "|\n|---|---|---|---|---|---|---|---|\n");
     bool sound = true;
     for (const double offset : {0.0, 10.0, 100.0}) {
         sound &= rest_row<taut::SpringSystem<float, 3>>("Hookean", offset);
