@@ -92,6 +92,21 @@ bool is_tame(const System& system, const typename System::State& state, Real fra
     return frame > least && lightest > least;
 }
 
+/// Σ|F||x| of the forces given as code, J: ρ does not count what of their work is rounded.
+template <class System>
+double code_size(const System& system, const typename System::State& state) {
+    typename System::Force f(int(System::Dim), system.size());
+    f.setZero();
+    system.external_force(state, f);
+    double sum = 0;
+    for (Index i = 0; i < system.size(); ++i) {
+        if (!system.is_pinned(i))
+            sum +=
+                static_cast<double>(f.col(i).norm()) * static_cast<double>(state.x.col(i).norm());
+    }
+    return sum;
+}
+
 /// What is done to a scene between two frames.
 template <class System>
 void edit(System& system, typename System::State& state, Bytes& bytes) {
@@ -193,7 +208,10 @@ void advance_frames(Guard& guard, System& system, typename System::State state, 
             !std::isfinite(report.rounding) || !tame)
             return;
         require(report.spring == -1, "no law exceeds its bound");
-        require(promise.keeps(now, report.work, report.rounding, unit), "E ≤ E + 0.1 K + Σ(W + ρ)");
+        const double steps = std::max(static_cast<double>(report.substeps), 4 * frame / proved);
+        const double pushed = std::max(code_size(system, before), code_size(system, state));
+        const double rounding = report.rounding + (by_code ? 8 * unit * steps * pushed : 0.0);
+        require(promise.keeps(now, report.work, rounding, unit), "E ≤ E + 0.1 K + Σ(W + ρ)");
         require(std::abs(report.energy - now.energy) <= 16 * unit * now.size + least,
                 "the report's energy is that of the state");
         bool moves = false;
