@@ -11,9 +11,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <taut/integrator/energy_stable_euler.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/scene/mesh.hpp>
 #include <taut/resolution/resolution.hpp>
+#include <taut/stability/energy_limit.hpp>
 #include <vector>
 
 #include "../examples/common/mesh_file.hpp"
@@ -47,13 +49,13 @@ Scene cloth(Index side) {
     return {"hanging_cloth " + std::to_string(side), taut::hanging_cloth<double>(options)};
 }
 
-/// Positions at 31 even times, stepped by the recipe.
+/// Positions at 31 even times, by steps that cannot gain energy.
 Path motion(const System& system, System::State state, double duration) {
     constexpr int samples = 30;
     const double interval = duration / samples;
-    const double most = taut::recipe.safety * taut::any_pose_limit(system).certified;
+    const double most = taut::energy_limit(system).certified;
     const double steps = std::ceil(interval / most);
-    taut::SymplecticEuler stepper(system, {1, taut::recipe.damping});
+    taut::EnergyStableEuler<System> stepper(system);
     Path path{state.x};
     for (int s = 0; s < samples; ++s) {
         if (!stepper.step(state, interval / steps, static_cast<Index>(steps))) std::exit(2);

@@ -1,29 +1,42 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
-// Tries to break what an accepted frame of Guarded promises [T36]: scenes, methods, frames, outside
-// forces, moving pins, contacts and edits are decoded from the input.
+// Tries to break what Guarded promises [T43]: scenes, trial steppers, frames, outside forces, moving
+// pins, contacts and edits are decoded from the input. Energies are measured apart from the guard.
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <taut/bdf2/bdf2.hpp>
+#include <taut/guard/guard.hpp>
 #include <taut/model/buckling.hpp>
 #include <taut/model/tension_only.hpp>
 
+#include "../bench/guard/books.hpp"
 #include "soup.hpp"
 
 namespace {
 
+using guard_books::Books;
+using guard_books::Real;
+using taut::Index;
 using taut_fuzz::Bytes;
 using taut_fuzz::require;
 
-/// An outside force: none, constant, a floor, a drag, or a pulse.
+/// 1/16 … 16, N or N per unit.
+template <class Scalar>
+Scalar moderate(Bytes& bytes) {
+    return static_cast<Scalar>(std::exp2(bytes.byte() / 32.0 - 4));
+}
+
+/// An outside force of which nothing is stiff beyond the halvings, or anything.
 template <class System>
 void set_force(System& system, Bytes& bytes) {
     using Scalar = typename System::Scalar;
     const int kind = bytes.byte() % 8;
-    const auto strength = static_cast<Scalar>(bytes.positive());
+    const Scalar strength =
+        bytes.one_in(2) ? moderate<Scalar>(bytes) : static_cast<Scalar>(bytes.positive());
     if (kind == 0) {
         system.set_external_force([=](const auto&, auto& f) { f.row(0).array() += strength; });
     } else if (kind == 1) {
@@ -34,112 +47,199 @@ void set_force(System& system, Bytes& bytes) {
     } else if (kind == 3) {
         system.set_external_force(
             [=](const auto& s, auto& f) { f.row(0).array() += strength * std::sin(100 * s.time); });
+    } else if (kind == 4 && system.size() > 0) {
+        const Index which = bytes.below(system.size());
+        const auto force = taut_fuzz::place<Scalar, System::Dim>(bytes);
+        taut_fuzz::accepted([&] { system.set_constant_force(which, force); });
     }
 }
 
-/// The inequality of Guarded's docstring, as small as any earlier frame makes it.
-struct Promise {
-    double swing;  // C
-    double yield;  // w
-    double slack;
-    double drift;
-    double granted = 0;
-    double scale = 0;
-    double rounding = 0;  // of the last frame's end
+/// Whether nothing can leave the range of Scalar in a frame: energies, squares of ways and speeds,
+/// and what is divided by.
+template <class System>
+bool is_tame(const System& system, const typename System::State& state, Real frame) {
+    using Scalar = typename System::Scalar;
+    typename System::Force f(int(System::Dim), system.size());
+    f.setZero();
+    system.external_force(state, f);
+    if (!state.finite() || !f.allFinite()) return false;
+    Real lightest = std::numeric_limits<Real>::infinity(), heaviest = 0;
+    for (Index i = 0; i < system.size(); ++i) {
+        if (system.is_pinned(i)) continue;
+        lightest = std::min(lightest, Real(system.mass(i)));
+        heaviest = std::max(heaviest, Real(system.mass(i)));
+    }
+    if (heaviest == 0) return true;
+    const Books books = guard_books::books_of(system, state);
+    const Real push = f.size() == 0 ? Real(0) : Real(f.cwiseAbs().maxCoeff());
+    const Real pull = Real(system.gravity().norm()) + push / lightest;
+    const Real pin = state.v.size() == 0 ? Real(0) : Real(state.v.cwiseAbs().maxCoeff());
+    const Real speed = std::sqrt(2 * books.size / lightest) + 4 * pull * frame + pin;
+    const Real reach = Real(state.x.cwiseAbs().maxCoeff()) + speed * frame;
+    Real stiffest = 0, longest = 0;
+    system.visit_springs([&](const auto& spring) {
+        stiffest = std::max({stiffest, Real(spring.stiffness_bound()), Real(spring.damping)});
+        longest = std::max(longest, Real(spring.rest_length));
+    });
+    const Real way = reach + longest;
+    const Real most = std::pow(Real(std::numeric_limits<Scalar>::max()), Real(0.8));
+    const Real least = 1 / most;
+    for (const Real large :
+         {way * way, speed * speed, heaviest * speed * speed, heaviest * pull * way,
+          stiffest * way * way, stiffest * way * speed, stiffest / lightest, 1 / lightest, frame}) {
+        if (!(large < most)) return false;
+    }
+    return frame > least && lightest > least;
+}
 
-    void open(const taut::integrator_detail::EnergyBooks& books) {
-        granted = swing * books.owned();
-        rounding = books.rounding;
+/// Σ|F||x| of the forces given as code, J: ρ does not count what of their work is rounded.
+template <class System>
+double code_size(const System& system, const typename System::State& state) {
+    typename System::Force f(int(System::Dim), system.size());
+    f.setZero();
+    system.external_force(state, f);
+    double sum = 0;
+    for (Index i = 0; i < system.size(); ++i) {
+        if (!system.is_pinned(i))
+            sum +=
+                static_cast<double>(f.col(i).norm()) * static_cast<double>(state.x.col(i).norm());
     }
-    /// Whoever touches the scene changes E by so much.
-    void touch(double before, const taut::integrator_detail::EnergyBooks& books) {
-        granted += swing * std::abs(books.owned() - before);
-        rounding = books.rounding;
+    return sum;
+}
+
+/// What is done to a scene between two frames.
+template <class System>
+void edit(System& system, typename System::State& state, Bytes& bytes) {
+    using Scalar = typename System::Scalar;
+    if (system.size() == 0) return;
+    const Index which = bytes.below(system.size());
+    const Index springs = system.spring_count();
+    switch (bytes.byte() % 8) {
+        case 0: system.pin(which); break;
+        case 1: system.unpin(which); break;
+        case 2:
+            if (springs > 0) system.remove_spring(bytes.below(springs));
+            break;
+        case 3: {
+            using Law = typename System::FirstLaw;
+            taut::Spring<Scalar, Law> spring{which, bytes.below(system.size()),
+                                             taut_fuzz::parameters<Scalar>(bytes, Law{}),
+                                             moderate<Scalar>(bytes)};
+            taut_fuzz::accepted([&] { system.add_spring(spring); });
+            break;
+        }
+        case 4: system.set_mass(which, moderate<Scalar>(bytes)); break;
+        case 5: system.set_gravity(taut_fuzz::place<Scalar, System::Dim>(bytes)); break;
+        default: state.v.col(which) = taut_fuzz::place<Scalar, System::Dim>(bytes);
     }
-    /// @param work  gravity's included, as kept energy counts it, J
-    void check(double start, double fallen, const taut::integrator_detail::EnergyBooks& books,
-               double work, double outside, double span) {
-        scale = std::max(scale, start + std::max(0.0, fallen) + std::abs(outside));
-        granted += yield * work;
-        const double most = granted + yield * (slack * scale + rounding + books.rounding);
-        const double grain = 1e-9 * (std::abs(granted) + scale + yield * std::abs(work));
-        require(!(books.owned() > most + grain), "an accepted frame keeps its promise");
-        granted = std::min(granted + yield * drift * span * scale, swing * books.owned());
-        rounding = books.rounding;
+}
+
+/// A trial that is as wrong as the input says.
+template <class System>
+struct Spoiler {
+    using Scalar = typename System::Scalar;
+    const System& system;
+    Bytes& bytes;
+    taut::VelocityVerlet<System> verlet;
+
+    Spoiler(const System& given, Bytes& input) : system(given), bytes(input), verlet(given) {}
+    bool operator()(typename System::State& state, Scalar h) {
+        const Scalar limit = taut::any_pose_limit(system).certified;
+        const auto count = static_cast<Index>(std::ceil(std::min(Scalar(50), h / limit)));
+        const bool taken = count > 0 && verlet.step(state, h / static_cast<Scalar>(count), count);
+        const int kind = bytes.byte() % 8;
+        if (system.size() == 0) return taken;
+        const Index which = bytes.below(system.size());
+        if (kind == 0) state.v.setConstant(std::numeric_limits<Scalar>::quiet_NaN());
+        if (kind == 1) state.v *= moderate<Scalar>(bytes);
+        if (kind == 2) state.x.col(which) += taut_fuzz::place<Scalar, System::Dim>(bytes);
+        if (kind == 3) state.v.col(which).setConstant(std::numeric_limits<Scalar>::max());
+        if (kind == 4) return false;
+        return taken;
     }
 };
 
-template <class Stepper, class System>
-void run_guard(System& system, typename System::State state, Bytes& bytes) {
+template <class Guard, class System>
+void advance_frames(Guard& guard, System& system, typename System::State state, Bytes& bytes) {
     using Scalar = typename System::Scalar;
-    using Guard = taut::Guarded<Stepper>;
-    typename Guarded::Options options;
-    options.max_substeps = 40;
-    options.max_retries = 3;
-    options.max_step = static_cast<Scalar>(bytes.positive());
-    Guarded guard(system, options);
-    constexpr taut::Method method = Guarded::method;
-    Promise promise{1, 1, options.energy_slack, options.energy_drift};
-    if (method == taut::Method::symplectic_euler) {
-        promise.swing = 3.5;
-        promise.yield = 2.4;
-    } else if (method == taut::Method::velocity_verlet) {
-        promise.swing = 2.3;
-        promise.yield = 2;
-    }
-    typename System::Force f;
-    taut::integrator_detail::PinWork<System> pins;
-    const auto books = [&] {
-        return taut::integrator_detail::energy_books(system, state, Guarded::method, pins, f);
-    };
-    const auto frame = static_cast<Scalar>(bytes.positive());
-    if (!(options.max_step > 0)) return;
-    auto last = books();
+    constexpr double unit = std::numeric_limits<Scalar>::epsilon() / 2;
+    const double speed_up = std::exp2(bytes.byte() / 32.0 - 2);
+    const bool respond = bytes.one_in(4);
+    const bool by_code = system.has_external_force();
+    const Real least = std::pow(Real(std::numeric_limits<Scalar>::max()), Real(-0.7));
+    guard_books::Promise promise(least);
+    Books last = guard_books::books_of(system, state);
     promise.open(last);
-    double lag = 0;
-    bool begun = false;
     const int frames = 4 + bytes.byte() % 60;
-    double h = 0;
     for (int i = 0; i < frames; ++i) {
-        if (bytes.one_in(16) && system.size() > 0) {
-            const taut::Index which = bytes.below(system.size());
-            state.v.col(which) = taut_fuzz::place<Scalar, System::Dim>(bytes);
-            if (bytes.one_in(2)) system.pin(which);
-            const auto touched = books();
-            promise.touch(last.owned(), touched);
-            lag += touched.lag(method, h) - last.lag(method, h);
-            last = touched;
+        if (bytes.one_in(8)) {
+            edit(system, state, bytes);
+            const Books edited = guard_books::books_of(system, state);
+            promise.edit(last, edited);
+            last = edited;
         }
+        // Not so long that it is taken again in millions of steps.
+        const double limit = taut::any_pose_limit(system).certified;
+        const double proved = taut::energy_limit(system).certified;
+        const double frame = std::min(
+            {speed_up * (1 + bytes.byte() % 3) * limit, 300 * proved, limit > 0 ? 1.0 / 60 : 0.0});
+        const bool tame = proved > 1e-25 && is_tame(system, state, frame);
         const auto before = state;
-        const auto report = guard.advance(state, frame * Scalar(1 + bytes.byte() % 3));
-        if (!report) {
-            require(taut_fuzz::same(state, before), "a frame given up leaves the state as it was");
+        const auto advance = [&] {
+            if (!respond) return guard.advance(state, static_cast<Scalar>(frame));
+            return guard.advance(state, static_cast<Scalar>(frame), [](auto& s) {
+                for (Index p = 0; p < s.x.cols(); ++p) {
+                    if (s.x(0, p) < -4) s.v(0, p) = std::max(s.v(0, p), Scalar(0));
+                }
+            });
+        };
+        const auto report = advance();
+        const bool refused = !report && report.status != taut::Status::frozen;
+        if (refused) {
+            require(taut_fuzz::same(state, before), "a refused frame leaves the state as it was");
+            require(report.advanced == 0, "a refused frame advances nothing");
+            require(!tame, "no frame is refused while what is given is finite");
             continue;
         }
         require(state.finite(), "an accepted frame is finite");
-        const auto now = books();
-        if (!std::isfinite(now.total()) || !std::isfinite(now.rounding)) return;
-        h = static_cast<double>(report.h);
-        if (!begun) lag = last.lag(method, h);
-        begun = true;
-        const double fallen = last.gravity - now.gravity;
-        promise.check(last.owned(), fallen, now, report.work + fallen + lag - now.lag(method, h),
-                      report.work, static_cast<double>(report.advanced));
-        lag = now.lag(method, h);
+        require(report || by_code, "only a force given as code freezes a part");
+        const Books now = guard_books::books_of(system, state);
+        if (!std::isfinite(report.energy) || !std::isfinite(report.work) ||
+            !std::isfinite(report.balance) || !tame)
+            return;
+        require(report.spring == -1, "no law exceeds its bound");
+        require(promise.keeps(now, report.work, report.balance, unit), "E ≤ E + 0.1 K + ΣW + d");
+        require(report.again > 0 || report.balance <= report.rounding * (1 + 1e-9) + 1e-9 * now.size,
+                "d ≤ ρ where trials stand");
+        require(std::abs(report.energy - now.energy) <= 16 * unit * now.size + least,
+                "the report's energy is that of the state");
+        bool moves = false;
+        for (Index p = 0; p < system.size(); ++p)
+            moves = moves || (system.is_pinned(p) && !state.v.col(p).isZero(0));
+        require(by_code || respond || moves || report.work == 0, "nothing works from outside");
         last = now;
     }
 }
 
-/// @tparam Steppers  of which the input chooses one
+/// @tparam Steppers  of which the input chooses one, beside a trial that spoils its frames
 template <class System, class... Steppers>
 void guard_scene(Bytes bytes) {
     auto system = taut_fuzz::decode_system<System>(bytes);
     const auto state = taut_fuzz::decode_state(bytes, system);
-    const int chosen = bytes.byte() % static_cast<int>(sizeof...(Steppers));
+    const int chosen = bytes.byte() % static_cast<int>(sizeof...(Steppers) + 1);
     set_force(system, bytes);
+    taut::GuardedOptions<typename System::Scalar> options;
+    options.max_substeps = 1 + bytes.byte() % 64;
+    if (chosen == static_cast<int>(sizeof...(Steppers))) {
+        Spoiler<System> spoiler(system, bytes);
+        taut::Guarded guard(system, spoiler, options);
+        taut_fuzz::accepted([&] { advance_frames(guard, system, state, bytes); });
+        return;
+    }
     int index = 0;
+    const auto run = [&](auto guard) { advance_frames(guard, system, state, bytes); };
     taut_fuzz::accepted(
-        [&] { ((index++ == chosen ? run_guard<Steppers>(system, state, bytes) : void()), ...); });
+        [&] { ((index++ == chosen ? run(taut::Guarded<Steppers>(system, options)) : void()), ...); });
 }
 
 using Springs = taut::SpringSystem<double, 2>;
@@ -151,11 +251,13 @@ using Small = taut::SpringSystem<float, 2, taut::TensionOnly>;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     Bytes bytes(data, size);
     switch (bytes.byte() % 4) {
-        case 0: guard_scene<Cloth, taut::SymplecticEuler<Cloth>>(bytes); break;
-        case 1: guard_scene<Small, taut::VelocityVerlet<Small>>(bytes); break;
+        case 0: guard_scene<Cloth, taut::VelocityVerlet<Cloth>>(bytes); break;
+        case 1:
+            guard_scene<Small, taut::VelocityVerlet<Small>, taut::SymplecticEuler<Small>>(bytes);
+            break;
         default:
-            guard_scene<Springs, taut::SymplecticEuler<Springs>, taut::VelocityVerlet<Springs>,
-                        taut::Bdf2<Springs>>(bytes);
+            guard_scene<Springs, taut::VelocityVerlet<Springs>, taut::SymplecticEuler<Springs>,
+                        taut::ImplicitEuler<Springs>, taut::Bdf2<Springs>>(bytes);
     }
     return 0;
 }

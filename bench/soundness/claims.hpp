@@ -108,6 +108,17 @@ inline Verdict refuted_implicit(const Exact& e, const Real& h) {
                                                                          : Verdict::holds;
 }
 
+/// M − h²K − ½hD [T42]: positive semi-definite up to the limit of EnergyStableEuler.
+inline Rounded energy_stable_matrix(const Exact& e, const Real& h) {
+    return Sum(e).mass(1).damping(-h / 2).stiffness(-h * h).matrix();
+}
+inline Verdict certified_energy_stable(const Exact& e, const Real& h) {
+    return wrong_if(negative(energy_stable_matrix(e, h)));
+}
+inline Verdict refuted_energy_stable(const Exact& e, const Real& h) {
+    return positive(energy_stable_matrix(e, h)) ? Verdict::wrong : Verdict::holds;
+}
+
 /// K ⪰ −rate²·M; of springs but for what rounding a rest length and a length comes to.
 inline Verdict no_faster_growth(const Exact& e, const Real& rate) {
     Sum sum(e);

@@ -186,8 +186,6 @@ Exact exact_at_pose(const System& system, const Pose& x, const Side& side) {
             const Real most = law_bound(Law{}, p, L);
             const std::vector<Real> none(Dim);
             add_block(e.bound, a, b, none, 0, most, most);
-            const Real graph = most * taut::held_as<Scalar>(system.graph_damping());
-            if (graph > 0) add_block(e.dampers, a, b, none, 0, graph, graph);
             if (square < std::numeric_limits<Scalar>::min()) {
                 // The ends coincide [T3]: no axis, and no damper along it.
                 add_block(e.K, a, b, none, 0, most, most);
@@ -244,7 +242,7 @@ Exact exact_laplacians(const System& system) {
                 law_bound(Law{}, set.parameters[s].template cast<Real>(), Real(set.rest_length[s]));
             const std::vector<Real> axis(1, Real(1));
             for (Rounded* A : {&e.K, &e.K_plus, &e.bound}) add_block(*A, a, b, axis, most, 0, most);
-            const Real c = set.damping_of(s) + most * taut::held_as<Scalar>(system.graph_damping());
+            const Real c = set.damping_of(s);
             if (c > 0) add_block(e.dampers, a, b, axis, c, 0, c);
         }
     });

@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <taut/model/spring_system.hpp>
+#include <vector>
+
+// What Guarded's promise [T43] is judged by: energies in long double, written from their definitions
+// with nothing of the guard in them.
+
+namespace guard_books {
+
+using taut::Index;
+using Real = long double;
+
+/// A scene's energies, J, summed over its parts.
+struct Books {
+    Real energy = 0;   ///< E: kinetic, of springs and of gravity
+    Real kinetic = 0;  ///< K, that of each part about its centre of mass
+    Real moving = 0;   ///< kinetic energy of the free particles
+    Real size = 0;     ///< Σ of what E is the difference of: the scale of its rounding
+};
+
+/// Free particles that springs join, by a particle of each: −1 for a pin.
+template <class System>
+std::vector<Index> parts_of(const System& system) {
+    std::vector<Index> parent(static_cast<std::size_t>(system.size()));
+    std::iota(parent.begin(), parent.end(), Index(0));
+    const auto root = [&](Index i) {
+        while (parent[i] != i) i = parent[i];
+        return i;
+    };
+    system.for_each_spring([&](Index a, Index b) {
+        if (!system.is_pinned(a) && !system.is_pinned(b)) parent[root(a)] = root(b);
+    });
+    std::vector<Index> part(parent.size());
+    for (Index i = 0; i < system.size(); ++i) part[i] = system.is_pinned(i) ? -1 : root(i);
+    return part;
+}
+
+template <class System>
+Books books_of(const System& system, const typename System::State& state,
+               const std::vector<Index>& part) {
+    constexpr int Dim = System::Dim;
+    using Vector = Eigen::Matrix<Real, Dim, 1>;
+    Books books;
+    std::vector<Real> mass(part.size(), 0);
+    std::vector<Vector> momentum(part.size(), Vector::Zero());
+    const Vector gravity = system.gravity().template cast<Real>();
+    for (Index i = 0; i < system.size(); ++i) {
+        if (part[i] < 0) continue;
+        const Vector x = state.x.col(i).template cast<Real>();
+        const Vector v = state.v.col(i).template cast<Real>();
+        const Real m = system.mass(i);
+        books.moving += m * v.squaredNorm() / 2;
+        books.energy += m * v.squaredNorm() / 2 - m * gravity.dot(x);
+        books.size += m * v.squaredNorm() + m * gravity.norm() * x.norm();
+        mass[part[i]] += m;
+        momentum[part[i]] += m * v;
+    }
+    books.kinetic = books.moving;
+    for (std::size_t p = 0; p < part.size(); ++p) {
+        if (mass[p] > 0) books.kinetic -= momentum[p].squaredNorm() / mass[p] / 2;
+    }
+    books.kinetic = std::max(books.kinetic, Real(0));
+    system.visit_springs([&](const auto& narrow) {
+        if (part[narrow.a] < 0 && part[narrow.b] < 0) return;
+        const auto spring = narrow.template cast<Real>();
+        const Vector a = state.x.col(spring.a).template cast<Real>();
+        const Vector b = state.x.col(spring.b).template cast<Real>();
+        const Real l = (b - a).norm();
+        books.energy += spring.energy(l);
+        books.size += spring.stiffness_bound() * (l + spring.rest_length) *
+                      (a.norm() + b.norm() + spring.rest_length);
+    });
+    return books;
+}
+template <class System>
+Books books_of(const System& system, const typename System::State& state) {
+    return books_of(system, state, parts_of(system));
+}
+
+/// E_n ≤ E_m + 0.1 K_m + ΣW + d_n for all m < n at once: the least right side of every m so far.
+class Promise {
+public:
+    /// @param least  what underflow may hide, J
+    explicit Promise(Real least = 0) : least_(least) {}
+    void open(const Books& books) { allowed_ = books.energy + books.kinetic / 10; }
+    /// Whoever edits the scene changes E.
+    void edit(const Books& before, const Books& after) {
+        scale_ = std::max({scale_, before.size, after.size});
+        // What a part owed may have gone with it.
+        allowed_ += after.energy - before.energy + std::max(0.0, balance_);
+    }
+    /// A frame that ended so. @returns whether it kept the promise
+    /// @param balance  d at its end, J   @param unit  the unit roundoff of what the guard measures in
+    bool keeps(const Books& end, double work, double balance, double unit) {
+        allowed_ += Real(work);
+        balance_ = balance;
+        scale_ = std::max({scale_, end.size, std::abs(allowed_)});
+        // Measured by the guard in a few roundings of its own; an edit may take away most of E.
+        const Real grain = 8 * Real(unit) * end.size + 1e-13L * scale_ + least_;
+        over_ = end.energy - allowed_ - balance;
+        const bool kept = !(over_ > grain);
+        allowed_ = std::min(allowed_, end.energy + end.kinetic / 10);
+        return kept;
+    }
+    /// By how much the last frame was above what is allowed, J; below 0 if it was not.
+    Real over() const { return over_; }
+
+private:
+    Real allowed_ = std::numeric_limits<Real>::infinity();
+    Real over_ = 0;
+    Real least_;
+    double balance_ = 0;
+    Real scale_ = 0;  // the largest energy so far, J
+};
+
+}  // namespace guard_books

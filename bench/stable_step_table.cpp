@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+
+// What a step of EnergyStableEuler costs beside one of SymplecticEuler, at the same h and in turns:
+// in float, many steps at once, processor time. Prints Markdown. Arguments: meshes in OBJ form.
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <taut/integrator/energy_stable_euler.hpp>
+#include <taut/integrator/symplectic_euler.hpp>
+#include <taut/model/tension_only.hpp>
+#include <taut/scene/cloth.hpp>
+#include <taut/scene/with_law.hpp>
+#include <taut/stability/energy_limit.hpp>
+#include <vector>
+
+#include "measure.hpp"
+#include "mesh_in.hpp"
+
+namespace {
+
+using Net = taut::SpringSystem<float, 3>;
+
+template <class System>
+void row(const std::string& label, const System& net) {
+    const float h = taut::energy_limit(net).certified;
+    taut::SymplecticEuler<System> symplectic(net);
+    taut::EnergyStableEuler<System> stable(net);
+    auto by_symplectic = net.initial_state();
+    auto by_stable = by_symplectic;
+    bool ok = true;
+    std::vector<double> ratios, times, others;  // ms
+    constexpr int count = 200;
+    for (int i = 0; i < 22; ++i) {
+        const double start = bench::now(bench::thread_time);
+        ok = bool(symplectic.step(by_symplectic, h, count)) && ok;
+        const double middle = bench::now(bench::thread_time);
+        ok = bool(stable.step(by_stable, h, count)) && ok;
+        const double end = bench::now(bench::thread_time);
+        if (i == 0) continue;  // warm-up
+        others.push_back((middle - start) / count);
+        times.push_back((end - middle) / count);
+        ratios.push_back((end - middle) / (middle - start));
+    }
+    for (auto* list : {&ratios, &times, &others}) std::sort(list->begin(), list->end());
+    std::printf("| %s | %ld | %.4f | %.4f | %.2f (%.2f)%s |\n", label.c_str(),
+                static_cast<long>(net.spring_count()), others.front(), times.front(),
+                times.front() / others.front(), ratios[ratios.size() / 2],
+                ok ? "" : " A STEP FAILED");
+    std::fflush(stdout);
+}
+
+void rows(const std::string& label, const Net& net) {
+    row(label + ", Hookean", net);
+    row(label + ", tension-only", taut::with_law<taut::TensionOnly>(net));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    std::printf(
+        "## A step of EnergyStableEuler, ms, in float\n\n"
+        "| scene | springs | symplectic | energy stable | ratio: of minima (median) |\n"
+        "|---|---|---|---|---|\n");
+    rows("hanging_cloth 100", taut::hanging_cloth<float>({100, 100}));
+    for (int i = 1; i < argc; ++i) {
+        const std::string path = argv[i];
+        rows(path.substr(path.find_last_of('/') + 1),
+             bench::mesh_in<float>(example::read_obj(path)).system);
+    }
+}
