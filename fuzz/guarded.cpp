@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
-// Tries to break what Guarded promises [T43]: scenes, trial steppers, frames, outside forces, moving
-// pins, contacts and edits are decoded from the input. Energies are measured apart from the guard.
+// Tries to break what Guarded promises [T43]: scenes, trial steppers, frames, outside forces,
+// moving pins, contacts and edits are decoded from the input. Energies are measured apart from the
+// guard.
 
 #include <algorithm>
 #include <cmath>
@@ -90,21 +91,6 @@ bool is_tame(const System& system, const typename System::State& state, Real fra
         if (!(large < most)) return false;
     }
     return frame > least && lightest > least;
-}
-
-/// Σ|F||x| of the forces given as code, J: ρ does not count what of their work is rounded.
-template <class System>
-double code_size(const System& system, const typename System::State& state) {
-    typename System::Force f(int(System::Dim), system.size());
-    f.setZero();
-    system.external_force(state, f);
-    double sum = 0;
-    for (Index i = 0; i < system.size(); ++i) {
-        if (!system.is_pinned(i))
-            sum +=
-                static_cast<double>(f.col(i).norm()) * static_cast<double>(state.x.col(i).norm());
-    }
-    return sum;
 }
 
 /// What is done to a scene between two frames.
@@ -209,8 +195,9 @@ void advance_frames(Guard& guard, System& system, typename System::State state, 
             return;
         require(report.spring == -1, "no law exceeds its bound");
         require(promise.keeps(now, report.work, report.balance, unit), "E ≤ E + 0.1 K + ΣW + d");
-        require(report.again > 0 || report.balance <= report.rounding * (1 + 1e-9) + 1e-9 * now.size,
-                "d ≤ ρ where trials stand");
+        require(
+            report.again > 0 || report.balance <= report.rounding * (1 + 1e-9) + 1e-9 * now.size,
+            "d ≤ ρ where trials stand");
         require(std::abs(report.energy - now.energy) <= 16 * unit * now.size + least,
                 "the report's energy is that of the state");
         bool moves = false;
@@ -238,8 +225,9 @@ void guard_scene(Bytes bytes) {
     }
     int index = 0;
     const auto run = [&](auto guard) { advance_frames(guard, system, state, bytes); };
-    taut_fuzz::accepted(
-        [&] { ((index++ == chosen ? run(taut::Guarded<Steppers>(system, options)) : void()), ...); });
+    taut_fuzz::accepted([&] {
+        ((index++ == chosen ? run(taut::Guarded<Steppers>(system, options)) : void()), ...);
+    });
 }
 
 using Springs = taut::SpringSystem<double, 2>;

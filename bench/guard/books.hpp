@@ -9,8 +9,8 @@
 #include <taut/model/spring_system.hpp>
 #include <vector>
 
-// What Guarded's promise [T43] is judged by: energies in long double, written from their definitions
-// with nothing of the guard in them.
+// What Guarded's promise [T43] is judged by: energies in long double, written from their
+// definitions with nothing of the guard in them.
 
 namespace guard_books {
 
@@ -97,7 +97,8 @@ public:
         allowed_ += after.energy - before.energy + std::max(0.0, balance_);
     }
     /// A frame that ended so. @returns whether it kept the promise
-    /// @param balance  d at its end, J   @param unit  the unit roundoff of what the guard measures in
+    /// @param balance  d at its end, J   @param unit  the unit roundoff of what the guard measures
+    /// in
     bool keeps(const Books& end, double work, double balance, double unit) {
         allowed_ += Real(work);
         balance_ = balance;
