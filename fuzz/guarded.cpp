@@ -194,10 +194,10 @@ void advance_frames(Guard& guard, System& system, typename System::State state, 
             !std::isfinite(report.balance) || !tame)
             return;
         require(report.spring == -1, "no law exceeds its bound");
-        require(promise.keeps(now, report.work, report.balance, unit), "E ≤ E + 0.1 K + ΣW + d");
-        require(
-            report.again > 0 || report.balance <= report.rounding * (1 + 1e-9) + 1e-9 * now.size,
-            "d ≤ ρ where trials stand");
+        require(promise.keeps(now, report.work, report.balance, unit, by_code ? report.slack : 0),
+                "E ≤ E + 0.1 K + ΣW + d");
+        require(report.again > 0 || report.balance <= report.slack * (1 + 1e-9) + 1e-9 * now.size,
+                "d ≤ ρ where trials stand");
         require(std::abs(report.energy - now.energy) <= 16 * unit * now.size + least,
                 "the report's energy is that of the state");
         bool moves = false;

@@ -97,9 +97,10 @@ public:
         allowed_ += after.energy - before.energy + std::max(0.0, balance_);
     }
     /// A frame that ended so. @returns whether it kept the promise
-    /// @param balance  d at its end, J   @param unit  the unit roundoff of what the guard measures
+    /// @param balance  d at its end, J   @param held  σ, what code forces may hold back, J
+    /// @param unit  the unit roundoff of what the guard measures
     /// in
-    bool keeps(const Books& end, double work, double balance, double unit) {
+    bool keeps(const Books& end, double work, double balance, double unit, double held = 0) {
         allowed_ += Real(work);
         balance_ = balance;
         scale_ = std::max({scale_, end.size, std::abs(allowed_)});
@@ -107,7 +108,7 @@ public:
         const Real grain = 8 * Real(unit) * end.size + 1e-13L * scale_ + least_;
         over_ = end.energy - allowed_ - balance;
         const bool kept = !(over_ > grain);
-        allowed_ = std::min(allowed_, end.energy + end.kinetic / 10);
+        allowed_ = std::min(allowed_, end.energy + end.kinetic / 10 + held);
         return kept;
     }
     /// By how much the last frame was above what is allowed, J; below 0 if it was not.

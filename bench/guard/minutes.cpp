@@ -81,7 +81,7 @@ bool rest_row(const char* law, double offset) {
         if (!tally.add(report)) break;
         books = guard_books::books_of(system, state, part);
         tally.broken += !promise.keeps(books, report.work, report.balance, unit_of<float>());
-        rounding += report.rounding;
+        rounding = std::max(rounding, report.slack);
         fastest = std::max(fastest, static_cast<double>(state.v.colwise().norm().maxCoeff()));
     }
     std::printf("| %s | %g | %.2f | %.2f | %.0f | %.2g | %.2g | %.2g |\n", law, offset,

@@ -30,18 +30,21 @@ namespace taut {
 ///
 /// What it promises. For each part, the free particles that springs join, let E be the kinetic
 /// energy with that of springs and gravity, K the kinetic energy about the centre of mass, W the
-/// work of outside forces, moving pins, constraints and `respond`, ρ what rounding may hide, and d
-/// its balance. Between any two frames m < n of it, edits between frames apart,
+/// work of outside forces, moving pins, constraints and `respond`, and d its balance. Between any
+/// two frames m < n of it, edits between frames apart,
 ///
-///     E_n ≤ E_m + 0.1 K_m + Σ W + d_n
+///     E_n ≤ E_m + 0.1 K_m + σ_m + Σ W + d_n,   d_n ≤ ρ_n + σ_n where the trial stands,
 ///
-/// with d_n ≤ ρ_n where the trial stands; a frame that is taken again raises d by rounding alone.
-/// And no frame is refused, as long as states, forces and velocities of pins are finite and no law
-/// exceeds its stiffness_bound; the report names a spring that does. W is as
-/// detail/work.hpp books it: where a frame was taken again, that of forces given as code is theirs
-/// at the start of each step. They are checked there, too: what gains more than 0.1 K by them is
-/// taken in shorter steps, then stopped and named (Taken::frozen). Declare stiff forces as springs,
-/// dampers and drag. Not promised: accuracy, and anything inside a frame.
+/// with ρ what rounding may hide and σ what forces given as code hold back of their work within a
+/// step, 0 without them. A frame that is taken again raises d by rounding alone. And no frame is
+/// refused, as long as states, forces and velocities of pins are finite and no law exceeds its
+/// stiffness_bound; the report names a spring that does. W of forces given as code is by the
+/// trapezoid of every step. Where their change in a step times half of the way is more than a
+/// quarter of the part's kinetic energy, the step does not follow them: the frame is taken in
+/// shorter ones, to 1/16 of the proved step or of the frame; then the part is stopped and the force
+/// named (Taken::frozen), and all parts are where it made a state that is not finite.
+/// Declare stiff forces as springs, dampers and drag. Not promised: accuracy, and anything inside a
+/// frame. What `respond` or a trial throws leaves the state as it was.
 ///
 /// The trial takes steps of at most 0.95 of any_pose_limit [T23], an implicit one the whole frame,
 /// and the rest steps of energy_limit [T42]; both are asked again when the system's
@@ -119,6 +122,7 @@ public:
 
 private:
     static constexpr double unit = static_cast<double>(std::numeric_limits<Scalar>::epsilon()) / 2;
+    static constexpr int most_halvings = 4;
     using Kind = typename guard_detail::WorkMeter<System>::Kind;
     struct Frame {
         Scalar h;
@@ -127,7 +131,7 @@ private:
     void renew();
     Scalar trial_step() const;
     Status open(const State& state, Scalar frame, Scalar longest, GuardedReport<Scalar>& report);
-    static Frame cut(Scalar span, Scalar longest);
+    static Frame cut(Scalar span, Scalar longest, Index most = std::numeric_limits<Index>::max());
     template <class By, class Take, class Respond>
     bool run(State& state, Frame frame, Kind kind, By& by, Take&& take, Respond& respond);
     template <class Respond>
@@ -139,8 +143,7 @@ private:
     bool take_again(State& state, Scalar span, bool tried, GuardedReport<Scalar>& report,
                     Respond& respond);
     bool stiff_by_code();
-    double unexplained(std::size_t part) const;
-    double band(std::size_t part) const;
+    bool resolved(std::size_t part) const;
     void settle_again(std::size_t part, GuardedReport<Scalar>& report);
     void freeze(State& state);
     Index strongest_spring(std::size_t part) const;
@@ -173,7 +176,7 @@ private:
     std::vector<guard_detail::Energy> before_, after_;  // a response
     const char* blamed_ = nullptr;                      // what the user gave that was not finite
     Scalar shortest_ = 0;                               // step that a frame may take, s
-    std::vector<double> rounding_;                      // ρ, J
+    std::vector<double> slack_;                         // ρ and σ, J
     std::vector<double> booked_;                        // W, J
     std::vector<Taken> taken_;
     guard_detail::ViewedState<State> viewed_;

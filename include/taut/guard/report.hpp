@@ -51,7 +51,7 @@ struct [[nodiscard]] GuardedReport {
     double energy = 0;    ///< E at the end, J, summed over the parts like all that follows
     double work = 0;      ///< W, by outside forces, moving pins, constraints and `respond`, J
     double balance = 0;   ///< d, gained beyond the books; < 0: may be gained back, J
-    double rounding = 0;  ///< ρ, what rounding may hide, J
+    double slack = 0;     ///< ρ + σ, what rounding and code forces may hide, J
     bool blind = false;   ///< whether that is above a hundredth of a moving part's K
     Index where = -1;     ///< a particle of the worst part, or the one that is not finite
     Index spring = -1;    ///< one that pulls more than its law's stiffness_bound allows

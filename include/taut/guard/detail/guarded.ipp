@@ -39,6 +39,7 @@ Status Guarded<Stepper, System>::open(const State& state, Scalar frame, Scalar l
     } else {
         measure(state, begin_);
     }
+    last_.forget();
     for (std::size_t p = 0; p < parts_.count(); ++p) {
         if (begin_[p].finite()) continue;
         report.where = parts_[p].first;
@@ -50,16 +51,17 @@ Status Guarded<Stepper, System>::open(const State& state, Scalar frame, Scalar l
     }
     blamed_ = nullptr;
     start_ = state;
+    parts_.keep();
     booked_.assign(parts_.count(), 0);
-    rounding_.assign(parts_.count(), 0);
+    slack_.assign(parts_.count(), 0);
     taken_.assign(parts_.count(), Taken::again);
     return Status::ok;
 }
 
 template <class Stepper, class System>
-auto Guarded<Stepper, System>::cut(Scalar span, Scalar longest) -> Frame {
+auto Guarded<Stepper, System>::cut(Scalar span, Scalar longest, Index most) -> Frame {
     const double steps = std::ceil(static_cast<double>(span) / static_cast<double>(longest));
-    const Index count = std::max(Index(1), static_cast<Index>(steps));
+    const Index count = std::clamp(static_cast<Index>(steps), Index(1), most);
     return {span / static_cast<Scalar>(count), count};
 }
 
@@ -89,7 +91,7 @@ bool Guarded<Stepper, System>::run(State& state, Frame frame, Kind kind, By& by,
         if constexpr (responds) {
             touched_ = state;
             respond(state);
-            if (!state.finite()) {
+            if (!detail::fits(state, system_->size()) || !state.finite()) {
                 blamed_ = "respond";
                 return false;
             }
@@ -104,6 +106,7 @@ bool Guarded<Stepper, System>::run(State& state, Frame frame, Kind kind, By& by,
             work_.add_change(before_, after_, state);
         }
     }
+    work_.add_swing(state);
     return stepwise || !seen || work_.seen() == frame.steps + 1;
 }
 
@@ -141,7 +144,15 @@ double Guarded<Stepper, System>::gain(std::size_t part) const {
 
 template <class Stepper, class System>
 bool Guarded<Stepper, System>::holds(std::size_t part) const {
-    return end_[part].finite() && gain(part) <= rounding_[part] + 1e-12 * end_[part].kinetic;
+    return end_[part].finite() && gain(part) <= slack_[part] + 1e-12 * end_[part].kinetic;
+}
+
+/// Whether forces given as code changed little in every step of the last run.
+template <class Stepper, class System>
+bool Guarded<Stepper, System>::resolved(std::size_t part) const {
+    return !work_.code() ||
+           work_[part].jump <= std::max({begin_[part].speed / 8, end_[part].speed / 8,
+                                         parts_[part].peak / 4, slack_[part]});
 }
 
 /// Says of every part what becomes of its trial, and trims what gained a little.
@@ -151,11 +162,13 @@ void Guarded<Stepper, System>::judge(State& state, bool tried) {
     measure(state, end_);
     std::vector<guard_detail::Gain> gains(parts_.count());
     for (std::size_t p = 0; p < parts_.count(); ++p) {
-        if (parts_[p].skip > 0) continue;
+        const bool follows = resolved(p);
+        slack_[p] += work_[p].swing;
+        if (parts_[p].skip > 0 || !follows) continue;
         const double quarter = end_[p].kinetic / 4;
         if (holds(p)) {
             taken_[p] = Taken::tried;
-        } else if (end_[p].finite() && gain(p) - rounding_[p] <= quarter) {
+        } else if (end_[p].finite() && gain(p) - slack_[p] <= quarter) {
             taken_[p] = Taken::trimmed;
             gains[p] = {std::min(gain(p), quarter), end_[p].speed};
         }
@@ -168,7 +181,7 @@ void Guarded<Stepper, System>::judge(State& state, bool tried) {
         if (taken_[p] == Taken::trimmed && !holds(p)) taken_[p] = Taken::again;
         if (taken_[p] == Taken::again) continue;
         booked_[p] = work_[p].booked;
-        parts_[p].balance = std::max(gain(p), -0.1 * end_[p].kinetic);
+        parts_[p].balance = std::max(gain(p), -0.1 * end_[p].kinetic - work_[p].swing);
         parts_[p].again = 0;
         parts_[p].next_skip = 2;
     }
@@ -184,13 +197,13 @@ bool Guarded<Stepper, System>::take_again(State& state, Scalar span, bool tried,
         report.where = stepped.where;
         return bool(stepped);
     };
-    for (int halvings = 0; halvings < 3; ++halvings) {
-        const Frame frame =
-            cut(span, proved_limit_->certified / static_cast<Scalar>(1 << halvings));
+    for (int halvings = 0; halvings <= most_halvings; ++halvings) {
+        const Index steps = cut(span, proved_limit_->certified).steps << halvings;
+        const Frame frame{span / static_cast<Scalar>(steps), steps};
         again_ = start_;
         if (!run(again_, frame, Kind::ahead, proved_, take, respond)) {
             if (blamed_ || !stiff_by_code()) return false;
-            if (halvings == 2)
+            if (halvings == most_halvings)
                 std::replace(taken_.begin(), taken_.end(), Taken::again, Taken::frozen);
             continue;
         }
@@ -203,9 +216,9 @@ bool Guarded<Stepper, System>::take_again(State& state, Scalar span, bool tried,
         bool stiff = false;
         for (std::size_t p = 0; p < parts_.count(); ++p) {
             if (taken_[p] != Taken::again) continue;
-            rounding_[p] = 4 * unit * static_cast<double>(frame.steps) *
-                           std::max(begin_[p].terms, end_[p].terms);
-            stiff = stiff || !(unexplained(p) <= band(p));
+            slack_[p] = 4 * unit * static_cast<double>(frame.steps) *
+                        std::max(begin_[p].terms, end_[p].terms);
+            stiff = stiff || !resolved(p);
         }
         if (!stiff) break;
     }
@@ -224,35 +237,22 @@ bool Guarded<Stepper, System>::stiff_by_code() {
     return touched_.v.allFinite();
 }
 
-/// What forces given as code left unexplained while a part was taken again, J.
-template <class Stepper, class System>
-double Guarded<Stepper, System>::unexplained(std::size_t part) const {
-    if (!work_.code()) return 0;
-    return parts_[part].by_code + end_[part].total - begin_[part].total - work_[part].checked -
-           rounding_[part];
-}
-
-/// Of that, what is let pass, J.
-template <class Stepper, class System>
-double Guarded<Stepper, System>::band(std::size_t part) const {
-    return 0.05 * std::max(begin_[part].speed, end_[part].speed);
-}
-
 /// A part that was taken again for the last time in this frame.
 template <class Stepper, class System>
 void Guarded<Stepper, System>::settle_again(std::size_t part, GuardedReport<Scalar>& report) {
     guard_detail::Part& own = parts_[part];
     booked_[part] = work_[part].booked;
-    if (!end_[part].finite() || !(unexplained(part) <= band(part))) taken_[part] = Taken::frozen;
-    own.by_code = std::clamp(unexplained(part), -band(part), band(part));
+    if (!end_[part].finite() || !resolved(part)) taken_[part] = Taken::frozen;
     const double rise = end_[part].total - begin_[part].total - booked_[part];
-    if (taken_[part] == Taken::again && rise > rounding_[part]) {
+    // [T42] has the work of forces as they were at the start of each step.
+    if (taken_[part] == Taken::again && rise + work_[part].turn > slack_[part]) {
         report.spring = strongest_spring(part);
     }
     if (taken_[part] == Taken::again) {
-        // What it lost pays what it owes, and earns nothing.
-        own.balance = std::max(own.balance + rise, std::min(own.balance, 0.0));
-        own.balance = std::max(own.balance, -0.1 * end_[part].kinetic);
+        // What it lost pays what it owes, and earns nothing but what code forces hold back.
+        const double held = work_[part].swing;
+        own.balance = std::max({own.balance + rise, std::min(own.balance, 0.0) - held,
+                                -0.1 * end_[part].kinetic - held});
     }
     if (own.skip > 0) {
         --own.skip;
@@ -276,7 +276,6 @@ void Guarded<Stepper, System>::freeze(State& state) {
         if (taken_[p] != Taken::frozen) continue;
         booked_[p] = end_[p].total - (begin_[p].total - begin_[p].speed / 2);
         parts_[p].balance = std::max(0.0, parts_[p].balance - begin_[p].speed / 2);
-        parts_[p].by_code = 0;
     }
 }
 
@@ -313,8 +312,9 @@ void Guarded<Stepper, System>::close(const State& state, GuardedReport<Scalar>& 
         report.energy += end_[p].total;
         report.work += booked_[p];
         report.balance += parts_[p].balance;
-        report.rounding += rounding_[p];
-        report.blind = report.blind || rounding_[p] > end_[p].kinetic / 100;
+        report.slack += slack_[p];
+        report.blind = report.blind || slack_[p] - work_[p].swing > end_[p].kinetic / 100;
+        parts_[p].peak = std::max(end_[p].speed / 2, 0.9 * parts_[p].peak);
         if (taken_[p] <= report.taken) continue;
         report.taken = taken_[p];
         report.where = parts_[p].first;
@@ -344,19 +344,28 @@ auto Guarded<Stepper, System>::advance(State& state, Scalar frame, Respond&& res
     // Of what is taken again as many steps as an Index can count.
     const Scalar span = std::min({frame, longest * static_cast<Scalar>(options_.max_substeps),
                                   proved_limit_->certified * Scalar(1 << 28)});
-    const Frame trial = cut(span, longest);
+    const Frame trial = cut(span, longest, options_.max_substeps);
     report.substeps = trial.steps;
     report.h = trial.h;
     const double proved = std::ceil(static_cast<double>(span / proved_limit_->certified));
     for (std::size_t p = 0; p < parts_.count(); ++p) {
-        rounding_[p] = 4 * unit * std::sqrt(std::max(1.0, proved)) * begin_[p].terms;
+        slack_[p] = 4 * unit * std::sqrt(std::max(1.0, proved)) * begin_[p].terms;
     }
 
+    struct Undo {  // of what is refused, or thrown out of
+        Guarded& guard;
+        State& state;
+        bool wanted = true;
+        ~Undo() {
+            if (!wanted) return;
+            state = guard.start_;
+            guard.parts_.restore();
+        }
+    } undo{*this, state};
     const bool tried = !parts_.all_skip() && try_frame(state, trial, respond);
     judge(state, tried);
     if (!tried) state = start_;
     if ((!tried || any(Taken::again)) && !take_again(state, span, tried, report, respond)) {
-        state = start_;
         report.status = Status::diverged;
         report.force = blamed_ ? blamed_ : force_name();
         return report;
@@ -364,6 +373,7 @@ auto Guarded<Stepper, System>::advance(State& state, Scalar frame, Respond&& res
     state.time = start_.time + span;
     report.advanced = span;
     close(state, report);
+    undo.wanted = false;
     return report;
 }
 

@@ -17,11 +17,11 @@ namespace taut::guard_detail {
 struct Part {
     /// d, J: what it has gained beyond its books, or else, < 0, what it may gain back.
     double balance = 0;
-    double by_code = 0;  ///< what code forces left unexplained while it was taken again, J
-    int again = 0;       ///< frames in a row that were taken again
-    int skip = 0;        ///< frames to come that are not tried
-    int next_skip = 2;   ///< how many, the next time
-    Index first = -1;    ///< its first particle
+    double peak = 0;    ///< the largest ½Σ m|v|² of late, J
+    int again = 0;      ///< frames in a row that were taken again
+    int skip = 0;       ///< frames to come that are not tried
+    int next_skip = 2;  ///< how many, the next time
+    Index first = -1;   ///< its first particle
 };
 
 /// Free particles joined by springs; pins join nothing.
@@ -61,7 +61,7 @@ public:
         each_old([&](std::size_t, std::size_t from, double m) { mass[from] += m; });
         each_old([&](std::size_t to, std::size_t from, double m) {
             list[to].balance += list_[from].balance * m / mass[from];
-            list[to].by_code += list_[from].by_code * m / mass[from];
+            list[to].peak += list_[from].peak * m / mass[from];
         });
         of_ = std::move(of);
         list_ = std::move(list);
@@ -74,6 +74,9 @@ public:
     Index of(Index a, Index b) const { return std::max(of(a), of(b)); }
     Part& operator[](std::size_t part) { return list_[part]; }
     const Part& operator[](std::size_t part) const { return list_[part]; }
+    /// What is known of the parts now is what restore() puts back.
+    void keep() { kept_ = list_; }
+    void restore() { list_ = kept_; }
     /// Whether there are any, and none is to be tried.
     bool all_skip() const {
         return !list_.empty() && std::all_of(list_.begin(), list_.end(),
@@ -89,7 +92,7 @@ private:
 
     std::vector<Index> of_;
     std::vector<Index> root_;  // workspace
-    std::vector<Part> list_;
+    std::vector<Part> list_, kept_;
     std::uint64_t revision_ = 0;
 };
 

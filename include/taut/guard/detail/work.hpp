@@ -13,8 +13,10 @@ namespace taut::guard_detail {
 
 /// What was done on a part from outside in a frame, J.
 struct Work {
-    double booked = 0;   ///< W of the promise
-    double checked = 0;  ///< the same with code forces by the trapezoid, less their curvature
+    double booked = 0;  ///< W, of forces given as code by the trapezoid
+    double turn = 0;    ///< of that, what their change in each step makes
+    double jump = 0;    ///< the most that code forces changed in a step, by half of the way
+    double swing = 0;   ///< what they may hold back of their work at the end
 };
 
 /// Books the work on every part, step by step where that is needed [T43].
@@ -45,7 +47,6 @@ public:
         }
         if (pins_move_) list_springs();
         works_.assign(parts.count(), {});
-        if (code_) bend_.setZero(int(System::Dim), system.size());
         seen_ = 0;
         x_ = state.x;
         return code_ || pins_move_;
@@ -61,11 +62,13 @@ public:
         if (code_) add_code(state, nullptr);
         ++seen_;
     }
-    void see(const Places& x, const Places& v, const State* state, const Force* force) override {
+    void see(const Places& x, const Places& v, Scalar time, const State* state,
+             const Force* force) override {
         add_pins(x, v);
         if (code_ && !state) {
             own_.x.resize(int(System::Dim), system_->size());
             own_.v.resize(int(System::Dim), system_->size());
+            own_.time = time;
             for (Index i = 0; i < system_->size(); ++i) {
                 own_.x.col(i) = x(i);
                 own_.v.col(i) = v(i);
@@ -93,6 +96,21 @@ public:
         x_ = state.x;
         see(state);
     }
+    /// Once all steps are taken, to `state`: the energy swings about work by the trapezoid by ½h
+    /// F·v, or in velocity Verlet by ⅛h² of what F adds to Σ |f|²/m.
+    void add_swing(const State& state) {
+        if (!code_) return;
+        const double h = static_cast<double>(h_);
+        const double weight = static_cast<double>(system_->gravity().norm());
+        for (Index i = 0; i < force_.cols(); ++i) {
+            if (parts_->of(i) < 0) continue;
+            const auto f = static_cast<double>(force_.col(i).norm());
+            const auto v = static_cast<double>(state.v.col(i).norm());
+            works_[static_cast<std::size_t>(parts_->of(i))].swing +=
+                h / 2 * f * v +
+                h * h / 4 * f * (f / static_cast<double>(system_->mass(i)) + weight);
+        }
+    }
     const Work& operator[](std::size_t part) const { return works_[part]; }
 
 private:
@@ -106,9 +124,7 @@ private:
     };
 
     void add(Index part, double work) {
-        if (part < 0) return;
-        works_[static_cast<std::size_t>(part)].booked += work;
-        works_[static_cast<std::size_t>(part)].checked += work;
+        if (part >= 0) works_[static_cast<std::size_t>(part)].booked += work;
     }
     double along(const Force& f, const State& state, Index i) const {
         return static_cast<double>(f.col(i).dot(state.x.col(i) - x_.col(i)));
@@ -122,21 +138,25 @@ private:
             x_ = state.x;
             return;
         }
+        jumps_.assign(works_.size(), 0);
         for (Index i = 0; i < next.cols(); ++i) {
             const Vector change = next.col(i) - force_.col(i);
             const Vector way = state.x.col(i) - x_.col(i);
             const auto begun = static_cast<double>(force_.col(i).dot(way));
-            const auto gap = static_cast<double>((change - bend_.col(i)).squaredNorm());
             force_.col(i) = next.col(i);
             x_.col(i) = state.x.col(i);
-            bend_.col(i) = change;
-            const Index part = parts_->of(i);
-            if (part < 0) continue;
-            double mean = begun + static_cast<double>(change.dot(way)) / 2;
-            if (seen_ > 1) mean -= std::sqrt(gap * static_cast<double>(way.squaredNorm())) / 2;
-            auto& work = works_[static_cast<std::size_t>(part)];
-            work.booked += kind_ == Kind::ahead ? begun : mean;
-            work.checked += mean;
+            if (parts_->of(i) < 0) continue;
+            const auto part = static_cast<std::size_t>(parts_->of(i));
+            const auto turn = static_cast<double>(change.dot(way)) / 2;
+            works_[part].booked += begun + turn;
+            works_[part].turn += turn;
+            const auto size =
+                static_cast<double>(change.squaredNorm()) * static_cast<double>(way.squaredNorm());
+            jumps_[part] += std::sqrt(size) / 2;
+        }
+        for (std::size_t p = 0; p < works_.size(); ++p) {
+            // What is not a number stays so.
+            if (!(jumps_[p] <= works_[p].jump)) works_[p].jump = jumps_[p];
         }
     }
     void list_springs() {
@@ -171,7 +191,7 @@ private:
                     // The pin is the end a of a spring turned round.
                     const Vector f =
                         pull_ahead(spring, Vector(old.x - old.p), Vector(old.v - old.u), h_, alpha);
-                    add(parts_->of(old.free), -double(h_) * double(f.dot(old.u)));
+                    add(parts_->of(old.free), -double(f.dot(p - old.p)));
                 }
                 // What a damper gives the free particle: the rest of its work is heat.
                 const Vector dx = here - p, dv = speed - u;
@@ -209,7 +229,7 @@ private:
     Force x_;                                       // at the last state, m
     Force force_;                                   // outside forces there, N
     Force next_;                                    // workspace
-    Force bend_;                                    // the last change of the force, N
+    std::vector<double> jumps_;                     // of the step, by part, J
     State own_;                                     // workspace
 };
 

@@ -22,6 +22,9 @@ public:
     /// Lets h, s, pass between two steps.
     void pass(Scalar h) { state_.time += h; }
 
+    /// s.
+    Scalar time() const { return state_.time; }
+
     /// Whether a force asks for the whole state before every step.
     bool asks_for_state() const { return static_cast<bool>(forces_->whole); }
     /// What that force and the constant ones are at a state, N; empty planes for none.

@@ -172,9 +172,11 @@ template <class System>
 class StepWatch {
 public:
     /// @param x, v   by particle; velocities are those that the forces there are taken at
+    /// @param time   s
     /// @param state  the same, and @param force  all external forces there, N; each null if unknown
     virtual void see(const PlaceVectors<System>& x, const PlaceVectors<System>& v,
-                     const typename System::State* state, const typename System::Force* force) = 0;
+                     typename System::Scalar time, const typename System::State* state,
+                     const typename System::Force* force) = 0;
 
 protected:
     ~StepWatch() = default;
@@ -242,8 +244,8 @@ private:
     void show(const typename System::State* state, const typename System::Force* force) {
         if (!watch_) return;
         if (places_.empty()) places_ = plan_.places();
-        watch_->see({plan_, places_, state_.planes().x}, {plan_, places_, state_.planes().v}, state,
-                    force);
+        watch_->see({plan_, places_, state_.planes().x}, {plan_, places_, state_.planes().v},
+                    outside_.time(), state, force);
     }
     /// @returns whether all is finite
     template <class Update>
