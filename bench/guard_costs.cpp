@@ -32,7 +32,7 @@ void row(const char* name, const Cloth& cloth, bool shaken) {
     int trimmed = 0, again = 0;
     for (int repeat = 0; repeat < 5; ++repeat) {
         auto state = cloth.initial_state();
-        taut::Guard guard(cloth);
+        taut::Guarded guard(cloth);
         const auto first = guard.advance(state, frame);
         trimmed = again = 0;
         guarded.run([&] {

@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <optional>
 #include <string>
 #include <taut/modal/modal_analysis.hpp>
 #include <taut/bdf2/bdf2.hpp>
@@ -256,47 +255,6 @@ void energies(const std::string& folder) {
     }
 }
 
-/// A cloth with one particle on a hook: a spring that only an external force knows, unseen by the
-/// analysis.
-template <class Advance>
-void hooked(Table& table, const char* name, Advance&& advance) {
-    static constexpr Index particle = 77;
-    static constexpr double stiffness = 4e5;  // N/m
-    auto cloth = taut::hanging_cloth<double>({12, 12});
-    const Eigen::Vector3d hook = cloth.initial_state().x.col(particle);
-    cloth.set_external_force([hook](const Cloth::State& state, Cloth::Force& f) {
-        f.col(particle) += stiffness * (hook - state.x.col(particle));
-    });
-    auto state = cloth.initial_state();
-    for (int frame = 0; frame <= 60; ++frame) {
-        Index substeps = 0;
-        if (frame > 0 && !advance(cloth, state, substeps)) return;
-        const double energy = cloth.kinetic_energy(state);
-        table.row("%s,%.6g,%.6g,%ld\n", name, static_cast<double>(state.time), energy,
-                  static_cast<long>(substeps));
-    }
-}
-
-void guards(const std::string& folder) {
-    Table table(folder, "guard.csv", "method,time_s,kinetic_J,substeps");
-    using Symplectic = taut::SymplecticEuler<Cloth>;
-    constexpr double frame = 1.0 / 60;
-    std::optional<Symplectic> bare;
-    hooked(table, "bare", [&](const Cloth& cloth, Cloth::State& state, Index& substeps) {
-        if (!bare) bare.emplace(cloth);
-        const double limit = 0.95 * taut::any_pose_limit(cloth).certified;
-        substeps = static_cast<Index>(std::ceil(frame / limit));
-        return bool(bare->step(state, frame / static_cast<double>(substeps), substeps));
-    });
-    std::optional<taut::Guarded<Symplectic>> guard;
-    hooked(table, "guarded", [&](const Cloth& cloth, Cloth::State& state, Index& substeps) {
-        if (!guard) guard.emplace(cloth);
-        const auto report = guard->advance(state, frame);
-        substeps = report.substeps;
-        return bool(report);
-    });
-}
-
 /// The middle column of a cloth that fell on a sphere of 0.3 m, after 0.7 s.
 void contacts(const std::string& folder) {
     Table table(folder, "contact.csv", "friction,along_m,height_m");
@@ -333,6 +291,5 @@ int main(int argc, char** argv) {
     swings(folder);
     modes(folder);
     energies(folder);
-    guards(folder);
     contacts(folder);
 }

@@ -19,8 +19,8 @@ int main() {
     contact.thickness = 0.005;  // m, so that no face cuts the sphere
 
     auto state = cloth.initial_state();
-    taut::SymplecticEuler stepper(cloth, {1, taut::recipe.damping});
-    const double h = taut::recipe.safety * taut::any_pose_limit(cloth).certified;
+    taut::EnergyStableEuler stepper(cloth);
+    const double h = taut::energy_stable_limit(cloth).certified;
     taut::ContactReport<double, 3> met;
     while (state.time < 1) {
         if (!stepper.step(state, h)) return 1;

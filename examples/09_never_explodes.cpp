@@ -155,7 +155,7 @@ void minute(const char* law, const Cloth& cloth) {
         }
     };
     const double any = taut::any_pose_limit(cloth).certified;
-    const double proved = taut::energy_stable_limit(cloth).certified;
+    const double proved = taut::energy_limit(cloth).certified;
     taut::VelocityVerlet<Cloth> verlet(cloth);
     lost("bare Verlet", [&](auto& state) {
         const auto n = static_cast<Index>(std::ceil(frame / (0.95 * any)));
@@ -166,16 +166,16 @@ void minute(const char* law, const Cloth& cloth) {
         const auto n = static_cast<Index>(std::ceil(frame / proved));
         return bool(stable.step(state, frame / static_cast<double>(n), n));
     });
-    taut::Guard guard(cloth);
+    taut::Guarded guard(cloth);
     lost("the guard", [&](auto& state) { return bool(guard.advance(state, frame)); });
 }
 
 /// A flag whose pole shakes for ten seconds: what damping does to it.
 template <class Cloth>
 void calm(const char* how, Cloth flag, const taut::RayleighDamping& damping) {
-    const double undamped = taut::energy_stable_limit(flag).certified;
+    const double undamped = taut::energy_limit(flag).certified;
     flag.set_rayleigh(damping);
-    taut::Guard guard(flag);
+    taut::Guarded guard(flag);
     auto state = flag.initial_state();
     int trimmed = 0;
     double kinetic = 0;
@@ -188,7 +188,7 @@ void calm(const char* how, Cloth flag, const taut::RayleighDamping& damping) {
         if (frame >= 300) kinetic += flag.kinetic_energy(state) / 300;
     }
     std::printf("%s: kinetic energy %.2f J, %d of 600 frames trimmed, step %.2f\n", how, kinetic,
-                trimmed, taut::energy_stable_limit(flag).certified / undamped);
+                trimmed, taut::energy_limit(flag).certified / undamped);
 }
 
 }  // namespace
@@ -202,7 +202,7 @@ int main() {
     const auto cloth = taut::hanging_cloth<double>(options);
     own::Net net = own_net(cloth);
     const double h = own::safe_step(net);
-    const double limit = taut::energy_stable_limit(cloth).certified;
+    const double limit = taut::energy_limit(cloth).certified;
     double last = own::energy(net);
     int rises = 0;
     for (int i = 0; i < 20000; ++i) {
@@ -212,7 +212,7 @@ int main() {
         last = now;
     }
     std::printf("cloth of 10 x 10: 20000 steps of %.2e s, %d gain energy\n", h, rises);
-    std::printf("energy_stable_limit: %.2e s, %.2f of that\n", limit, limit / h);
+    std::printf("energy_limit: %.2e s, %.2f of that\n", limit, limit / h);
 
     minute("Hookean", cloth);
     const auto strings = taut::with_law<taut::TensionOnly>(cloth);

@@ -232,10 +232,10 @@ void cloth() {
     const double k = 1000;
     const double moving = taut::any_pose_limit(net).certified;
     std::printf("64 x 64 cloth, 0.3 kg, 1000 N/m: compliance 1e-3 m/N\n");
-    const double h = taut::recipe.safety * moving;
+    const double h = taut::energy_stable_limit(net).certified;
     std::printf("  h^2 k W: %.0f at 1/60 s, %.2f at the any-pose limit of %.3g s\n",
                 frame * frame * k * W, moving * moving * k * W, moving);
-    std::printf("  %.2f at the recipe's step of %.3g s (%d a frame)\n", h * h * k * W, h,
+    std::printf("  %.2f at %.3g s, at which energy never rises (%d a frame)\n", h * h * k * W, h,
                 int(std::ceil(frame / h)));
     std::printf("  10 iterations at 1/60 s: PBD stiffness %.3f for one link; for a row %.2f N/m\n",
                 1 - std::pow(1 + frame * frame * k * W, -1.0 / 10),

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
-// Simulates a cloth under gravity, by default by Taut's recipe of step and damping, and writes an
-// OBJ or PLY sequence, the energy over time, and on request a point cache.
+// Simulates a cloth under gravity, by default with a guard, and writes an OBJ or PLY sequence, the
+// energy over time, and on request a point cache.
 
 #include <chrono>
 #include <cstdio>
@@ -27,14 +27,17 @@ constexpr double silence = 10;  // s, the longest
 
 /// The chosen integrator behind one call.
 drape::Advance make_motion(const Options& options, const drape::Scene& scene) {
-    const taut::ExplicitOptions damped{1, options.own_damping()};
+    if (options.integrator == "energy_stable") {
+        return drape::plain_or_guarded<taut::EnergyStableEuler<Cloth>>(options, scene,
+                                                                       drape::AsItIs());
+    }
     if (options.integrator == "symplectic") {
         return drape::plain_or_guarded<taut::SymplecticEuler<Cloth>>(options, scene,
-                                                                     drape::AsItIs(), damped);
+                                                                     drape::AsItIs());
     }
     if (options.integrator == "verlet") {
-        return drape::plain_or_guarded<taut::VelocityVerlet<Cloth>>(options, scene, drape::AsItIs(),
-                                                                    damped);
+        return drape::plain_or_guarded<taut::VelocityVerlet<Cloth>>(options, scene,
+                                                                    drape::AsItIs());
     }
     if (options.integrator == "explicit") {
         return drape::by_stepper(scene, std::make_shared<taut::ExplicitEuler<Cloth>>(scene.cloth));
@@ -47,6 +50,8 @@ struct Outcome {
     std::string trouble;
     double risen = 0;    // highest energy above that at the start, J
     double kinetic = 0;  // the largest, J
+    int trimmed = 0;     // frames
+    int again = 0;
 };
 
 /// A rise of the energy that no fall of the cloth by a hundred times its own size can explain, J;
@@ -72,8 +77,11 @@ Outcome run_frames(const Options& options, const Cloth& cloth, const Plan& plan,
     for (taut::Index frame = first; frame <= plan.frames; ++frame) {
         progress.at("frame " + std::to_string(frame) + " of " + std::to_string(plan.frames));
         if (frame > 0) {
-            outcome.trouble = advance(state);
+            const drape::Advanced advanced = advance(state);
+            outcome.trouble = advanced.trouble;
             if (!outcome.trouble.empty()) break;
+            outcome.trimmed += advanced.taken == taut::Taken::trimmed;
+            outcome.again += advanced.taken == taut::Taken::again;
         }
         const double kinetic = cloth.kinetic_energy(state);
         const double potential = cloth.potential_energy(state);
@@ -108,15 +116,19 @@ void print_start(const Options& options, const example::Scene& scene, const Plan
                 options.integrator.c_str(), options.guard ? ", guarded" : "",
                 options.guard ? "at most " : "", plan.h, static_cast<long long>(plan.steps),
                 plan.frames, plan.frame);
-    const auto own = options.own_damping();
-    if (own) std::printf("springs look %.4g h ahead\n", own.look_ahead);
 }
 
 /// The end of a sentence that says which step is too large.
 const char* cure(const Options& options) {
-    if (!options.implicit()) return "; stability_report says which steps are safe";
-    if (options.integrator == "newton" || options.integrator == "projective") return "";
-    return ", which makes one linearised solve of it; --integrator newton solves the step itself";
+    if (options.guard) return "";
+    if (!options.implicit()) {
+        return "; stability_report says which steps are safe, and --guard takes such frames again";
+    }
+    if (options.integrator == "newton" || options.integrator == "projective") {
+        return "; --guard takes such frames again";
+    }
+    return ", which makes one linearised solve of it; --integrator newton solves the step itself, "
+           "and --guard takes such frames again";
 }
 
 /// Where a run begins: at rest, or where the one before it ended.
@@ -166,6 +178,10 @@ int simulate(const Options& options) {
         "%.4g s simulated in %.3g s; highest energy %.3e J above the start, largest kinetic energy "
         "%.3e J\n",
         state.time - begun, elapsed.count(), outcome.risen, outcome.kinetic);
+    if (options.guard) {
+        std::printf("the guard trimmed %d frames and took %d again\n", outcome.trimmed,
+                    outcome.again);
+    }
     std::printf("%s/frame_*.%s, %s\n", options.output.c_str(), options.format.c_str(),
                 record.energy_path().c_str());
     if (!options.cache.empty()) {
@@ -189,7 +205,7 @@ int run(int argc, char** argv) {
     example::add_version(app, "drape");
     options.add_to(app);
     CLI11_PARSE(app, argc, argv)
-    options.keep_settings(app);
+    options.settle(app);
     options.check();
     return simulate(options);
 }

@@ -49,7 +49,7 @@ export function writeAdvice(plans) {
     byId("why").textContent = `${short(best, second)} (${steps(best)}) and ${short(second, best)} (${steps(second)}) cost the same within 20\u00a0% in this browser.`;
   } else {
     const next = near ? "Its two solvers are too close to call." : second ? `The next, ${short(second, best)}, costs ${significant(second.cost / best.cost, 2)} times as much.` : "";
-    byId("why").textContent = `${REASONS[best.method] || "Its step by the recipe is large enough."} It is the cheapest in this browser. ${next}`;
+    byId("why").textContent = `${REASONS[best.method] || "At this step its energy cannot rise."} It is the cheapest in this browser. ${next}`;
   }
   byId("bars").replaceChildren(...plans.flatMap((plan) => {
     const row = document.createElement("div");
@@ -66,7 +66,7 @@ export function writeAdvice(plans) {
 /// measured on the page. An explicit step costs the same whatever its size.
 /// @param measured  s a step
 export function frameCost(plans, { method, h }, measured) {
-  const same = plans.filter((plan) => plan.method === method && (method < IMPLICIT || Math.abs(plan.h / h - 1) < 0.01));
+  const same = plans.filter((plan) => plan.method === method && (method !== IMPLICIT || Math.abs(plan.h / h - 1) < 0.01));
   const plan = same.find(({ gradients }) => method !== IMPLICIT || gradients) ?? same[0];
   return (plan ? plan.cost / plan.substeps : measured) * (FRAME / h);
 }

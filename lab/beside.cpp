@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <taut/integrator/symplectic_euler.hpp>
+#include <taut/integrator/energy_stable_euler.hpp>
 #include <taut/resolution/coarsen.hpp>
 #include <taut/resolution/resolution.hpp>
 
@@ -22,14 +22,14 @@ constexpr Index samples = taut::ResolveOptions{}.samples;  // resolve() compares
 struct Run {
     taut::tradeoff_detail::Pace pace;
     Cloth::State state;
-    std::optional<taut::SymplecticEuler<Cloth>> stepper;
+    std::optional<taut::EnergyStableEuler<Cloth>> stepper;
     Index taken = 0;
     bool failed = false;
 
     void begin(const Cloth& cloth, Cloth::State start, double duration) {
         pace = taut::tradeoff_detail::pace_of(cloth, duration, samples);
         state = std::move(start);
-        stepper.emplace(cloth, taut::SymplecticEuler<Cloth>::Options{1, taut::recipe.damping});
+        stepper.emplace(cloth);
         taken = 0;
         failed = false;
     }

@@ -57,6 +57,7 @@ export async function checkCloth(page, name, pictures) {
   const advised = await state(page);
   expect(advised.settings.h <= advised.limits.anyPose, `${name}: the recommended step, ${advised.settings.h.toExponential(3)} s, is certified at any pose`);
   await checkPace(page, name);
+  await checkEnergyStable(page, name);
 
   // Twice the stiffness, a step shorter by √2: k of a mode is proportional to it [T8].
   await choose(page, "Symplectic Euler");
@@ -79,6 +80,24 @@ export async function checkCloth(page, name, pictures) {
   await settled(page);
   const slow = await text(page, "#sentence");
   expect(/grows by [\d.]+\s% a step: it becomes visible after some [\d,]+ steps/.test(slow), `${name}: ${slow}`);
+}
+
+/// Energy-stable Euler has a limit of its own, half of the other at least, and keeps whole below it.
+async function checkEnergyStable(page, name) {
+  await choose(page, "Symplectic Euler");
+  const linearised = (await state(page)).limits.anyPose;
+  await choose(page, "Energy-stable Euler");
+  const { limits } = await state(page);
+  expect(limits.anyPose > 0.499 * linearised && limits.certified === limits.anyPose && limits.refuted > limits.certified,
+    `${name}: energy-stable Euler is proved up to ${limits.anyPose.toExponential(3)} s, ${(limits.anyPose / linearised).toFixed(3)} of the linearised limit, and refuted from ${limits.refuted.toExponential(3)} s on`);
+  const low = await dragStep(page, 0.99 * limits.anyPose);
+  await page.locator("#start-again").click();
+  const below = await watch(page, 1000);
+  const words = await text(page, "#sentence");
+  expect(low < limits.anyPose && !below.blown && below.taken >= 1000 && /no step adds energy/.test(words), `${name}: ${below.taken} steps of it at ${low.toExponential(3)} s: ${words}`);
+  await dragStep(page, 1.03 * limits.refuted);
+  const above = await watch(page, Infinity);
+  expect(above.blown && /energy-stable/i.test(await text(page, "#reason")), `${name}: past that it blows up: ${await text(page, "#reason")}`);
 }
 
 /// What the readout says a frame costs is what the bars say, for the same integrator and step.

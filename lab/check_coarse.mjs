@@ -57,11 +57,17 @@ export async function checkCoarseCleared(page, name) {
   expect(/own 3072 particles are needed: .* estimated to err by .* \(goal 0\.5\s%/.test(await text(page, "#coarse-words")) && (await page.locator("#coarse-chart circle.certified").count()) === 0 && (await page.locator("#coarse-chart circle").count()) > 1,
     `${name}: the chart shows what was tried, and nothing chosen`);
 
+  const cancelled = page.evaluate(() => new Promise((done) => {  // in the page: a search may end before anybody else looks
+    const words = document.getElementById("coarse-progress-words");
+    new MutationObserver((_changes, observer) => {
+      if (!/run \d/.test(words.textContent)) return;
+      observer.disconnect();
+      done([words.textContent, document.querySelectorAll("#coarse.old").length]);
+      document.getElementById("coarse-cancel").click();
+    }).observe(words, { childList: true });
+  }));
   await page.locator("#durations").getByText("2 s", { exact: true }).click();
-  await page.waitForFunction(() => window.labState().coarse.busy && /run \d/.test(document.getElementById("coarse-progress-words").textContent));
-  const words = await text(page, "#coarse-progress-words");
-  const dimmed = await page.locator("#coarse.old").count();
-  await page.locator("#coarse-cancel").click();
+  const [words, dimmed] = await cancelled;
   await page.waitForFunction(() => !window.labState().coarse.busy);
   const after = await state(page);
   expect(dimmed === 1 && !after.coarse.found && !after.coarse.busy && /Cancelled/.test(await text(page, "#coarse-words")) && !(await shown(page, "#searching")), `${name}: while “${words}”, the answer of before is dimmed, and then: ${await text(page, "#coarse-words")}`);

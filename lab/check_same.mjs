@@ -25,7 +25,7 @@ METHODS.forEach((name, method) => {
   const theirs = positions.slice(method * x.length, (method + 1) * x.length);
   const off = Math.max(...theirs.map((v, i) => Math.abs(v - x[i])));
   const moved = Math.max(...theirs.map((v, i) => (i % 3 === 2 ? Math.abs(v) : 0)));
-  console.log(`${name.padEnd(17)} fallen ${moved.toExponential(2)} m, native and WebAssembly differ by ${off.toExponential(2)} m`);
+  console.log(`${name.padEnd(19)} fallen ${moved.toExponential(2)} m, native and WebAssembly differ by ${off.toExponential(2)} m`);
   if (!(moved > 1e-4)) throw new Error(`${name}: the cloth has not moved`);
   worst = Math.max(worst, Number.isFinite(off) ? off : Infinity);
 });

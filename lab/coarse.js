@@ -16,7 +16,7 @@ const byId = (id) => document.getElementById(id);
 
 /// What a sentence of the library leaves open.
 function more({ outcome, chosen }) {
-  if (outcome === "coarse") return `The error is an estimate, not a certificate. The step is certified: ${seconds(chosen.h, 3)}, at any pose, linearised.`;
+  if (outcome === "coarse") return `The error is an estimate, not a certificate. The step is certified: at ${seconds(chosen.h, 3)} the network’s energy cannot rise.`;
   if (outcome === "fine") return "The errors are estimates, not certificates.";
   if (outcome === "unpredictable") return "That is measured on a coarser network, and no certificate.";
   return "";

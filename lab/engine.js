@@ -4,9 +4,9 @@
 // lab.wasm with the few calls that it needs of its host, for the page, its worker and node.
 
 export const METHODS = ["explicit_euler", "symplectic_euler", "velocity_verlet", "implicit_euler", "bdf2", "energy_stable_euler"];
-export const EXPLICIT = 0, SYMPLECTIC = 1, IMPLICIT = 3;
+export const EXPLICIT = 0, SYMPLECTIC = 1, IMPLICIT = 3, ENERGY_STABLE = 5;
 export const RESOLVED = ["coarse", "fine", "unpredictable", "nothing_moves", "diverged", "cut_short"];
-export const ANALYSED = [0, 1, 2, 3];
+export const ANALYSED = [0, 1, 2, 3, 5];
 
 /// @param memory  called for it   @param said  what the library says before it aborts
 /// @param told  as loadLab takes it
@@ -138,8 +138,8 @@ export async function loadLab(source, told = () => {}) {
       return { limits, mode: { k, d, kMax, compression, size, speed, steps }, kick, blamed, shares };
     },
     growth: (method, mode, h) => wasm.lab_growth(method, mode.k, mode.d, h),
-    window(method, h, drag, mode) {
-      const [lower, upper] = doubles(wasm.lab_window(method, h, drag, mode.kMax, mode.compression), 2);
+    window(h, drag, mode) {
+      const [lower, upper] = doubles(wasm.lab_window(h, drag, mode.kMax, mode.compression), 2);
       return { lower, upper };
     },
 

@@ -105,11 +105,12 @@ LAB_CALL void lab_analyse_pose();
 LAB_CALL void lab_analyse_mode();
 
 struct LabLimits {
-    double any_pose;   ///< s; certified at any pose, linearised (0: not, infinity: every step)
-    double certified;  ///< s; at the pose in which the scene starts
+    double any_pose;   ///< s; certified at any pose (0: not, infinity: every step); linearised, but
+                       ///< of energy-stable Euler as proved
+    double certified;  ///< s; at the pose in which the scene starts (energy-stable Euler: at any)
     double refuted;    ///< s; at that pose; infinity: none is
 };
-/// @param method  not BDF2 or energy-stable Euler
+/// @param method  not BDF2
 LAB_CALL const LabLimits* lab_limits(int method);
 /// The cause of that limit, as one sentence.
 LAB_CALL const char* lab_cause(int method);
@@ -136,10 +137,9 @@ LAB_CALL const double* lab_shares();
 
 /// Largest |multiplier| of a vibration at step h, s.
 LAB_CALL double lab_growth(int method, double k, double d, double h);
-/// The stiffness-proportional damping that makes step h, s, stable is above [0], or includes 0
-/// where that is −1, and below [1]; both 0: none does.
-LAB_CALL const double* lab_window(int method, double h, double drag, double k_max,
-                                  double compression);
+/// The stiffness-proportional damping that makes step h, s, of explicit Euler stable is above [0],
+/// or includes 0 where that is −1, and below [1]; both 0: none does.
+LAB_CALL const double* lab_window(double h, double drag, double k_max, double compression);
 
 // ---- what is recommended, for frames of 1/60 s: advice.cpp ----
 
@@ -181,14 +181,14 @@ LAB_CALL const char* lab_resolution_words();
 struct LabLevel {
     double particles;
     double springs;
-    double h;      ///< s, certified at any pose
+    double h;      ///< s, proved at any pose
     double cost;   ///< spring-steps
     double error;  ///< estimated, a share of the scene's size; infinity: not known
 };
 LAB_CALL const LabLevel* lab_level(int i);
 LAB_CALL int lab_level_count();
 
-// ---- the scene beside a coarser network of it, in the same time: beside.cpp ----
+// ---- the scene beside a coarser network of it, by energy-stable Euler: beside.cpp ----
 
 /// Both from rest where the scene was laid out, for `duration`, s.
 /// @param particles  of the coarser one   @param fine  0: the scene itself is too slow, and stands

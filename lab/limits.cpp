@@ -8,6 +8,7 @@
 #include <optional>
 #include <taut/method/visit.hpp>
 #include <taut/stability/any_pose.hpp>
+#include <taut/stability/energy_limit.hpp>
 #include <taut/stability/stability.hpp>
 #include <vector>
 
@@ -20,7 +21,7 @@ namespace {
 using taut::Method;
 
 struct Limits {
-    taut::StepLimit<double> any_pose;
+    taut::StepLimit<double> any_pose, energy_stable;
     std::optional<taut::Stability<double>> stability;
     std::array<std::optional<taut::StepLimit<double>>, 6> at_pose;  // by method
     LabMode mode{};
@@ -33,13 +34,14 @@ Limits found;
 LabLimits answer{};
 std::array<double, 2> window{};
 
-/// The limit at any pose, linearised; explicit Euler has none, implicit steps no need of one.
+/// The limit at any pose: linearised, but of energy-stable Euler as proved. Explicit Euler has
+/// none, implicit steps no need of one.
 double any_pose(Method method) {
     using taut::method::AnyPose;
     const AnyPose safe =
         taut::method::visit(method, [](auto descriptor) { return decltype(descriptor)::any_pose; });
     if (safe == AnyPose::limited) return found.any_pose.certified;
-    if (safe == AnyPose::proved) return found.any_pose.certified / 2;  // and never less [T42]
+    if (safe == AnyPose::proved) return found.energy_stable.certified;
     return safe == AnyPose::every_step ? std::numeric_limits<double>::infinity() : 0;
 }
 
@@ -47,6 +49,19 @@ const taut::StepLimit<double>& at_pose(int method) {
     auto& limit = found.at_pose[std::size_t(method)];
     if (!limit) limit = found.stability->max_step(static_cast<Method>(method));
     return *limit;
+}
+
+/// The step above which this vibration grows by energy-stable Euler, which is symplectic Euler with
+/// D + hK⁺ in the linear [T42]. No smaller one is refuted, and none at this pose alone is
+/// certified.
+double refuted_energy_stable(const Eigen::VectorXd& shape) {
+    using namespace taut::matrices;
+    if (shape.size() == 0) return std::numeric_limits<double>::infinity();
+    const auto& pencil = found.stability->pencil();
+    const double m = pencil.quadratic(M, shape).upper();
+    const double k = pencil.quadratic(2 * K_plus + K, shape).lower() / m;
+    const double d = std::max(0.0, pencil.quadratic(D, shape).lower() / m);
+    return taut::critical_step(Method::symplectic_euler, k, d);
 }
 
 /// Of a large mesh a rougher shape must do: the fine one takes ten times as long, and differs by
@@ -95,7 +110,10 @@ void take_blamed(const taut::LimitingMode& mode) {
 
 void lab::forget_limits() { found = {}; }
 
-void lab_analyse_any_pose() { found.any_pose = taut::any_pose_limit(lab::scene().cloth); }
+void lab_analyse_any_pose() {
+    found.any_pose = taut::any_pose_limit(lab::scene().cloth);
+    found.energy_stable = taut::energy_limit(lab::scene().cloth);
+}
 
 void lab_analyse_pose() {
     const auto& cloth = lab::scene().cloth;
@@ -120,6 +138,9 @@ void lab_analyse_mode() {
         take_kick(mode);
     }
     take_blamed(mode);
+    auto& proved = found.at_pose[std::size_t(Method::energy_stable_euler)];
+    proved = found.energy_stable;
+    proved->refuted = refuted_energy_stable(mode.shape);
 }
 
 const LabLimits* lab_limits(int method) {
@@ -139,11 +160,11 @@ double lab_growth(int method, double k, double d, double h) {
     return taut::spectral_radius(static_cast<Method>(method), k, d, h);
 }
 
-const double* lab_window(int method, double h, double drag, double k_max, double compression) {
+const double* lab_window(double h, double drag, double k_max, double compression) {
     window = {0, 0};
     if (!std::isfinite(k_max) || !std::isfinite(compression)) return window.data();
     const auto found_window =
-        taut::rayleigh_window(static_cast<Method>(method), h, drag, 0, k_max, compression);
+        taut::rayleigh_window(Method::explicit_euler, h, drag, 0, k_max, compression);
     if (found_window.empty == taut::EmptyWindow::none) {
         window = {found_window.includes_zero ? -1 : found_window.lower, found_window.upper};
     }

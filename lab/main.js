@@ -58,7 +58,7 @@ function writeStep() {
   const where = standing(settings.h, limits());
   byId("standing").textContent = STANDING[where];
   byId("standing").className = where;
-  const window = lab.window(settings.method, settings.h, settings.drag, found.mode);
+  const window = lab.window(settings.h, settings.drag, found.mode);
   byId("sentence").textContent = sentence(settings, limits(), window, growth());
 }
 function writeLimits() {

@@ -38,7 +38,7 @@ int print_limits(const char* path) {
     lab_analyse_any_pose();
     lab_analyse_pose();
     lab_analyse_mode();
-    for (const int method : {0, 1, 2, 3}) {
+    for (const int method : {0, 1, 2, 3, 5}) {
         const LabLimits* limits = lab_limits(method);
         std::printf("%.17g\n%.17g\n%.17g\n", limits->any_pose, limits->certified, limits->refuted);
     }

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <string>
 #include <taut/resolution/resolution.hpp>
+#include <taut/stability/energy_limit.hpp>
 #include <vector>
 
 #include "lab.hpp"
@@ -49,7 +50,7 @@ void lab_resolve(double duration, double goal) {
     answer.resolution.outcome = answer.resolution.chosen = -1;
     answer.words = "No step of this scene is certified, so no coarser one is searched for.";
     // resolve() takes such a scene for a mistake and would end the program.
-    if (!(taut::any_pose_limit(cloth).certified > 0)) return;
+    if (!(taut::energy_limit(cloth).certified > 0)) return;
     taut::ResolveOptions options;
     options.seconds = patience;
     options.clock = &told_clock;

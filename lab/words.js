@@ -3,13 +3,13 @@
 
 // What the page says about a step.
 
-import { EXPLICIT, IMPLICIT } from "./engine.js";
+import { ENERGY_STABLE, EXPLICIT, IMPLICIT } from "./engine.js";
 import { standing } from "./charts.js";
 
 /* global seconds, metres, percent, significant */
 
 export const FRAME = 1 / 60;  // s
-export const NAMES = ["Explicit Euler", "Symplectic Euler", "Velocity Verlet", "Implicit Euler", "BDF2"];
+export const NAMES = ["Explicit Euler", "Symplectic Euler", "Velocity Verlet", "Implicit Euler", "BDF2", "Energy-stable Euler"];
 export const STANDING = { certified: "certified at any pose", posed: "certified at the starting pose", open: "not decided", refuted: "refuted" };
 export const whole = (n) => n.toLocaleString("en-US");
 const rounded = (n) => whole(+n.toPrecision(1));
@@ -31,14 +31,20 @@ function explicitWords({ alpha, drag }, { cause }, window) {
   return `Explicit Euler needs damping. At this step, α between ${seconds(Math.max(0, window.lower), 3)} and ${seconds(window.upper, 3)} is proved at the starting pose; it is ${alpha > 0 ? seconds(alpha, 3) : "none"}.`;
 }
 
-/// @param window  of α: {lower (−1: 0 is in it), upper}   @param growth  of the limiting vibration
+/// At any pose.
+function certifiedWords(method) {
+  if (method === ENERGY_STABLE) return "Certified: no step adds energy, at any pose and any speed (proved). A large step costs motion, which it damps.";
+  return "Certified: about no pose that the mesh takes does a small vibration grow (proved, linearised). Its energy may rise all the same; by energy-stable Euler, at half of this limit, it cannot (proved).";
+}
+
+/// @param window  of explicit Euler's α: {lower (−1: 0 is in it), upper}   @param growth  of the limiting vibration
 export function sentence({ method, h, alpha, drag }, limits, window, growth) {
   const where = standing(h, limits);
   if (method === EXPLICIT && (where === "open" || where === "refuted")) return explicitWords({ alpha, drag }, limits, window) + (growth > 1 && growth <= SLOW ? ` ${slowly(growth)}` : "");
   if (method === IMPLICIT) return `Every step h of implicit Euler is certified, linearised, at any pose. A large step costs motion, which it damps. A frame in one step is ${seconds(FRAME, 3)}.`;
   if (where === "certified") {
     if (limits.anyPose === Infinity) return "Every step is certified: nothing here can vibrate.";
-    return `Certified: about no pose that the mesh takes does a small vibration grow (proved, linearised). Its energy may rise all the same; Taut’s recipe, a share of this limit with damping, keeps it down (measured, not proved). A frame of 1/60\u00a0s is ${whole(Math.ceil(FRAME / h))} such steps.`;
+    return `${certifiedWords(method)} A frame of 1/60\u00a0s is ${whole(Math.ceil(FRAME / h))} such steps.`;
   }
   if (where === "posed") {
     const pose = "Certified for small motions about the pose in which the mesh starts";
@@ -53,7 +59,7 @@ export function sentence({ method, h, alpha, drag }, limits, window, growth) {
 /// Why the scene has blown up.
 export function blownWords({ method, h }, limits, steps, swing) {
   const ratio = limits.refuted < Infinity && limits.refuted > 0 ? `, ${significant(h / limits.refuted, 3)} times the refuted step` : "";
-  const cure = limits.anyPose > 0 ? `At any pose, linearised, ${seconds(limits.anyPose, 3)} is certified` : limits.certified > 0 ? `At the starting pose ${seconds(limits.certified, 3)} is certified` : "With this damping no step is certified";
+  const cure = limits.anyPose > 0 ? `At any pose${method === ENERGY_STABLE ? "" : ", linearised"}, ${seconds(limits.anyPose, 3)} is certified` : limits.certified > 0 ? `At the starting pose ${seconds(limits.certified, 3)} is certified` : "With this damping no step is certified";
   return `${NAMES[method]} at h = ${seconds(h, 3)}${ratio}: after ${counted(steps, "step")} particles swing by ${swing < Infinity ? metres(swing, 2) : "metres"} from one step to the next. ${cure}; with implicit Euler every step is.`;
 }
 

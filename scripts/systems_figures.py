@@ -127,17 +127,6 @@ def energy(folder):
     save(figure, folder, "energy")
 
 
-def guard(folder):
-    figure, (plot,) = axes("time, s", "kinetic energy, J")
-    names = {"bare": "bare, at the proved step", "guarded": "guarded"}
-    for (colour, dash), ((method,), part) in zip(STYLES, groups(rows(folder, "guard"), "method").items()):
-        part = [row for row in part if 0 < float(row["kinetic_J"]) < 1e100]  # from rest to overflow
-        plot.semilogy(column(part, "time_s"), column(part, "kinetic_J"), color=colour, linestyle=dash, marker=".",
-                      label=f"{names[method]}: {part[-1]['substeps']} substeps a frame")
-    plot.legend(fontsize=8)
-    save(figure, folder, "guard")
-
-
 def contact(folder):
     figure, (plot,) = axes("along the cloth, m", "height, m")
     plot.add_patch(plt.Circle((0.45, -0.32), 0.3, color="#e8e8e8", label="sphere"))
@@ -152,7 +141,7 @@ def contact(folder):
 def main():
     folder = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parent.parent / "docs" / "systems"
     plt.rcParams.update({"font.size": 9, "svg.hashsalt": "taut", "svg.fonttype": "none"})
-    for draw in (large_steps, strip, swing, modal, energy, guard, contact):
+    for draw in (large_steps, strip, swing, modal, energy, contact):
         draw(folder)
 
 

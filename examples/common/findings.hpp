@@ -64,41 +64,6 @@ struct Remedies {
     std::optional<taut::AddedMass> added_mass;
 };
 
-/// The step up to which no step raises the energy, and what this asks for and costs [T34].
-struct EnergyProof {
-    taut::EnergyLimit<double> limit;
-    taut::GraphDampingRange alpha;  ///< s, at the certified step; empty where there is no such step
-    double rotation = 0;  ///< 1/s²; times α the rate at which it slows rotation, over all axes
-};
-
-template <class System>
-EnergyProof prove_energy(const System& system, double tightness) {
-    EnergyProof proof;
-    proof.limit = taut::energy_limit(system, tightness);
-    const double h = proof.limit.certified;
-    if (!(h > 0) || !std::isfinite(h)) return proof;
-    proof.alpha = proof.limit.alpha(h);
-    // Σ k l² over the moment of inertia about the centre of mass.
-    const auto x = system.initial_state().x;
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-    double mass = 0, inertia = 0, pull = 0;
-    for (taut::Index i = 0; i < system.size(); ++i) {
-        centre += system.mass(i) * x.col(i);
-        mass += system.mass(i);
-    }
-    centre /= mass;
-    for (taut::Index i = 0; i < system.size(); ++i)
-        inertia += system.mass(i) * (x.col(i) - centre).squaredNorm();
-    const auto& springs = system.springs();
-    for (taut::Index s = 0; s < springs.size(); ++s) {
-        const auto at = static_cast<std::size_t>(s);
-        const double l = (x.col(springs.b[at]) - x.col(springs.a[at])).norm();
-        pull += springs.parameters[at].stiffness * l * l;
-    }
-    if (inertia > 0) proof.rotation = pull / inertia;
-    return proof;
-}
-
 /// How few particles would do.
 struct ResolutionFound {
     double duration = 0;  // s
@@ -118,7 +83,7 @@ struct Findings {
     taut::StepLimit<double> symplectic_euler;
     taut::StepLimit<double> implicit_euler;
     std::optional<taut::StepLimit<double>> any_pose;
-    std::optional<EnergyProof> energy;
+    std::optional<taut::StepLimit<double>> energy_stable;
     std::optional<taut::Certificate> proof;
     std::optional<taut::LimitingMode> limiting_mode;  // where something needed it
     std::vector<taut::SpringShare> springs_to_blame;
@@ -134,9 +99,9 @@ struct Findings {
     std::string lammps;   // lines on what was written for it
     Json page;            // what only the HTML page shows; null without --html
 
-    /// Of a moving scene by the recipe, s; 0: none.
-    double recipe_step() const {
-        return any_pose && !any_pose->unbounded() ? taut::recipe.safety * any_pose->certified : 0;
+    /// At which to step a moving scene, s; 0: none, or every step.
+    double moving_step() const {
+        return energy_stable && !energy_stable->unbounded() ? energy_stable->certified : 0;
     }
 };
 

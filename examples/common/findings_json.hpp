@@ -34,13 +34,9 @@ inline Json optional_json(const std::optional<T>& value) {
     return value ? Json(*value) : Json(nullptr);
 }
 
-/// null: not known, or no damping is.
-inline Json energy_json(const std::optional<EnergyProof>& energy) {
-    const bool known = energy && !energy->alpha.empty();
-    Json json = energy ? limit_json(energy->limit) : Json{{"certified", nullptr}};
-    json["alpha_lower"] = known ? Json(energy->alpha.lower) : Json(nullptr);
-    json["alpha_upper"] = known ? Json(energy->alpha.upper) : Json(nullptr);
-    return json;
+/// Of a limit that bare matrices do not have.
+inline Json limit_json(const std::optional<taut::StepLimit<double>>& limit) {
+    return limit ? limit_json(*limit) : Json{{"certified", nullptr}, {"refuted", nullptr}};
 }
 
 inline Json verdict_json(const Verdict& verdict) {
@@ -65,9 +61,8 @@ inline Json to_json(const Findings& found, double d0) {
     json["explicit_euler"] = limit_json(found.explicit_euler);
     json["symplectic_euler"] = limit_json(found.symplectic_euler);
     json["implicit_euler"] = limit_json(found.implicit_euler);
-    json["any_pose"] = found.any_pose ? limit_json(*found.any_pose)
-                                      : Json{{"certified", nullptr}, {"refuted", nullptr}};
-    json["energy"] = energy_json(found.energy);
+    json["any_pose"] = limit_json(found.any_pose);
+    json["energy_stable"] = limit_json(found.energy_stable);
     json["rayleigh_window"] = {{"method", name(Method::explicit_euler)},
                                {"h", found.window_step},
                                {"d0", d0},

@@ -33,10 +33,10 @@ inline void print_limit(const char* label, const taut::StepLimit<double>& limit)
     std::printf("  %s\n", name(limit.cause));
 }
 
-/// Which of three a limit is, what it costs, and what is no proof.
+/// Which of three a limit is, and what it costs.
 inline void print_promises(const Findings& found) {
     std::printf("  this pose: no small vibration about it grows\n");
-    if (!found.any_pose || !found.energy || found.any_pose->unbounded()) return;
+    if (!found.any_pose || !found.energy_stable || found.any_pose->unbounded()) return;
     const auto& at_pose = found.symplectic_euler;
     const auto& at_any = *found.any_pose;
     std::printf(
@@ -45,23 +45,14 @@ inline void print_promises(const Findings& found) {
         std::printf("             (%.1f %% of the step at this pose)\n",
                     100 * at_any.certified / at_pose.certified);
     }
-    const auto& energy = *found.energy;
-    if (!energy.alpha.empty()) {
-        constexpr double share = 0.9;  // at the limit itself one α is left
-        const auto alpha = energy.limit.alpha(share * energy.limit.certified);
-        std::printf(
-            "  energy:    no step raises it, with graph damping alpha = %.4e s; at %.1f of the "
-            "step\n"
-            "             alpha in [%.4e, %.4e] s; the least of these slows rotation at %.2g /s\n",
-            energy.alpha.lower, share, alpha.lower, alpha.upper, alpha.lower * energy.rotation);
-    }
-    std::printf(
-        "  recipe:    %.4g of any pose, springs looking %.4g h ahead: measured, not proved\n",
-        taut::recipe.safety, taut::recipe.damping.look_ahead);
-    const double step = found.recipe_step();
+    const double step = found.moving_step();
     if (step > 0) {
-        std::printf("             step a moving scene at %.4e s: %.0f steps a frame of 1/60 s\n",
-                    step, std::ceil(1 / (60 * step)));
+        std::printf(
+            "  energy:    no step of taut::EnergyStableEuler gains more than the work from "
+            "outside\n"
+            "             (%.0f steps a frame of 1/60 s); above refuted the proof ends, not the "
+            "scene\n",
+            std::ceil(1 / (60 * step)));
     }
 }
 
@@ -137,9 +128,9 @@ inline void print_remedies(const Findings& found) {
         std::printf("  no scale of stiffness or masses is proved to make it safe\n");
         return;
     }
-    if (found.recipe_step() > 0) {
-        std::printf("  the recipe takes %.0f steps in its place; or\n",
-                    std::ceil(remedies.verdict.step / found.recipe_step()));
+    if (found.moving_step() > 0) {
+        std::printf("  %.0f steps of taut::EnergyStableEuler take its place; or\n",
+                    std::ceil(remedies.verdict.step / found.moving_step()));
     }
     std::printf(
         "  any one of these makes it safe:\n  all stiffness times %.4g, or all masses times %.4g\n",
@@ -172,9 +163,9 @@ inline void print_table(const Findings& found, double d0) {
         std::printf(" at any pose (linearised)\n");
         print_limit("symplectic Euler", *found.any_pose);
     }
-    if (found.energy) {
+    if (found.energy_stable) {
         std::printf(" energy (nonlinear)\n");
-        print_limit("symplectic Euler", found.energy->limit);
+        print_limit("energy-stable Euler", *found.energy_stable);
     }
     std::printf(
         "  certified: proved, rounding included\n"

@@ -21,12 +21,12 @@ inline void print_resolution(const ResolutionFound& told) {
     std::printf("Positions within %.3g %% of the scene's size for %.3g s: how few particles?\n",
                 100 * found.goal, told.duration);
     if (!found.levels.empty())
-        std::printf("  particles   springs   certified step by the recipe   cost of all   error\n");
+        std::printf("  particles   springs   certified step   cost of all   error\n");
     for (const auto& level : found.levels) {
         char error[32] = "compared with";
         if (std::isfinite(level.error))
             std::snprintf(error, sizeof error, "%.2g %%", 100 * level.error);
-        std::printf("  %9lld %9lld   %26.4e s   %11.3g   %s\n",
+        std::printf("  %9lld %9lld   %12.4e s   %11.3g   %s\n",
                     static_cast<long long>(level.particles), static_cast<long long>(level.springs),
                     level.h, level.cost / found.fine_cost, error);
     }
@@ -69,13 +69,13 @@ inline Json resolution_json(const ResolutionFound& told) {
 
 namespace detail {
 
-/// The motion of a system by the recipe, at even times, the first of them the start.
+/// The motion of a system at even times, the first of them the start.
 inline std::vector<taut::Points<double, 3>> motion(const System& system, System::State state,
                                                    double duration, int frames) {
     const double interval = duration / frames;
-    const double most = taut::recipe.safety * taut::any_pose_limit(system).certified;
+    const double most = taut::energy_stable_limit(system).certified;
     const auto steps = static_cast<taut::Index>(std::max(1.0, std::ceil(interval / most)));
-    taut::SymplecticEuler stepper(system, {1, taut::recipe.damping});
+    taut::EnergyStableEuler stepper(system);
     std::vector<taut::Points<double, 3>> path{state.x};
     for (int frame = 0; frame < frames; ++frame) {
         if (!stepper.step(state, interval / static_cast<double>(steps), steps)) break;

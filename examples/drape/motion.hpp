@@ -4,14 +4,20 @@
 
 #include <functional>
 #include <string>
+#include <taut/guard/report.hpp>
 
 #include "obstacle.hpp"
 #include "plan.hpp"
 
 namespace drape {
 
-/// Advances by a frame. Empty, or what went wrong.
-using Advance = std::function<std::string(State&)>;
+struct Advanced {
+    std::string trouble;  // empty, or what went wrong
+    taut::Taken taken = taut::Taken::tried;
+};
+
+/// Advances by a frame.
+using Advance = std::function<Advanced(State&)>;
 
 /// What a motion is made of; cloth and obstacle must outlive it.
 struct Scene {

@@ -14,13 +14,12 @@ struct Options {
     example::SceneOptions scene;
     std::string law = "hookean";
     std::optional<double> bending;  // k_b, N·m²
-    std::string integrator = "symplectic";
+    std::string integrator;         // none named: settle() chooses
     std::string solver = "cholesky";
     std::optional<double> tolerance;  // of conjugate gradients
     bool guard = false;
-    std::optional<double> look_ahead;  // share of the step; the recipe's, if open
-    double step = 0;                   // s; 0: the integrator's own
-    double duration = 2;               // s
+    double step = 0;      // s; 0: the integrator's own
+    double duration = 2;  // s
     double frame_rate = 30;
     std::string collide;
     std::optional<double> radius;     // m
@@ -36,23 +35,15 @@ struct Options {
     bool quiet = false;
 
     /// Whether every step is stable.
-    bool implicit() const {
-        return integrator != "symplectic" && integrator != "verlet" && integrator != "explicit";
-    }
+    bool implicit() const { return solves() || integrator == "projective"; }
     /// Whether its steps solve a linear system that --solver may choose for.
     bool solves() const {
         return integrator == "implicit" || integrator == "newton" || integrator == "bdf2";
     }
     std::string state_path() const { return output + "/state.bin"; }
-    /// Whether its steps have damping of their own, which the recipe asks for.
-    bool damps() const { return integrator == "symplectic" || integrator == "verlet"; }
-    taut::StepDamping own_damping() const {
-        if (!damps()) return {};
-        return look_ahead ? taut::StepDamping{*look_ahead, 0} : taut::recipe.damping;
-    }
     void add_to(CLI::App& app);
-    /// Fills in `settings` once the command line is read.
-    void keep_settings(const CLI::App& app);
+    /// Fills in what the command line left open, and `settings`.
+    void settle(const CLI::App& app);
     /// Throws naming the options that do not go together.
     void check() const;
 
@@ -81,12 +72,12 @@ inline void Options::add_to(CLI::App& app) {
 
 inline void Options::add_motion(CLI::App& app) {
     app.add_option("--integrator,--method", integrator,
-                   "symplectic, verlet, explicit: one force a step; implicit: one linearised "
-                   "solve; newton: the nonlinear step, solved; bdf2: second order, livelier; "
-                   "projective: ten iterations with one constant factor")
-        ->check(CLI::IsMember(
-            {"symplectic", "verlet", "explicit", "implicit", "newton", "bdf2", "projective"}))
-        ->capture_default_str();
+                   "energy_stable: cannot gain energy, damps fast vibrations; symplectic, verlet, "
+                   "explicit: one force a step, too; implicit: one linearised solve; newton: the "
+                   "nonlinear step, solved; bdf2: second order, livelier; projective: ten "
+                   "iterations with one constant factor (default: verlet with --guard)")
+        ->check(CLI::IsMember({"energy_stable", "symplectic", "verlet", "explicit", "implicit",
+                               "newton", "bdf2", "projective"}));
     auto* chosen =
         app.add_option("--solver", solver,
                        "of implicit, newton and bdf2: cholesky, Eigen's; conjugate_gradient, for "
@@ -97,20 +88,15 @@ inline void Options::add_motion(CLI::App& app) {
                    "relative residual at which conjugate gradients stop (default: 0.001)")
         ->check(CLI::Range(1e-15, 0.5))
         ->needs(chosen);
-    app.add_flag(
-        "--guard", guard,
-        "watch the energy of every frame, and take one that gains any again in smaller steps");
+    app.add_flag("--guard", guard,
+                 "watch the energy of every frame: trim what gained a little, and take the rest "
+                 "again by the energy-stable step");
     app.add_option("--step", step,
-                   "largest time step, s (default: the recipe's share of the any-pose limit, with "
-                   "--guard the guard's; explicit 0.95; implicit and bdf2: 1/60 s; newton and "
-                   "projective: a frame; with --collide at most 1/240 s)")
+                   "largest time step, s (default: energy_stable: the largest that is proved; "
+                   "symplectic, verlet and explicit: 0.95 of the any-pose limit; implicit and "
+                   "bdf2: 1/60 s; newton and projective: a frame; with --collide at most 1/240 s)")
         ->transform(example::time_quantity())
         ->check(example::positive());
-    app.add_option("--look-ahead", look_ahead,
-                   "share of the step by which symplectic and verlet steps let springs look ahead: "
-                   "damping beside the scene's own, which stays as it is (default: the recipe's; "
-                   "0: none)")
-        ->check(example::non_negative());
     app.add_option("--duration", duration, "simulated time, s")
         ->transform(example::time_quantity())
         ->check(example::positive())
@@ -159,13 +145,19 @@ inline void Options::add_output(CLI::App& app) {
         ->check(example::not_empty());
     app.add_flag("--springs", springs,
                  "frame_*.vtk too, with the tension and strain of every spring, for ParaView");
-    app.add_flag("--resume", resume,
-                 "go on from where the run before this one ended in the folder of --output, up to "
-                 "--duration in all; other options must be as they were; bdf2 begins anew there");
+    app.add_flag(
+        "--resume", resume,
+        "go on from where the run before this one ended in the folder of --output, up to "
+        "--duration in all; other options must be as they were; bdf2 and the guard's books "
+        "begin anew there");
     app.add_flag("--quiet", quiet, "no progress line");
 }
 
-inline void Options::keep_settings(const CLI::App& app) {
+inline void Options::settle(const CLI::App& app) {
+    if (integrator.empty()) {
+        integrator = "verlet";
+        guard = true;
+    }
     for (const CLI::Option* option : app.get_options()) {
         const std::string name = option->get_name();
         const bool may_change = name == "--duration" || name == "--output" || name == "--cache" ||
@@ -184,10 +176,6 @@ inline void Options::check() const {
     }
     if (radius && collide != "sphere") {
         throw std::runtime_error("--radius: it belongs to --collide sphere, not to " + collide);
-    }
-    if (look_ahead && !damps()) {
-        throw std::runtime_error("--look-ahead: symplectic and verlet steps take it, not " +
-                                 integrator);
     }
     if (guard && integrator == "explicit") {
         throw std::runtime_error(

@@ -23,12 +23,6 @@ struct Plan {
 /// A particle that falls at 3 m/s enters an obstacle by 12 mm within this time, s.
 constexpr double between_contacts = 1.0 / 240;
 
-/// Of the any-pose limit, which does not count the steps' own damping [T23].
-inline double share_of_limit(const Options& options) {
-    if (!options.damps()) return 0.95;
-    return taut::share_of_limit(taut::recipe.safety, options.own_damping());
-}
-
 /// The step that --step leaves open, s. Throws when there is none.
 inline double default_step(const Options& options, const Cloth& cloth, double frame) {
     // One linearised solve is wrong about springs that turn taut in a long step.
@@ -37,12 +31,13 @@ inline double default_step(const Options& options, const Cloth& cloth, double fr
     const double contact = options.collide.empty() ? frame : between_contacts;
     const double longest = std::min({frame, usual, contact});
     if (options.implicit()) return longest;
-    const auto limit = taut::any_pose_limit(cloth);
+    const bool stable = options.integrator == "energy_stable";
+    const auto limit = stable ? taut::energy_stable_limit(cloth) : taut::any_pose_limit(cloth);
     if (limit.unbounded()) return longest;
     if (!(limit.certified > 0)) {
         throw std::runtime_error("no step is certified: " + std::string(describe(limit.cause)));
     }
-    return std::min(longest, share_of_limit(options) * limit.certified);
+    return std::min(longest, (stable ? 1 : 0.95) * limit.certified);
 }
 
 /// Throws naming the options that ask for too much.
@@ -54,8 +49,10 @@ inline Plan make_plan(const Options& options, const Cloth& cloth) {
     }
     plan.frames = std::max(1, static_cast<int>(frames));
     plan.frame = options.duration / plan.frames;
-    const double wanted =
-        options.step > 0 ? options.step : default_step(options, cloth, plan.frame);
+    double wanted = options.step > 0 ? options.step : default_step(options, cloth, plan.frame);
+    if (options.guard && !options.implicit()) {  // it takes no longer ones
+        wanted = std::min(wanted, default_step(options, cloth, plan.frame));
+    }
     if (!(plan.frame / wanted <= 1e9)) {
         throw std::runtime_error("--step: more than 1e9 steps for each frame");
     }

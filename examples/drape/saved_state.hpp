@@ -62,7 +62,7 @@ struct SavedHeader {
 
 inline std::array<char, 16> saved_mark() {
     std::array<char, 16> mark{};
-    std::memcpy(mark.data(), "taut drape 2\n", 13);
+    std::memcpy(mark.data(), "taut drape 3\n", 13);
     return mark;
 }
 

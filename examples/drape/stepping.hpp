@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <string>
+#include <taut/guard/guard.hpp>
 #include <utility>
 
 #include "motion.hpp"
@@ -24,7 +26,8 @@ std::string name_trouble(const Report& report) {
     if (report) return {};
     std::string text = name_particle(report.status, report.where);
     if (report.spring >= 0) text += ", spring " + std::to_string(report.spring);
-    return text + "; given up after " + std::to_string(report.retries) + " retries";
+    if (report.force) text += ", by " + std::string(report.force);
+    return text;
 }
 
 template <class Stepper>
@@ -32,11 +35,11 @@ Advance by_stepper(const Scene& scene, std::shared_ptr<Stepper> stepper) {
     const Plan plan = scene.plan;
     const bool contacts = bool(scene.obstacle);
     return [plan, contacts, stepper, &cloth = scene.cloth,
-            &obstacle = scene.obstacle](State& state) -> std::string {
+            &obstacle = scene.obstacle](State& state) -> Advanced {
         const taut::Index at_once = contacts ? 1 : plan.steps;
         for (taut::Index done = 0; done < plan.steps; done += at_once) {
             const taut::Report report = stepper->step(state, plan.h, at_once);
-            if (!report) return name_particle(report.status, report.where);
+            if (!report) return {name_particle(report.status, report.where)};
             obstacle.resolve(cloth, state);
         }
         return {};
@@ -47,9 +50,18 @@ template <class Guard>
 Advance by_guard(const Scene& scene, std::shared_ptr<Guard> guard) {
     return [guard, frame = scene.plan.frame, &cloth = scene.cloth,
             &obstacle = scene.obstacle](State& state) {
-        if (!obstacle) return name_trouble(guard->advance(state, frame));
-        return name_trouble(
-            guard->advance(state, frame, [&](State& s) { obstacle.resolve(cloth, s); }));
+        Advanced advanced;
+        // Steps beyond those that an Index can count shorten a frame.
+        for (double left = frame; advanced.trouble.empty() && left > 1e-9 * frame;) {
+            const auto report =
+                obstacle
+                    ? guard->advance(state, left, [&](State& s) { obstacle.resolve(cloth, s); })
+                    : guard->advance(state, left);
+            left -= report.advanced;
+            advanced.trouble = name_trouble(report);
+            advanced.taken = std::max(advanced.taken, report.taken);
+        }
+        return advanced;
     };
 }
 
@@ -63,11 +75,10 @@ Advance plain_or_guarded(const Options& chosen, const Scene& scene, const Prepar
         prepare(*stepper);
         return by_stepper(scene, std::move(stepper));
     }
-    using Guard = taut::Guarded<Stepper>;
+    using Guard = taut::Guard<Stepper>;
     typename Guard::Options options;
-    options.damping = chosen.own_damping();
     options.max_step = scene.plan.h;
-    options.max_substeps = std::numeric_limits<taut::Index>::max() / 64;
+    options.max_substeps = std::numeric_limits<taut::Index>::max();  // a frame is never cut short
     auto guard = std::make_shared<Guard>(scene.cloth, options, arguments...);
     prepare(guard->stepper());
     return by_guard(scene, std::move(guard));

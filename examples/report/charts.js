@@ -8,7 +8,7 @@ const LIMITS = [
   ["explicit_euler", "Explicit Euler", "at this pose (linear)"],
   ["symplectic_euler", "Symplectic Euler", "at this pose (linear)"],
   ["any_pose", "Symplectic Euler", "at any pose (linearised)"],
-  ["energy", "Symplectic Euler", "energy (nonlinear)"],
+  ["energy_stable", "Energy-stable Euler", "energy (nonlinear)"],
   ["implicit_euler", "Implicit Euler", "at this pose (linear)"],
 ];
 

@@ -4,7 +4,6 @@
 
 #include "integrator/energy_stable_euler.hpp"
 #include "integrator/explicit_euler.hpp"
-#include "integrator/guarded.hpp"
 #include "integrator/implicit_euler.hpp"
 #include "integrator/symplectic_euler.hpp"
 #include "integrator/velocity_verlet.hpp"
@@ -15,7 +14,6 @@
 #include "solver/interleaved_llt.hpp"
 #include "stability/any_pose.hpp"
 #include "stability/energy_limit.hpp"
-#include "stability/energy_stable_limit.hpp"
 #include "stability/stability.hpp"
 
 // What the library Taut::Compiled holds: explicit instantiations for float and double, two and
@@ -61,7 +59,7 @@
     KIND void SpringSystem<__VA_ARGS__>::set_gravity(const Vector&);                            \
     KIND Index SpringSystem<__VA_ARGS__>::add_particle(const Vector&, SCALAR);                  \
     KIND State<SCALAR, DIM> SpringSystem<__VA_ARGS__>::initial_state() const;                   \
-    KIND void SpringSystem<__VA_ARGS__>::force(const State&, Force&, const StepDamping&) const; \
+    KIND void SpringSystem<__VA_ARGS__>::force(const State&, Force&) const;                     \
     KIND void SpringSystem<__VA_ARGS__>::force_ahead(const State&, SCALAR, Force&) const;       \
     KIND SCALAR SpringSystem<__VA_ARGS__>::kinetic_energy(const State&) const;                  \
     KIND SCALAR SpringSystem<__VA_ARGS__>::potential_energy(const State&) const;                \
@@ -72,8 +70,7 @@
     KIND void Stability<SCALAR>::update(const SpringSystem<__VA_ARGS__>&,                       \
                                         const State<SCALAR, DIM>&);                             \
     KIND StepLimit<SCALAR> any_pose_limit(const SpringSystem<__VA_ARGS__>&);                    \
-    KIND EnergyLimit<SCALAR> energy_limit(const SpringSystem<__VA_ARGS__>&);                    \
-    KIND StepLimit<SCALAR> energy_stable_limit(const SpringSystem<__VA_ARGS__>&);
+    KIND StepLimit<SCALAR> energy_limit(const SpringSystem<__VA_ARGS__>&);
 
 #define TAUT_COMPILED_EXPLICIT(KIND, SCALAR, DIM, ...)                      \
     TAUT_COMPILED_STEPPER(KIND, SymplecticEuler<SpringSystem<__VA_ARGS__>>) \
@@ -83,18 +80,6 @@
 
 #define TAUT_COMPILED_IMPLICIT(KIND, SCALAR, DIM, ...) \
     TAUT_COMPILED_STEPPER(KIND, ImplicitEuler<SpringSystem<__VA_ARGS__>>)
-
-#define TAUT_COMPILED_GUARD(KIND, STEPPER, SCALAR, ...)                                         \
-    KIND class Guarded<STEPPER<SpringSystem<__VA_ARGS__>>>;                                     \
-    KIND Guarded<STEPPER<SpringSystem<__VA_ARGS__>>>::Guarded(const SpringSystem<__VA_ARGS__>&, \
-                                                              const Options&);                  \
-    KIND GuardedReport<SCALAR> Guarded<STEPPER<SpringSystem<__VA_ARGS__>>>::advance(            \
-        State&, Scalar, integrator_detail::NoResponse&&);
-
-#define TAUT_COMPILED_GUARDS(KIND, SCALAR, DIM, ...)                \
-    TAUT_COMPILED_GUARD(KIND, SymplecticEuler, SCALAR, __VA_ARGS__) \
-    TAUT_COMPILED_GUARD(KIND, VelocityVerlet, SCALAR, __VA_ARGS__)  \
-    TAUT_COMPILED_GUARD(KIND, ImplicitEuler, SCALAR, __VA_ARGS__)
 
 #define TAUT_COMPILED_EACH_LAW(PART, KIND, SCALAR, DIM) \
     PART(KIND, SCALAR, DIM, SCALAR, DIM)                \
@@ -133,7 +118,6 @@ TAUT_COMPILED_ANALYSIS(extern template, double)
 TAUT_COMPILED_EACH_SYSTEM(TAUT_COMPILED_SYSTEM, extern template)
 TAUT_COMPILED_EACH_SYSTEM(TAUT_COMPILED_EXPLICIT, extern template)
 TAUT_COMPILED_EACH_SYSTEM(TAUT_COMPILED_IMPLICIT, extern template)
-TAUT_COMPILED_EACH_SYSTEM(TAUT_COMPILED_GUARDS, extern template)
 #endif
 
 }  // namespace taut

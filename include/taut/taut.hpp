@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The core: springs, cloth, explicit and implicit steps, limits, the guard. All else is a module, a
+// The core: springs, cloth, explicit and implicit steps, limits. All else is a module, a
 // folder with a header of its name: docs/modules.md lists them.
 
 #include "core/version.hpp"
 #include "integrator/energy_stable_euler.hpp"
 #include "integrator/explicit_euler.hpp"
-#include "integrator/guarded.hpp"
 #include "integrator/implicit_euler.hpp"
 #include "integrator/symplectic_euler.hpp"
 #include "integrator/velocity_verlet.hpp"
@@ -21,7 +20,6 @@
 #include "solver/conjugate_gradient.hpp"
 #include "stability/any_pose.hpp"
 #include "stability/energy_limit.hpp"
-#include "stability/energy_stable_limit.hpp"
 #include "stability/rayleigh.hpp"
 #include "stability/stability.hpp"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // EXPECT: deleted
 
-#include <taut/integrator/guarded.hpp>
+#include <taut/guard/guard.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/scene/cloth.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include <taut/imex/imex.hpp>
-#include <taut/stability/energy_stable_limit.hpp>
+#include <taut/stability/energy_limit.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/tolerance.hpp"
@@ -32,7 +32,7 @@ Count rises_of_networks(std::uint32_t seed, int networks) {
     Count count;
     for (int repeat = 0; repeat < networks; ++repeat) {
         auto system = random_network<System>(random, 3, repeat % 4 == 1);
-        const auto bears = static_cast<double>(taut::energy_stable_limit(system).certified);
+        const auto bears = static_cast<double>(taut::energy_limit(system).certified);
         if (!(bears < 1e30)) continue;
         const double step = bears * log_uniform(random, 0.5, 1000);
         if (repeat % 5 == 1) system.set_rayleigh({random.uniform(0, 1) / step, 0});

@@ -3,7 +3,7 @@
 #include <taut/imex/imex.hpp>
 #include <taut/integrator/energy_stable_euler.hpp>
 #include <taut/model/state_view.hpp>
-#include <taut/stability/energy_stable_limit.hpp>
+#include <taut/stability/energy_limit.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/hemmed_cloth.hpp"
@@ -104,7 +104,7 @@ TEMPLATE_TEST_CASE("imex: where no spring needs it, it is EnergyStableEuler to t
         options.rayleigh = repeat % 3 == 0;
         const auto system = random_like<System>(random, options);
         // A third: the bounds by rows are wider than what is certified.
-        const Scalar h = taut::energy_stable_limit(system).certified / 3;
+        const Scalar h = taut::energy_limit(system).certified / 3;
         ImexEuler<System> stepper(system, {static_cast<double>(h), {}, 1});
         CHECK(stepper.implicit_springs() == 0);
         CHECK(stepper.touched() == 0);
@@ -166,7 +166,7 @@ TEMPLATE_TEST_CASE("imex: counts and views give the same bits", "[imex]", (Case<
     using System = SpringSystem<Scalar, Dim>;
     Random random(8740);
     const auto system = irregular<Scalar, Dim>(random, 1500, true);
-    const double step = 8 * static_cast<double>(taut::energy_stable_limit(system).certified);
+    const double step = 8 * static_cast<double>(taut::energy_limit(system).certified);
     ImexEuler<System> stepper(system, {step, {}, 1});
     CHECK(stepper.implicit_springs() > 0);
     const Scalar h = stepper.limit().certified;
@@ -186,7 +186,7 @@ TEMPLATE_TEST_CASE("imex: a cloth with a stiff hem takes the step of the cloth",
     using Scalar = typename TestType::Scalar;
     constexpr int Dim = TestType::Dim;
     const auto even = hemmed_cloth<Scalar, Dim>(12, 16, 1);
-    const auto limit = static_cast<double>(taut::energy_stable_limit(even).certified);
+    const auto limit = static_cast<double>(taut::energy_limit(even).certified);
     for (const double stiffer : {10.0, 1e3, 1e6}) {
         INFO("hem times " << stiffer);
         const auto cloth = hemmed_cloth<Scalar, Dim>(12, 16, stiffer);
@@ -207,7 +207,7 @@ TEST_CASE("imex: an edit makes the inertia anew, nothing else does", "[imex]") {
     options.particles = 20;
     options.springs = 60;
     auto system = random_like<System>(random, options);
-    const double step = 10 * static_cast<double>(taut::energy_stable_limit(system).certified);
+    const double step = 10 * static_cast<double>(taut::energy_limit(system).certified);
     ImexEuler<System> stepper(system, {step, {}, 1});
     std::int64_t made = 1;
     check_renewed(system, stepper, step, made);
@@ -243,7 +243,7 @@ TEST_CASE("imex: shares that are given certify what they leave", "[imex]") {
         options.springs = 20;
         options.dampers = repeat % 2 == 0;
         auto system = random_like<System>(random, options);
-        const double none = taut::energy_stable_limit(system).certified;
+        const double none = taut::energy_limit(system).certified;
         const auto certified = [&](double share) {
             return ImexEuler<System>(system, {20 * none, [=](Index) { return share; }, 1})
                 .limit()
@@ -274,7 +274,7 @@ TEMPLATE_TEST_CASE("imex: without pins the momentum is kept", "[imex]", (Case<do
     options.gravity = false;
     options.dampers = true;
     const auto system = random_like<System>(random, options);
-    const double step = 30 * static_cast<double>(taut::energy_stable_limit(system).certified);
+    const double step = 30 * static_cast<double>(taut::energy_limit(system).certified);
     ImexEuler<System> stepper(system, {step, {}, 1});
     CHECK(stepper.implicit_springs() > 30);
     auto state = random_state(random, system);

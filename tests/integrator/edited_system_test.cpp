@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include <taut/integrator/guarded.hpp>
+#include <taut/guard/guard.hpp>
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/projective/projective.hpp>
 #include <taut/integrator/symplectic_euler.hpp>

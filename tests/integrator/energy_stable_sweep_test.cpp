@@ -5,7 +5,7 @@
 #include <taut/model/state_view.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/scene/with_law.hpp>
-#include <taut/stability/energy_stable_limit.hpp>
+#include <taut/stability/energy_limit.hpp>
 #include <taut/wind/wind.hpp>
 #include <vector>
 
@@ -167,7 +167,7 @@ TEMPLATE_TEST_CASE("energy_stable_euler: without pins, gravity and drag momentum
         };
         const Eigen::VectorXd before = momentum();
         EnergyStableEuler<System> stepper(system);
-        REQUIRE(stepper.step(state, taut::energy_stable_limit(system).certified, 500));
+        REQUIRE(stepper.step(state, taut::energy_limit(system).certified, 500));
         CHECK((momentum() - before).norm() <= 1e-12 * static_cast<double>(system.size()));
     }
 }
@@ -176,7 +176,7 @@ TEST_CASE("energy_stable_euler: a hanging cloth loses little in half a second, a
           "[integrator]") {
     const auto check = [](const auto& cloth) {
         using System = std::decay_t<decltype(cloth)>;
-        const double h = taut::energy_stable_limit(cloth).certified;
+        const double h = taut::energy_limit(cloth).certified;
         EnergyStableEuler<System> stepper(cloth);
         auto state = cloth.initial_state();
         const double start = cloth.energy(state);

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <limits>
 #include <taut/bdf2/bdf2.hpp>
-#include <taut/integrator/guarded.hpp>
+#include <taut/guard/guard.hpp>
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/projective/projective.hpp>
 #include <taut/integrator/symplectic_euler.hpp>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include <taut/integrator/explicit_euler.hpp>
-#include <taut/integrator/guarded.hpp>
+#include <taut/guard/guard.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/integrator/velocity_verlet.hpp>
 #include <taut/scene/cloth.hpp>

@@ -56,8 +56,6 @@ TEST_CASE("lammps: bad input: what LAMMPS lacks is refused by name, or left out 
         },
         out);
     refused(
-        "set_graph_damping", [](System& s) { s.set_graph_damping(1e-4); }, out);
-    refused(
         "set_wind",
         [](System& s) {
             taut::Wind<double> wind;

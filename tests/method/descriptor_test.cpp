@@ -123,17 +123,4 @@ TEMPLATE_LIST_TEST_CASE("descriptor: a buckled mode's multipliers pass a pole or
     });
 }
 
-TEMPLATE_LIST_TEST_CASE("descriptor: the kept energy lies about E, the closer the smaller the step",
-                        "[method]", Descriptors) {
-    for (const double share : {1e-6, 0.1, 0.5}) {
-        const auto band = TestType::energy_band(share, 0.2 * share * share);
-        CHECK(band.least > 0);
-        CHECK(band.least <= 1);
-        CHECK(band.most >= 1);
-        CHECK(band.most <= 1 + 2 * share);
-        CHECK(band.least >= 1 - 2 * share);
-    }
-    CHECK_FALSE((TestType::is_implicit && TestType::averages_forces));
-}
-
 }  // namespace taut_test::descriptor_test

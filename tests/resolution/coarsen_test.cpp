@@ -123,7 +123,6 @@ TEMPLATE_TEST_CASE("coarsen: mass, momentum, constant forces and factors are kep
         auto system = random_network<Scalar, Dim>(random, n, trial % 3);
         system.set_gravity(random.vector<Scalar, Dim>(-10, 10));
         system.set_rayleigh({0.3, 2e-3});
-        system.set_graph_damping(1e-4);
         for (int f = 0; f < 5; ++f)
             system.set_constant_force(random.below(n), random.vector<Scalar, Dim>(-1, 1));
         const auto coarse = coarsen(system, 4 + random.below(n - 4));
@@ -162,7 +161,6 @@ TEMPLATE_TEST_CASE("coarsen: mass, momentum, constant forces and factors are kep
         CHECK(coarse.system.gravity() == system.gravity());
         CHECK(coarse.system.rayleigh().stiffness_proportional == 2e-3);
         CHECK(coarse.system.rayleigh().mass_proportional == 0.3);
-        CHECK(coarse.system.graph_damping() == 1e-4);
     }
 }
 

@@ -48,15 +48,15 @@ taut::SpringSystem<double, 2> rope(Index n, double stiffness) {
     return system;
 }
 
-/// The positions of the scene itself, stepped by the recipe, at the start and at each sample.
+/// The positions of the scene itself, stepped at its energy_limit, at the start and at each sample.
 template <class System>
 std::vector<taut::Points<double, System::Dim>> true_motion(const System& system,
                                                            typename System::State state,
                                                            double duration) {
-    const double limit = static_cast<double>(taut::any_pose_limit(system).certified);
+    const double limit = static_cast<double>(taut::energy_limit(system).certified);
     const double interval = duration / samples;
-    const auto steps = static_cast<Index>(std::ceil(interval / (taut::recipe.safety * limit)));
-    taut::SymplecticEuler stepper(system, {1, taut::recipe.damping});
+    const auto steps = static_cast<Index>(std::ceil(interval / limit));
+    taut::EnergyStableEuler stepper(system);
     std::vector<taut::Points<double, System::Dim>> path{state.x.template cast<double>()};
     for (int s = 0; s < samples; ++s) {
         REQUIRE(stepper.step(

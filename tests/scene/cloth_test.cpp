@@ -10,6 +10,7 @@
 #include "../support/catch.hpp"
 #include "../support/message.hpp"
 #include "../support/decompositions.hpp"
+#include "../support/random.hpp"
 #include "../support/tolerance.hpp"
 #include "../support/zero_rest_length.hpp"
 
@@ -141,6 +142,26 @@ TEST_CASE("cloth: a zero-rest-length grid has the sums of two rows' eigenvalues,
     }
 }
 
+TEMPLATE_TEST_CASE("cloth: its damping is the one asked for and changes nothing else", "[scene]",
+                   float, double) {
+    Random random(5);
+    for (int trial = 0; trial < 20; ++trial) {
+        ClothOptions options{2 + random.below(6), 2 + random.below(6)};
+        auto declared = hanging_cloth<TestType>(options);
+        options.rayleigh = {random.uniform(0, 5), random.uniform(0, 1e-2)};
+        const auto cloth = hanging_cloth<TestType>(options);
+        CHECK(cloth.rayleigh().mass_proportional == options.rayleigh.mass_proportional);
+        CHECK(cloth.rayleigh().stiffness_proportional == options.rayleigh.stiffness_proportional);
+        declared.set_rayleigh(options.rayleigh);
+        auto state = cloth.initial_state();
+        state.v = random.points<TestType, 3>(cloth.size(), -1, 1);
+        taut::Points<TestType, 3> f, g;
+        cloth.force(state, f);
+        declared.force(state, g);
+        CHECK(f == g);
+    }
+}
+
 TEST_CASE("cloth: bad input", "[scene][bad_input]") {
     const auto refused = [](auto&& change, std::initializer_list<const char*> words) {
         ClothOptions options{4, 4};
@@ -159,6 +180,12 @@ TEST_CASE("cloth: bad input", "[scene][bad_input]") {
     for (const double bad : {-1.0, not_a_number, std::numeric_limits<double>::infinity()}) {
         CHECK(refused([&](auto& o) { o.stretch = bad; }, {"st", " is ", ">= 0"}) == "");
         CHECK(refused([&](auto& o) { o.bend = bad; }, {" is ", ">= 0"}) == "");
+    }
+    for (const double bad : {-1.0, not_a_number, std::numeric_limits<double>::infinity()}) {
+        CHECK(refused([&](auto& o) { o.rayleigh.mass_proportional = bad; },
+                      {"mass_proportional is ", ">= 0"}) == "");
+        CHECK(refused([&](auto& o) { o.rayleigh.stiffness_proportional = bad; },
+                      {"stiffness_proportional is ", ">= 0"}) == "");
     }
     CHECK(refused([&](auto& o) { o.width = not_a_number; }, {"finite"}) == "");
     CHECK(refused([&](auto& o) { o.gravity = not_a_number; }, {"gravity", "finite"}) == "");

@@ -152,6 +152,28 @@ TEMPLATE_TEST_CASE("mesh: stiffness by length: k L is one number, whatever the m
     }
 }
 
+TEMPLATE_TEST_CASE("mesh: its damping is the one asked for and changes nothing else", "[scene]",
+                   float, double) {
+    Random random(13);
+    for (int trial = 0; trial < 20; ++trial) {
+        const Patch patch = random_patch(random);
+        const taut::Points<TestType, 3> vertices = patch.vertices.cast<TestType>();
+        MeshOptions options;
+        auto declared = springs_from_mesh<TestType>(vertices, patch.faces, options).system;
+        options.rayleigh = {random.uniform(0, 5), random.uniform(0, 1e-2)};
+        const auto damped = springs_from_mesh<TestType>(vertices, patch.faces, options).system;
+        CHECK(damped.rayleigh().mass_proportional == options.rayleigh.mass_proportional);
+        CHECK(damped.rayleigh().stiffness_proportional == options.rayleigh.stiffness_proportional);
+        declared.set_rayleigh(options.rayleigh);
+        auto state = damped.initial_state();
+        state.v = random.points<TestType, 3>(damped.size(), -1, 1);
+        taut::Points<TestType, 3> f, g;
+        damped.force(state, f);
+        declared.force(state, g);
+        CHECK(f == g);
+    }
+}
+
 TEST_CASE("mesh: a rope stretches alike however it is cut, with masses and stiffness by length",
           "[scene]") {
     // 1 m under a pull of 1 N: Σ F/k over the springs.

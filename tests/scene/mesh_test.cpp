@@ -251,6 +251,11 @@ TEST_CASE("mesh: bad input: options and vertices", "[scene][bad_input]") {
         CHECK(refused({bad, 100, 0.3}, {"springs_from_mesh", "stretch is ", ">= 0"}) == "");
         CHECK(refused({1000, bad, 0.3}, {"springs_from_mesh", "bend is ", ">= 0"}) == "");
         CHECK(refused({1000, 100, bad}, {"mass", " is ", "> 0"}) == "");
+        MeshOptions damped;
+        damped.rayleigh = {bad, 0};
+        CHECK(refused(damped, {"mass_proportional is ", ">= 0"}) == "");
+        damped.rayleigh = {0, bad};
+        CHECK(refused(damped, {"stiffness_proportional is ", ">= 0"}) == "");
     }
     CHECK(refused({1000, 100, 0}, {"mass", " is 0", "> 0"}) == "");
     Vertices broken = scattered(4);

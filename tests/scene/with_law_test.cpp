@@ -22,7 +22,6 @@ TEMPLATE_TEST_CASE(
         options.dampers = true;
         options.rayleigh = true;
         auto system = random_system<Scalar, 3>(random, options);
-        system.set_graph_damping(0.001);
         const auto state = random_state(random, system);
         taut::Points<Scalar, 3> expected;
         taut::Points<Scalar, 3> f;

@@ -8,17 +8,14 @@
 namespace taut_test {
 
 /// Takes `count` explicit steps of h, s, as the method's formula says, by System::force alone.
-/// @param damping  the stepper's own
 template <taut::Method method, class System>
 void plain_steps(const System& system, typename System::State& state, typename System::Scalar h,
-                 int count, const taut::StepDamping& damping = {}) {
+                 int count) {
     typename System::Force f;
     const auto kick = [&](typename System::Scalar time) {
         state.v.array() += time * (f.array().rowwise() * system.inverse_mass().transpose().array());
     };
-    const auto update_force = [&] {
-        system.force(state, f, damping.times(static_cast<double>(h)));
-    };
+    const auto update_force = [&] { system.force(state, f); };
     if (method == taut::Method::velocity_verlet && count > 0) update_force();
     for (int i = 0; i < count; ++i) {
         if (method == taut::Method::velocity_verlet) {

@@ -30,7 +30,6 @@ void Exact::add(Index a, Index b, const ExactSpring& spring) {
     };
     const RealMatrix one = RealMatrix::Identity(Dim, Dim);
     const RealMatrix bound = spring.stiffness_bound * one;
-    add(D, spring.graph_damping * bound);
     const Real squared = spring.dx.squaredNorm();
     if (squared == 0) {
         add(K, bound);

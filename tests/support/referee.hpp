@@ -25,10 +25,9 @@ struct ExactSpring {
     Real axial;            ///< N/m
     Real across;           ///< N/m
     Real damping;          ///< N·s/m, along the spring
-    Real graph_damping;    ///< s
 };
 
-/// M, K, K⁺, D of the free degrees of freedom [T1], [T2], [T27], [T28], [T34].
+/// M, K, K⁺, D of the free degrees of freedom [T1], [T2], [T27], [T28].
 struct Exact {
     RealVector mass;
     RealMatrix K;
@@ -69,7 +68,6 @@ Exact exact_matrices(const System& system, const Pose& pose) {
             spring.axial = l == 0 ? 0 : Law::tension_slope(p, L, l);
             spring.across = l == 0 || Dim == 1 ? 0 : Law::tension(p, L, l) / l;
             spring.damping = static_cast<Real>(set.damping_of(s));
-            spring.graph_damping = static_cast<Real>(system.graph_damping());
             e.add(block[set.a[s]], block[set.b[s]], spring);
         }
     });

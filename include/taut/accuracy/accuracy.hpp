@@ -32,27 +32,17 @@ inline void require_mode(const char* function, double z, double zeta) {
     }
 }
 
-inline void require_added(Method method, double added) {
-    require_non_negative("mode_error", "added", added);
-    if (added > 0 && !method::is_limited_by<method::LimitedByStiffness>(method))
-        fail("mode_error: added is ", added, "; it must be 0 for ", name(method));
-}
-
 }  // namespace tradeoff_detail
 
 /// The exact errors of one mode: ln μ/h against λ. For ζ = 0 and small z the damping ratio is
-/// −z/2 (explicit Euler), 0, 0, z/2 (implicit Euler) and z³/4 (BDF2), the period error z²/3,
-/// −z²/24, −z²/24, z²/3 and z²/3 (theory, section 12). With ζ > 0 all but BDF2, of order 2, err
-/// like z.
+/// −z/2 (explicit Euler), 0, 0, z/2 (implicit Euler), z³/4 (BDF2) and z/2 (energy-stable Euler),
+/// the period error z²/3, −z²/24, −z²/24, z²/3, z²/3 and −z²/6 (theory, section 12). With ζ > 0 all
+/// but BDF2, of order 2, err like z.
 /// @param z  hω, rad, > 0   @param zeta  the mode's own damping ratio, in [0, 1)
-/// @param added  α/h of ExplicitOptions::damping.look_ahead, ≥ 0, which damps by added·z/2 more: an
-///               error. Of symplectic Euler and velocity Verlet; others have none
-inline ModeError mode_error(Method method, double z, double zeta = 0, double added = 0) {
+inline ModeError mode_error(Method method, double z, double zeta = 0) {
     tradeoff_detail::require_mode("mode_error", z, zeta);
-    tradeoff_detail::require_added(method, added);
-    const auto e = method::visit(method, [&](auto descriptor) {
-        return method::multiplier_less_one(descriptor, z, zeta + added * z / 2);
-    });
+    const auto e = method::visit(
+        method, [&](auto descriptor) { return method::multiplier_less_one(descriptor, z, zeta); });
     const double decay = -std::log1p(2 * e.real() + std::norm(e)) / 2;
     const double phase = std::atan2(e.imag(), 1 + e.real());
     return {decay / std::hypot(decay, phase) - zeta,
@@ -84,26 +74,24 @@ struct ModeTolerance {
 /// on the exact multiplier; modes below it with the same damping ratio err less. Infinity when
 /// every step does. Safe is another question: usable h = min(safe h, accurate h) [T25].
 /// @param up_to_frequency  ω, rad/s, > 0   @param zeta  the mode's own damping ratio, in [0, 1)
-/// @param added  as for mode_error
 inline double accurate_step(Method method, const ModeTolerance& tolerance, double up_to_frequency,
-                            double zeta = 0, double added = 0) {
+                            double zeta = 0) {
     require_positive("accurate_step", "up_to_frequency", up_to_frequency);
     for (const double bound : {tolerance.damping_ratio, tolerance.period}) {
         if (!(bound > 0)) fail("accurate_step: a tolerance is ", bound, "; both must be > 0");
     }
     // Errors of a damped mode may change sign, so the first step that errs too much is sought from
-    // below. All errors are below z·max(1, added) at small z.
+    // below. All errors are below z at small z.
     constexpr double stride = 1.02;
     constexpr double everything = 1e6;  // radians a step
     double low = 1e-2 * std::min({0.1, tolerance.damping_ratio, tolerance.period});
-    low /= std::max(1.0, added);
-    while (tolerance.admits(mode_error(method, low * stride, zeta, added))) {
+    while (tolerance.admits(mode_error(method, low * stride, zeta))) {
         low *= stride;
         if (low > everything) return std::numeric_limits<double>::infinity();
     }
     detail::Bisection<double> search(low, low * stride, 0);
     while (search.open())
-        search.narrow(tolerance.admits(mode_error(method, search.middle(), zeta, added)));
+        search.narrow(tolerance.admits(mode_error(method, search.middle(), zeta)));
     return search.passes() / up_to_frequency;
 }
 

@@ -11,9 +11,9 @@
 
 namespace taut {
 
-/// What a frame of Guard may cost.
+/// What a frame of Guarded may cost.
 template <class Scalar>
-struct GuardOptions {
+struct GuardedOptions {
     /// s, > 0: the longest step of the trial. An implicit stepper takes a frame at once without it.
     Scalar max_step = std::numeric_limits<Scalar>::infinity();
     /// ≥ 1. A frame whose trial needs more steps is shortened to so many: a late frame does not
@@ -22,14 +22,14 @@ struct GuardOptions {
 
     /// Fails by name unless every value is in range.
     void require_valid() const {
-        if (!(max_step > 0)) fail("Guard: max_step is ", max_step, "; it must be > 0");
+        if (!(max_step > 0)) fail("Guarded: max_step is ", max_step, "; it must be > 0");
         if (max_substeps < 1) {
-            fail("Guard: max_substeps is ", max_substeps, "; it must be >= 1");
+            fail("Guarded: max_substeps is ", max_substeps, "; it must be >= 1");
         }
     }
 };
 
-/// What became of a part of the scene in a frame of Guard, from best to worst.
+/// What became of a part of the scene in a frame of Guarded, from best to worst.
 enum class Taken {
     tried,    ///< the trial stands
     trimmed,  ///< it stands with its end velocities trimmed: it had gained energy
@@ -37,10 +37,10 @@ enum class Taken {
     frozen    ///< so did that gain energy, by a force given as code: the part was stopped
 };
 
-/// Outcome of Guard::advance; false where a part was frozen, or where the frame was refused and
+/// Outcome of Guarded::advance; false where a part was frozen, or where the frame was refused and
 /// the state is that of its start.
 template <class Scalar>
-struct [[nodiscard]] GuardReport {
+struct [[nodiscard]] GuardedReport {
     Status status = Status::ok;
     Taken taken = Taken::tried;                ///< of all parts, the worst
     Index parts = 0;                           ///< free particles joined by springs
@@ -50,8 +50,8 @@ struct [[nodiscard]] GuardReport {
     Scalar advanced = 0;  ///< s; less than the frame if max_substeps cut it, 0 if refused
     double energy = 0;    ///< E at the end, J, summed over the parts like all that follows
     double work = 0;      ///< W, by outside forces, moving pins, constraints and `respond`, J
-    double credit = 0;    ///< d ≤ 0, what may be gained back, J
-    double rounding = 0;  ///< ρ, what rounding may hide in this frame, J
+    double balance = 0;   ///< d, gained beyond the books; < 0: may be gained back, J
+    double rounding = 0;  ///< ρ, what rounding may hide, J
     bool blind = false;   ///< whether that is above a hundredth of a moving part's K
     Index where = -1;     ///< a particle of the worst part, or the one that is not finite
     Index spring = -1;    ///< one that pulls more than its law's stiffness_bound allows

@@ -138,7 +138,7 @@ void ImexEuler<System>::find_shares() {
         for (const auto& link : shares.links()) parts.push_back(link.share);
         const auto laplacian = SpringPencil<1>::any_pose(*system_, SpringPencil<1>::Damping::half);
         const auto rest = laplacian.explicit_part(parts, 1);
-        // Half of it: as energy_stable_limit.
+        // Half of it: as energy_limit.
         const double half = stability_detail::certified_symplectic(rest) / 2;
         certified = laplacian.lost().empty() ? std::min(certified, half) : 0;
     }
@@ -202,7 +202,7 @@ Report ImexEuler<System>::step(AnyState& state, Scalar h, Index count) {
     const auto correction = [&](const auto& a, const auto&) { correct(a); };
     return steps_.run(
         *system_, state, h, count,
-        [&](auto& sweep, int threads, const StepDamping&) {
+        [&](auto& sweep, int threads) {
             return sweep.template run_corrected<true>(*system_, state, h, count, threads,
                                                       correction);
         },

@@ -7,18 +7,12 @@
 
 namespace taut {
 
-/// Of EnergyStableEuler.
-struct EnergyStableOptions {
-    /// As ExplicitOptions::threads.
-    int threads = 1;
-};
-
 /// An explicit step that cannot gain energy [T42]. With y = x + h v each spring has the tension of
 /// its length at y; it pulls along its direction at y and pushes along its direction at x:
 ///
 ///     v⁺ = v + h M⁻¹(f − D v + F),  x⁺ = x + h v⁺
 ///
-/// For h ≤ energy_stable_limit(system).certified the energy H = T + U rises by no more than the
+/// For h ≤ energy_limit(system).certified the energy H = T + U rises by no more than the
 /// work h F·v⁺ of external forces F and −h Σ u·f_p of pins of velocity u, f_p what springs and
 /// dampers do to them, and by rounding: at any pose, any speed, for all time; steps may differ.
 ///
@@ -33,19 +27,21 @@ class EnergyStableEuler {
 public:
     using Scalar = typename System::Scalar;
     using State = typename System::State;
-    using Options = EnergyStableOptions;
+    using Options = ExplicitOptions;
     static constexpr Method method = Method::energy_stable_euler;
     static constexpr int order = method::EnergyStableEuler::order;
 
     /// Keeps a reference: the system must outlive the stepper.
     explicit EnergyStableEuler(const System& system, const Options& options = {})
-        : system_(&system), steps_({options.threads, {}}) {}
+        : system_(&system), steps_(options) {}
     explicit EnergyStableEuler(const System&&, const Options& = {}) = delete;
 
     /// Takes `count` steps of h, s, finite and > 0, of a State or StateView. A pin enters y with
     /// the velocity that the state gives it. On failure the state is as it was before.
     template <class AnyState>
     Report step(AnyState& state, Scalar h, Index count = 1);
+    /// For the guard, which books the work of a SpringSystem's steps.
+    void watch(integrator_detail::sweep::StepWatch<System>* by) { steps_.watch(by); }
 
 private:
     const System* system_;

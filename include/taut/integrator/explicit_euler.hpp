@@ -32,9 +32,6 @@ public:
     template <class AnyState>
     Report step(AnyState& state, Scalar h, Index count = 1);
 
-    /// The stepper's own damping, as shares of the step.
-    const StepDamping& damping() const { return steps_.damping(); }
-
 private:
     struct Update {
         template <class X, class V, class A, class Step>

@@ -9,8 +9,8 @@ namespace taut {
 
 /// Symplectic (semi-implicit) Euler [T5]:  v⁺ = v + h M⁻¹ f(x, v),  x⁺ = x + h v⁺  (the new v).
 ///
-/// Stable up to 2/√k_max without damping, at a pose [T10]. For a moving scene take step and damping
-/// from `recipe`, which are measured, or from energy_limit(system), which are proved [T34].
+/// Stable up to 2/√k_max without damping, at a pose [T10]. A scene that moves through poses may
+/// gain energy below every pose's limit: step it by EnergyStableEuler, or under the guard.
 template <class System>
 class SymplecticEuler {
     static_assert((require_system<System>(), true));
@@ -31,9 +31,8 @@ public:
     /// is as it was before.
     template <class AnyState>
     Report step(AnyState& state, Scalar h, Index count = 1);
-
-    /// The stepper's own damping, as shares of the step.
-    const StepDamping& damping() const { return steps_.damping(); }
+    /// For the guard, which books the work of a SpringSystem's steps.
+    void watch(integrator_detail::sweep::StepWatch<System>* by) { steps_.watch(by); }
 
 private:
     const System* system_;

@@ -33,46 +33,42 @@ public:
     /// is as it was before.
     template <class AnyState>
     Report step(AnyState& state, Scalar h, Index count = 1);
-
-    /// The stepper's own damping, as shares of the step.
-    const StepDamping& damping() const { return steps_.damping(); }
+    /// For the guard, which books the work of a SpringSystem's steps.
+    void watch(integrator_detail::sweep::StepWatch<System>* by) { steps_.watch(by); }
 
 private:
     const System* system_;
     integrator_detail::ExplicitSteps<System> steps_;
     integrator_detail::LastState<State> last_;  // that the kept force belongs to
     bool last_by_sweep_ = false;                // or by the plain path: who knows it
-    Scalar last_h_ = 0;
 };
 
 template <class System>
 template <class AnyState>
 Report VelocityVerlet<System>::step(AnyState& state, Scalar h, Index count) {
-    // With damping of its own a force belongs to one step size.
-    const bool known = last_.is(*system_, state) && (!damping() || h == last_h_);
+    const bool known = last_.is(*system_, state);
     bool plain_knows = known && !last_by_sweep_;
     bool swept = false;
     const Report report = steps_.run(
         *system_, state, h, count,
-        [&](auto& sweep, const auto&... how) {
-            return swept =
-                       sweep.run_verlet(*system_, state, h, count, how..., known && last_by_sweep_);
+        [&](auto& sweep, int threads) {
+            return swept = sweep.run_verlet(*system_, state, h, count, threads,
+                                            known && last_by_sweep_);
         },
         [&](State& own) {
-            if (!plain_knows) steps_.update_force(*system_, own, h);
+            if (!plain_knows) steps_.update_force(*system_, own);
             plain_knows = true;
             own.v.array() += h / 2 * steps_.acceleration(*system_);
             own.x += h * own.v;
             own.time += h;
             if (!own.finite()) return;  // nobody's force is asked there
-            steps_.update_force(*system_, own, h);
+            steps_.update_force(*system_, own);
             own.v.array() += h / 2 * steps_.acceleration(*system_);
         });
     if (!report) last_.forget();
     if (report && report.iterations > 0) {
         last_.keep(*system_, state);
         last_by_sweep_ = swept;
-        last_h_ = h;
     }
     return report;
 }

@@ -9,12 +9,11 @@ namespace taut::method {
 /// The descriptor of BDF2 at equal steps [T29]; what its members mean: ExplicitEuler. Each root λ
 /// of a mode has the two multipliers 1/(2 ± √(1 + 2hλ)), of modulus ≤ 1 for Re λ ≤ 0, so there are
 /// four to a mode and no quadratic. Beside compressed springs nothing is proved of it.
-struct Bdf2 : KeepsNoEnergy {
+struct Bdf2 {
     static constexpr Method method = Method::bdf2;
     static constexpr const char* name = "bdf2";
     static constexpr int order = 2;
     static constexpr bool is_implicit = true;
-    static constexpr bool averages_forces = false;
     using Limit = Absent;
     static constexpr AnyPose any_pose = AnyPose::every_step;
 

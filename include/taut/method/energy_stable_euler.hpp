@@ -11,12 +11,11 @@ namespace taut::method {
 /// The descriptor of the energy-stable Euler step [T42]; what its members mean: ExplicitEuler. In
 /// the linear it is symplectic Euler with D + hK⁺, since springs push along their old direction.
 /// What is proved of it holds at every pose and speed: no limit is asked for at one.
-struct EnergyStableEuler : KeepsNoEnergy {
+struct EnergyStableEuler {
     static constexpr Method method = Method::energy_stable_euler;
     static constexpr const char* name = "energy_stable_euler";
     static constexpr int order = 1;
     static constexpr bool is_implicit = false;
-    static constexpr bool averages_forces = false;
     using Limit = Absent;
     static constexpr AnyPose any_pose = AnyPose::proved;
 

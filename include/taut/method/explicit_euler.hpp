@@ -7,15 +7,13 @@
 namespace taut::method {
 
 /// The descriptor of explicit Euler [T4], and the model of all: every descriptor has these members.
-struct ExplicitEuler : KeepsNoEnergy {
+struct ExplicitEuler {
     static constexpr Method method = Method::explicit_euler;
     /// As tables, sentences and the programs' JSON spell it.
     static constexpr const char* name = "explicit_euler";
     static constexpr int order = 1;
     /// Whether a step solves a linear system; its forces are then those at its end.
     static constexpr bool is_implicit = false;
-    /// Whether a step averages the forces at its two ends.
-    static constexpr bool averages_forces = false;
     /// What holds a step down at one pose, or Absent.
     using Limit = LimitedByDamping;
     /// Which steps are safe at every pose.
@@ -36,11 +34,6 @@ struct ExplicitEuler : KeepsNoEnergy {
         const double root = taut::method_detail::discriminant_root(d, -k);
         return root < 0 ? d / k : 2 / (d / 2 + root / 2);
     }
-    // Of KeepsNoEnergy: kept_energy(books, h), the energy that steps of h, s, keep on a linear
-    // scene while pins rest [T36]; energy_lag(books, h), the part that gravity and moving pins have
-    // in its difference from H; energy_band(share, braked), the least and the largest ratio of the
-    // rest to T + V, at steps of that share of any_pose_limit, the stepper's own damping being
-    // braked/share² of its step.
 };
 
 }  // namespace taut::method

@@ -9,12 +9,11 @@
 namespace taut::method {
 
 /// The descriptor of implicit Euler [T6], [T27]; what its members mean: ExplicitEuler.
-struct ImplicitEuler : KeepsNoEnergy {
+struct ImplicitEuler {
     static constexpr Method method = Method::implicit_euler;
     static constexpr const char* name = "implicit_euler";
     static constexpr int order = 1;
     static constexpr bool is_implicit = true;
-    static constexpr bool averages_forces = false;
     using Limit = LimitedByIndefiniteness;
     static constexpr AnyPose any_pose = AnyPose::every_step;
 

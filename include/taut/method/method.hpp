@@ -47,30 +47,8 @@ struct LimitedByIndefiniteness {};
 enum class AnyPose {
     no_step,    ///< none is certified: Guarded refuses the method, recommend() passes it over
     limited,    ///< those below any_pose_limit [T23]
-    proved,     ///< those below energy_stable_limit, and not linearised only [T42]
+    proved,     ///< those below energy_limit, and not linearised only [T42]
     every_step  ///< all, of an implicit method
-};
-
-/// Where the energy that a method keeps lies, in shares of E = T + V [T36].
-struct EnergyBand {
-    double least = 1;
-    double most = 1;
-};
-
-/// The part of a descriptor whose method keeps no energy: it is judged by H = T + V + G itself.
-struct KeepsNoEnergy {
-    /// H, J. @param books  integrator_detail::EnergyBooks
-    template <class Books>
-    static double kept_energy(const Books& books, double) {
-        return books.total();
-    }
-    /// No part of it oscillates: 0 J.
-    template <class Books>
-    static double energy_lag(const Books&, double) {
-        return 0;
-    }
-    /// It is E itself.
-    static EnergyBand energy_band(double, double) { return {}; }
 };
 
 }  // namespace method

@@ -14,7 +14,6 @@ struct SymplecticEuler {
     static constexpr const char* name = "symplectic_euler";
     static constexpr int order = 1;
     static constexpr bool is_implicit = false;
-    static constexpr bool averages_forces = false;
     using Limit = LimitedByStiffness;
     static constexpr AnyPose any_pose = AnyPose::limited;
 
@@ -32,20 +31,6 @@ struct SymplecticEuler {
     static double critical_step(double k, double d) {
         const double root = taut::method_detail::discriminant_root(d, k);
         return root < 0 ? std::numeric_limits<double>::infinity() : 2 / (d / 2 + root / 2);
-    }
-    /// H + ½h v·f − ¼h vᵀDv, J [T36].
-    template <class Books>
-    static double kept_energy(const Books& books, double h) {
-        return books.total() + h / 2 * books.power - h / 4 * books.braking(h);
-    }
-    /// ½h of gravity's and the pins' power, J.
-    template <class Books>
-    static double energy_lag(const Books& books, double h) {
-        return h / 2 * (books.fall_power + books.pin_power);
-    }
-    /// [1 − b − √(b² + s²), 1 + s] with s the share, b braked.
-    static EnergyBand energy_band(double share, double braked) {
-        return {1 - braked - std::hypot(braked, share), 1 + share};
     }
 };
 

@@ -29,10 +29,8 @@ using All =
 template <class D>
 using Description =
     std::tuple<decltype(D::method), decltype(D::name), decltype(D::order), decltype(D::is_implicit),
-               decltype(D::averages_forces), typename D::Limit, decltype(D::any_pose),
-               decltype(D::step_quadratic)*, decltype(D::spectral_radius(0.0, 0.0, 0.0)),
-               decltype(D::critical_step(0.0, 0.0)), decltype(D::kept_energy(0, 0.0)),
-               decltype(D::energy_lag(0, 0.0)), decltype(D::energy_band(0.0, 0.0))>;
+               typename D::Limit, decltype(D::any_pose), decltype(D::step_quadratic)*,
+               decltype(D::spectral_radius(0.0, 0.0, 0.0)), decltype(D::critical_step(0.0, 0.0))>;
 
 /// Whether these are the methods of the enum, each once and in its order.
 template <class... Descriptors>
@@ -79,7 +77,7 @@ auto visit_limited(const char* function, Method method, Action&& action) {
         if constexpr (is_absent_v<typename Descriptor::Limit>) {
             fail(function, ": no step of ", Descriptor::name, " is proved safe at a pose; ask ",
                  Descriptor::any_pose == AnyPose::proved
-                     ? "energy_stable_limit, which proves steps at every pose"
+                     ? "energy_limit, which proves steps at every pose"
                      : "for implicit_euler, whose steps are");
         } else {
             return action(descriptor);

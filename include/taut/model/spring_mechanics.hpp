@@ -105,9 +105,6 @@ Scalar spring_length(const Vector& dx) {
     return SpringLength<Scalar>(dx.squaredNorm()).l;
 }
 
-/// Which damping in proportion to stiffness a pull has; `projected` includes `graph`.
-enum class Proportional { none, graph, projected };
-
 /// The force of a spring on its end a, of_dx·dx + of_dv·dv, with dx = x_b − x_a, m, and
 /// dv = v_b − v_a, m/s; that on end b is its opposite.
 template <class Real>
@@ -116,31 +113,25 @@ struct Pull {
     Real of_dv;  ///< N·s/m
 };
 
-/// Adds to a spring's pull that of its damper where Dampers, and of damping in proportion to
-/// stiffness, D = projected·K⁺ + graph·(L_k ⊗ I)  [T2], [T28], [T34]. Numbers, or registers of as
-/// many springs.
+/// Adds to a spring's pull that of its damper where Dampers, and of Rayleigh damping αK⁺ where
+/// Rayleigh [T2], [T28]. Numbers, or registers of as many springs.
 /// @param spring  tension_slope(l), stiffness_bound(), axial_damping(): Spring has them
-/// @param by      factors of the damping in proportion to stiffness, s
+/// @param alpha   α, s
 /// @param l2      dx·dx, m², of `length`   @param over_l  T/l, N/m
-/// @param dx_dv   dx·dv, m²/s; read where Dampers, or Kind is `projected`
-template <bool Dampers, Proportional Kind, class AnySpring, class Scalar, class Real>
-EIGEN_ALWAYS_INLINE void add_damping(const AnySpring& spring, const StiffnessDamping<Scalar>& by,
+/// @param dx_dv   dx·dv, m²/s; read where there is either
+template <bool Dampers, bool Rayleigh, class AnySpring, class Scalar, class Real>
+EIGEN_ALWAYS_INLINE void add_damping(const AnySpring& spring, Scalar alpha,
                                      const SpringLength<Real>& length, const Real& l2,
                                      const Real& over_l, const Real& dx_dv, Pull<Real>& pull) {
     using model_detail::where_less;
-    const Real zero(Scalar(0));
-    Real bound = zero;
-    if constexpr (Kind != Proportional::none) {
-        bound = spring.stiffness_bound();
-        pull.of_dv = Real(by.graph) * bound;
-    }
     [[maybe_unused]] const Real strain_rate = length.divide(length.divide(dx_dv));  // 1/s
     if constexpr (Dampers) pull.of_dx += spring.axial_damping() * strain_rate;
-    if constexpr (Kind == Proportional::projected) {
+    if constexpr (Rayleigh) {
         const Real axial = k_plus(spring.tension_slope(length.l));
-        const Real transverse = where_less(zero, l2, k_plus(over_l), bound);
-        pull.of_dv += Real(by.projected) * transverse;
-        pull.of_dx += Real(by.projected) * (axial - transverse) * strain_rate;
+        const Real transverse =
+            where_less(Real(Scalar(0)), l2, k_plus(over_l), Real(spring.stiffness_bound()));
+        pull.of_dv += Real(alpha) * transverse;
+        pull.of_dx += Real(alpha) * (axial - transverse) * strain_rate;
     }
 }
 
@@ -148,14 +139,13 @@ EIGEN_ALWAYS_INLINE void add_damping(const AnySpring& spring, const StiffnessDam
 ///
 /// Ends that coincide (l² = 0) have no direction: of_dx then stands for nothing and must meet
 /// dx = 0, and K⁺ is the law's bound times the identity.
-template <bool Dampers, Proportional Kind, class AnySpring, class Scalar, class Real>
-EIGEN_ALWAYS_INLINE Pull<Real> pull_coefficients(const AnySpring& spring,
-                                                 const StiffnessDamping<Scalar>& by, const Real& l2,
-                                                 const Real& dx_dv) {
+template <bool Dampers, bool Rayleigh, class AnySpring, class Scalar, class Real>
+EIGEN_ALWAYS_INLINE Pull<Real> pull_coefficients(const AnySpring& spring, Scalar alpha,
+                                                 const Real& l2, const Real& dx_dv) {
     const SpringLength<Real> length(l2);
     const Real over_l = length.divide(spring.tension(length.l));
     Pull<Real> pull{over_l, Real(Scalar(0))};
-    add_damping<Dampers, Kind>(spring, by, length, l2, over_l, dx_dv, pull);
+    add_damping<Dampers, Rayleigh>(spring, alpha, length, l2, over_l, dx_dv, pull);
     return pull;
 }
 
@@ -164,27 +154,23 @@ template <class Scalar, class Law, class Vector>
 EIGEN_ALWAYS_INLINE Vector pull(const Spring<Scalar, Law>& spring, const Vector& dx) {
     const Scalar l2 = dx.squaredNorm();
     if (l2 == 0) return Vector::Zero();
-    const StiffnessDamping<Scalar> none;
-    return pull_coefficients<false, Proportional::none>(spring, none, l2, Scalar(0)).of_dx * dx;
+    return pull_coefficients<false, false>(spring, Scalar(0), l2, Scalar(0)).of_dx * dx;
 }
 
 /// The force of a spring and its damper on its end a, N; the opposite acts on b.
 /// @param dx  x_b − x_a, m   @param dv  v_b − v_a, m/s
-/// @param by  damping in proportion to stiffness, s
+/// @param alpha  of Rayleigh damping, s
 template <class Scalar, class Law, class Vector>
-Vector pull(const Spring<Scalar, Law>& spring, const Vector& dx, const Vector& dv,
-            const StiffnessDamping<Scalar>& by) {
-    constexpr auto none = Proportional::none;
+Vector pull(const Spring<Scalar, Law>& spring, const Vector& dx, const Vector& dv, Scalar alpha) {
     const Scalar l2 = dx.squaredNorm();
     const Scalar dx_dv = dx.dot(dv);
-    const bool proportional(by);
-    const Pull<Scalar> c =
-        proportional ? pull_coefficients<true, Proportional::projected>(spring, by, l2, dx_dv)
-        : spring.damping > 0 ? pull_coefficients<true, none>(spring, by, l2, dx_dv)
-                             : pull_coefficients<false, none>(spring, by, l2, dx_dv);
+    const Pull<Scalar> c = alpha > 0 ? pull_coefficients<true, true>(spring, alpha, l2, dx_dv)
+                           : spring.damping > 0
+                               ? pull_coefficients<true, false>(spring, alpha, l2, dx_dv)
+                               : pull_coefficients<false, false>(spring, alpha, l2, dx_dv);
     Vector force = Vector::Zero();
     if (!(l2 == 0)) force = c.of_dx * dx;  // what is not a number stays so
-    if (proportional) force += c.of_dv * dv;
+    if (alpha > 0) force += c.of_dv * dv;
     return force;
 }
 
@@ -220,9 +206,8 @@ EIGEN_ALWAYS_INLINE Real tension_ahead(const AnySpring& spring, const Real& of_y
 /// A spring one step ahead pulls along its new direction and pushes along the old one [T42]; it is
 /// damped at y. Numbers, or registers.
 /// @param y2    y·y, m²   @param y_dv  y·dv, m²/s   @param l2  dx·dx, m²
-template <bool Dampers, Proportional Kind, class AnySpring, class Scalar, class Real>
-EIGEN_ALWAYS_INLINE PullAhead<Real> pull_ahead_coefficients(const AnySpring& spring,
-                                                            const StiffnessDamping<Scalar>& by,
+template <bool Dampers, bool Rayleigh, class AnySpring, class Scalar, class Real>
+EIGEN_ALWAYS_INLINE PullAhead<Real> pull_ahead_coefficients(const AnySpring& spring, Scalar alpha,
                                                             const Real& y2, const Real& y_dv,
                                                             const Real& l2) {
     const SpringLength<Real> ahead(y2), here(l2);
@@ -232,56 +217,26 @@ EIGEN_ALWAYS_INLINE PullAhead<Real> pull_ahead_coefficients(const AnySpring& spr
     pull.of_dx = k_plus(ahead.divide(tension));
     pull.of_dv = Real(Scalar(0));
     pull.of_here = k_plus(here.divide(-tension));
-    add_damping<Dampers, Kind>(spring, by, ahead, y2, ahead.divide(of_y), y_dv, pull);
+    add_damping<Dampers, Rayleigh>(spring, alpha, ahead, y2, ahead.divide(of_y), y_dv, pull);
     return pull;
 }
 
 /// The force of a spring one step ahead and of its damper on its end a, N; the opposite acts on b.
 /// @param dx  x_b − x_a, m   @param dv  v_b − v_a, m/s   @param h  of the step, s
-/// @param by  damping in proportion to stiffness, s
+/// @param alpha  of Rayleigh damping, s
 template <class Scalar, class Law, class Vector>
 Vector pull_ahead(const Spring<Scalar, Law>& spring, const Vector& dx, const Vector& dv, Scalar h,
-                  const StiffnessDamping<Scalar>& by) {
+                  Scalar alpha) {
     const Vector y = dx + h * dv;
     if constexpr (Law::convex) {
-        return pull(spring, y, dv, by);
+        return pull(spring, y, dv, alpha);
     } else {
-        const auto c = pull_ahead_coefficients<true, Proportional::projected>(
-            spring, by, y.squaredNorm(), y.dot(dv), dx.squaredNorm());
+        const auto c = pull_ahead_coefficients<true, true>(spring, alpha, y.squaredNorm(),
+                                                           y.dot(dv), dx.squaredNorm());
         Vector force = c.of_dx * y + c.of_dv * dv;
         if (!(dx.squaredNorm() == 0)) force -= c.of_here * dx;  // what is not a number stays so
         return force;
     }
-}
-
-/// The power that damping takes from one spring, vᵀDv, W, by the factors of its sum.
-struct Braking {
-    double damper = 0;     ///< of the spring's own damper, W
-    double projected = 0;  ///< of K⁺, W/s
-    double graph = 0;      ///< of L_k ⊗ I, W/s
-
-    /// The power of damping in proportion to stiffness, W.
-    double of(const StiffnessDamping<double>& by) const {
-        return by.projected * projected + by.graph * graph;
-    }
-};
-
-/// @param dx  x_b − x_a, m   @param dv  v_b − v_a, m/s   @param l  spring_length(dx)
-/// @param over_l  T/l, N/m
-template <class Scalar, class Law, class Vector>
-EIGEN_ALWAYS_INLINE Braking braking_of(const Spring<Scalar, Law>& spring, const Vector& dx,
-                                       const Vector& dv, Scalar l, Scalar over_l) {
-    Braking power;
-    const auto dv2 = static_cast<double>(dv.squaredNorm());
-    power.graph = static_cast<double>(spring.stiffness_bound()) * dv2;
-    power.projected = power.graph;
-    if (!(dx.squaredNorm() > 0)) return power;
-    const auto stretching = static_cast<double>(dx.dot(dv) / l);
-    const double along = stretching * stretching;
-    power.damper = static_cast<double>(spring.damping) * along;
-    power.projected = static_cast<double>(k_plus(spring.tension_slope(l))) * along +
-                      static_cast<double>(k_plus(over_l)) * (dv2 - along);
-    return power;
 }
 
 }  // namespace taut

@@ -105,10 +105,6 @@ public:
     void set_gravity(const Vector& gravity);
     /// @param rayleigh  both factors ≥ 0 and finite in Scalar; acts through K⁺ [T28]
     void set_rayleigh(const RayleighDamping& rayleigh);
-    /// Every spring also damps the whole relative velocity of its ends, by α times its stiffness
-    /// bound: D = α(L_k ⊗ I) [T34]. energy_limit says at which α and h no energy can be gained.
-    /// It slows rotation, too. @param alpha  s, ≥ 0 and finite in Scalar
-    void set_graph_damping(double alpha);
 
     // External forces add up. Step limits and certificates hold for the scene without them. A
     // strong drag on light particles can make an explicit step unstable.
@@ -144,13 +140,6 @@ public:
     }
     /// Both factors 0 unless set.
     const RayleighDamping& rayleigh() const { return rayleigh_; }
-    /// α of set_graph_damping, s; 0 unless set.
-    double graph_damping() const { return graph_damping_; }
-    /// All damping in proportion to stiffness, at the springs' ends as they are.
-    /// @param added  a stepper's own, StepDamping::times(h): its look_ahead moves the ends instead
-    StiffnessDamping<double> stiffness_damping(const StepDamping& added = {}) const {
-        return {rayleigh_.stiffness_proportional, graph_damping_ + added.graph};
-    }
     /// m/s², 0 unless set.
     const Vector& gravity() const { return gravity_; }
     /// The springs of one law.
@@ -171,8 +160,7 @@ public:
     /// The positions given to add_particle, at rest.
     State initial_state() const;
     /// f ← total force on every particle, N, Dim × n; on a pinned one, what its pin has to bear.
-    /// @param added  a stepper's own damping beside the system's, StepDamping::times(h)
-    void force(const State& state, Force& f, const StepDamping& added = {}) const;
+    void force(const State& state, Force& f) const;
     /// The same for a step of h, s, of EnergyStableEuler: springs pull as [T42] says.
     void force_ahead(const State& state, Scalar h, Force& f) const;
     /// Whether any external force is set.
@@ -241,7 +229,6 @@ private:
     SpringSets sets_;
     Vector gravity_ = Vector::Zero();  // m/s²
     RayleighDamping rayleigh_;
-    double graph_damping_ = 0;  // s
     ExternalForces<Scalar, Dim> external_;
     Revision revision_;
     Revision topology_revision_;

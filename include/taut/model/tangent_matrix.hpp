@@ -82,7 +82,6 @@ void TangentMatrix<Scalar, Dim>::assemble(const System& system, const Points<Sca
     const Scalar on_k = static_cast<Scalar>(c.stiffness());
     const Scalar on_k_plus = static_cast<Scalar>(c.projected());
     const Scalar on_rayleigh = static_cast<Scalar>(c.damping() * rayleigh.stiffness_proportional);
-    const Scalar on_bound = static_cast<Scalar>(c.damping() * system.graph_damping());
     const Scalar on_damper = static_cast<Scalar>(c.damping());
     std::size_t s = 0;
     system.for_each_tangent(x, [&](const SpringTangent<Scalar, Dim>& raw) {
@@ -90,11 +89,10 @@ void TangentMatrix<Scalar, Dim>::assemble(const System& system, const Points<Sca
         const Index a = free_.place(raw.a);
         const Index b = free_.place(raw.b);
         const auto plus = raw.projected();
-        const Scalar graph = on_bound * raw.bound;
         const Scalar axial = on_k * raw.axial + on_k_plus * plus.axial + on_rayleigh * plus.axial +
-                             on_damper * raw.damping + graph;
-        const Scalar transverse = on_k * raw.transverse + on_k_plus * plus.transverse +
-                                  on_rayleigh * plus.transverse + graph;
+                             on_damper * raw.damping;
+        const Scalar transverse =
+            on_k * raw.transverse + on_k_plus * plus.transverse + on_rayleigh * plus.transverse;
         const Block P = spring_block(raw.d, axial, transverse);
         if (a >= 0) pattern_.add(A, diagonal_[a], a, P);
         if (b >= 0) pattern_.add(A, diagonal_[b], b, P);

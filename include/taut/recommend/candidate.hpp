@@ -24,11 +24,10 @@ enum class LinearSolver {
 
 /// One way to advance a scene.
 struct Candidate {
-    Method method = Method::symplectic_euler;
+    Method method = Method::energy_stable_euler;
     double h = 0;                                ///< s
     LinearSolver solver = LinearSolver::direct;  ///< of an implicit method
     double solver_tolerance = 1e-3;              ///< of conjugate gradients
-    StepDamping damping{};                       ///< ExplicitOptions::damping of an explicit method
 };
 
 /// The method, and the solver where there is one; without the step.
@@ -70,15 +69,11 @@ struct StepperOf<method::EnergyStableEuler, System, Solver> {
     using type = EnergyStableEuler<System>;
 };
 
-/// The stepper of `candidate`, which has this descriptor and this solver.
+/// The stepper with this descriptor and this solver.
 template <class Descriptor, class Solver, class System>
-auto make_stepper(const System& system, const Candidate& candidate) {
+auto make_stepper(const System& system) {
     using Stepper = typename StepperOf<Descriptor, System, Solver>::type;
-    if constexpr (Descriptor::is_implicit || Descriptor::method == Method::energy_stable_euler) {
-        return Stepper(system);
-    } else {
-        return Stepper(system, ExplicitOptions{1, candidate.damping});
-    }
+    return Stepper(system);
 }
 
 }  // namespace tradeoff_detail
@@ -97,15 +92,14 @@ void with_stepper(const System& system, const Candidate& candidate, Action&& act
         } else {
             if constexpr (Descriptor::is_implicit) {
                 if (candidate.solver == LinearSolver::conjugate_gradient) {
-                    auto stepper =
-                        tradeoff_detail::make_stepper<Descriptor, Gradients>(system, candidate);
+                    auto stepper = tradeoff_detail::make_stepper<Descriptor, Gradients>(system);
                     stepper.configure([&](Gradients& solver) {
                         solver.setTolerance(static_cast<Scalar>(candidate.solver_tolerance));
                     });
                     return action(stepper);
                 }
             }
-            auto stepper = tradeoff_detail::make_stepper<Descriptor, Direct>(system, candidate);
+            auto stepper = tradeoff_detail::make_stepper<Descriptor, Direct>(system);
             return action(stepper);
         }
     });

@@ -39,17 +39,15 @@ struct Plan {
 
 /// The usable step of one candidate, h = min(safe h, accurate h) [T25], as an even part of the
 /// frame.
-/// The candidate's own damping counts among the errors.
 /// @param safe  s, > 0; infinity if every step is
 /// @param zeta  the damping ratio, in [0, 1), of the scene's own mode at Goal::up_to_frequency
 inline Plan plan_for(Candidate candidate, double safe, const Goal& goal, double zeta = 0) {
     require_positive("plan_for", "Goal::frame", goal.frame);
     if (!(safe > 0)) fail("plan_for: safe is ", safe, "; it must be > 0");
     const double infinity = std::numeric_limits<double>::infinity();
-    const double added = is_implicit(candidate.method) ? 0 : candidate.damping.look_ahead;
-    const double accurate = goal.accuracy ? accurate_step(candidate.method, *goal.accuracy,
-                                                          goal.up_to_frequency, zeta, added)
-                                          : infinity;
+    const double accurate =
+        goal.accuracy ? accurate_step(candidate.method, *goal.accuracy, goal.up_to_frequency, zeta)
+                      : infinity;
     Plan plan;
     const double usable = std::min(safe, accurate);
     if (usable < goal.frame)
@@ -61,7 +59,7 @@ inline Plan plan_for(Candidate candidate, double safe, const Goal& goal, double 
     candidate.h = goal.frame / count;
     plan.candidate = candidate;
     if (goal.accuracy) {
-        plan.error = mode_error(candidate.method, candidate.h * goal.up_to_frequency, zeta, added);
+        plan.error = mode_error(candidate.method, candidate.h * goal.up_to_frequency, zeta);
     }
     return plan;
 }

@@ -10,23 +10,21 @@
 #include <vector>
 
 #include "../stability/any_pose.hpp"
-#include "../stability/energy_stable_limit.hpp"
+#include "../stability/energy_limit.hpp"
 #include "../stability/rayleigh.hpp"
 #include "choose.hpp"
 #include "cost.hpp"
 
 namespace taut {
 
-/// What recommend() compares: symplectic Euler by the recipe, and implicit Euler with both solvers;
+/// What recommend() compares: the energy-stable Euler step, and implicit Euler with both solvers;
 /// BDF2 with both where accuracy is asked for, and not where stability is all that counts, for one
 /// of its linearised steps may gain energy.
 inline std::vector<Candidate> recommended_candidates(const Goal& goal) {
     // What is left of a linear solve must not blur the mode errors that the goal admits.
     const double tolerance = goal.accuracy ? 1e-6 : 1e-3;
     std::vector<Candidate> candidates;
-    Candidate symplectic;
-    symplectic.damping = recipe.damping;
-    candidates.push_back(symplectic);
+    candidates.push_back({Method::energy_stable_euler});
     for (const Method method : {Method::implicit_euler, Method::bdf2}) {
         if (method == Method::bdf2 && !goal.accuracy) continue;
         for (const auto solver : {LinearSolver::conjugate_gradient, LinearSolver::direct}) {
@@ -36,10 +34,10 @@ inline std::vector<Candidate> recommended_candidates(const Goal& goal) {
     return candidates;
 }
 
-/// Explicit or implicit? The plans that reach a goal, without their costs: explicit steps at
-/// recipe.safety of any_pose_limit [T23], which with recipe.damping kept the energy of the scenes
-/// tried: measured, not proved; implicit ones, linearised stable at any pose, as large as the
-/// frame; and none above its accurate_step [T25]. The damping that accuracy is predicted with is
+/// Explicit or implicit? The plans that reach a goal, without their costs: energy-stable steps at
+/// energy_limit [T42], other explicit ones, linearised, at half of any_pose_limit [T23]; implicit
+/// ones, linearised stable at any pose, as large as the frame; and none above its accurate_step
+/// [T25]. The damping that accuracy is predicted with is
 /// the scene's Rayleigh damping; dampers on springs are not in it.
 template <class Scalar, int Dim, class... Laws>
 std::vector<Plan> feasible_plans(const SpringSystem<Scalar, Dim, Laws...>& system, const Goal& goal,
@@ -59,10 +57,9 @@ std::vector<Plan> feasible_plans(const SpringSystem<Scalar, Dim, Laws...>& syste
             plans.push_back(
                 plan_for(candidate, std::numeric_limits<double>::infinity(), goal, zeta));
         } else if (safe == method::AnyPose::limited && limit > 0) {
-            const double share = share_of_limit(recipe.safety, candidate.damping);
-            plans.push_back(plan_for(candidate, share * limit, goal, zeta));
+            plans.push_back(plan_for(candidate, limit / 2, goal, zeta));
         } else if (safe == method::AnyPose::proved) {
-            const auto proved = static_cast<double>(energy_stable_limit(system).certified);
+            const auto proved = static_cast<double>(energy_limit(system).certified);
             if (proved > 0) plans.push_back(plan_for(candidate, proved, goal, zeta));
         }
     }

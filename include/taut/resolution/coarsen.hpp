@@ -171,7 +171,6 @@ Coarsening<SpringSystem<Scalar, Dim, Laws...>> coarsen(
             coarse.set_constant_force(c, force.col(c).template cast<Scalar>());
     coarse.set_gravity(system.gravity());
     coarse.set_rayleigh(system.rayleigh());
-    coarse.set_graph_damping(system.graph_damping());
 
     std::vector<scene_detail::ClusterPair> pairs;
     system.for_each_set([&](const auto& set) {

@@ -28,7 +28,7 @@ struct ResolveOptions {
 struct ResolutionLevel {
     Index particles = 0;
     Index springs = 0;
-    double h = 0;     ///< s, by the recipe, at its own any_pose_limit
+    double h = 0;     ///< s, at most its own energy_limit
     double cost = 0;  ///< spring-steps of the duration
     double difference =
         std::numeric_limits<double>::infinity();  ///< from the finest level, of the scene's size

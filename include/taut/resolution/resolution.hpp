@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "../core/clock.hpp"
-#include "../integrator/symplectic_euler.hpp"
-#include "../stability/any_pose.hpp"
+#include "../integrator/energy_stable_euler.hpp"
+#include "../stability/energy_limit.hpp"
 #include "levels.hpp"
 
 namespace taut {
@@ -21,7 +21,7 @@ namespace tradeoff_detail {
 template <class System>
 using Samples = std::vector<Points<typename System::Scalar, System::Dim>>;
 
-/// How a system is stepped through a duration: by the recipe, in even parts of its samples.
+/// How a system is stepped through a duration: by EnergyStableEuler, in even parts of its samples.
 struct Pace {
     double h = 0;     // s; 0: no step is certified
     Index steps = 0;  // from sample to sample
@@ -30,11 +30,11 @@ struct Pace {
 
 template <class System>
 Pace pace_of(const System& system, double duration, Index samples) {
-    const auto limit = any_pose_limit(system);
+    const auto limit = energy_limit(system);
     const double interval = duration / static_cast<double>(samples);
     Pace pace;
     if (!(limit.certified > 0)) return pace;
-    const double most = recipe.safety * static_cast<double>(limit.certified);
+    const auto most = static_cast<double>(limit.certified);
     const double steps = std::max(1.0, std::ceil(interval / most));
     if (steps > 1e12) return pace;
     pace.steps = static_cast<Index>(steps);
@@ -47,7 +47,7 @@ Pace pace_of(const System& system, double duration, Index samples) {
 template <class System, class GoOn>
 Samples<System> run(const System& system, typename System::State state, const Pace& pace,
                     Index samples, const GoOn& go_on) {
-    SymplecticEuler<System> stepper(system, {1, recipe.damping});
+    EnergyStableEuler<System> stepper(system);
     Samples<System> path{state.x};
     for (Index s = 0; s < samples && go_on(); ++s) {
         const auto h = static_cast<typename System::Scalar>(pace.h);
@@ -291,8 +291,8 @@ private:
 ///     auto found = taut::resolve(cloth, state, 2.0, 0.03);   // within 3 % for 2 s
 ///     found.why, found.coarsening->system, found.cheaper()
 ///
-/// Levels of 16, 64, 256 … free particles (fewer in scenes of some hundred) are stepped by the
-/// recipe, each at its own certified step. The estimate of a level's error is its distance
+/// Levels of 16, 64, 256 … free particles (fewer in scenes of some hundred) are stepped by
+/// EnergyStableEuler, each at its own energy_limit. The estimate of a level's error is its distance
 /// from the finest level, of three at the least, and half the distance of the last two. It is
 /// an estimate: nothing here is certified but the steps. The last run disturbs a level by 1e-7 of
 /// the scene's size: what that grows to, no resolution can predict better.

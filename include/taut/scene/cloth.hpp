@@ -21,9 +21,10 @@ struct ClothOptions {
     double gravity = 9.81;    ///< along −z, m/s²
     bool pin_corners = true;  ///< particles 0 and columns − 1, the corners of one edge
     bool diagonals = true;
+    RayleighDamping rayleigh = {};  ///< none unless asked for
 };
 
-/// The cloth of `options`, undamped; particle row·columns + column.
+/// The cloth of `options`; particle row·columns + column.
 /// @throws when rows or columns is < 2, or a physical value is out of its range
 template <class Scalar>
 SpringSystem<Scalar, 3> hanging_cloth(const ClothOptions& options = {}) {
@@ -73,6 +74,7 @@ SpringSystem<Scalar, 3> hanging_cloth(const ClothOptions& options = {}) {
         system.pin(columns - 1);
     }
     system.set_gravity({Scalar(0), Scalar(0), static_cast<Scalar>(-options.gravity)});
+    system.set_rayleigh(options.rayleigh);
     return system;
 }
 

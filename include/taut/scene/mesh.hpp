@@ -26,6 +26,7 @@ struct MeshOptions {
     /// springs along edges and quad diagonals: a fine part of a mesh then stretches as a coarse one
     /// does.
     bool stiffness_by_length = false;
+    RayleighDamping rayleigh = {};  ///< none unless asked for
 };
 
 /// What springs_from_mesh returns.
@@ -235,6 +236,7 @@ MeshSprings<Scalar> springs_from_mesh(const Points<Scalar, 3>& vertices,
     require_non_negative("springs_from_mesh", "bend", options.bend);
     require_positive("springs_from_mesh", "mass", options.mass);
     MeshSprings<Scalar> mesh;
+    mesh.system.set_rayleigh(options.rayleigh);
     auto& particle = mesh.particle_of_vertex;
     particle.assign(static_cast<std::size_t>(vertices.cols()), Index(-1));
     for (const auto& face : faces) {

@@ -24,7 +24,6 @@ Copy with_springs(const System& system, Add&& add) {
     system.visit_springs([&](auto spring) { add(copy, std::move(spring), index++); });
     copy.set_gravity(system.gravity());
     copy.set_rayleigh(system.rayleigh());
-    copy.set_graph_damping(system.graph_damping());
     return copy;
 }
 

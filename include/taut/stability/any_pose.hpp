@@ -30,7 +30,7 @@ StepLimit<Scalar> any_pose_bracket(const SpringSystem<Scalar, Dim, Laws...>& sys
 /// splitting bound alone [T26].
 ///
 /// It bounds the growth of small vibrations about each pose that a scene moves through, not the
-/// energy of the motion. energy_limit bounds that; `recipe` is what to step a moving scene by.
+/// energy of the motion. energy_limit bounds that.
 /// `certified` is proved; `refuted` is where the condition itself fails: no larger step can be
 /// certified for every pose in this way, though a given pose may allow one. Wind and other external
 /// forces are not counted: they need not be conservative, nor a drag bounded. Void when stiffness

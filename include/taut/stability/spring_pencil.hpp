@@ -23,7 +23,7 @@ public:
     using Block = Eigen::Matrix<double, Dim, Dim>;
 
     /// What of a system's damping a pencil has.
-    enum class Damping { all, half, all_but_graph, none };
+    enum class Damping { all, half };
 
     /// The tangents of `system` at x, Dim × n, m. A spring that rounding may take across a kink of
     /// its law has the larger T′ of the two sides; a bound and a proof hold for both.
@@ -74,7 +74,6 @@ private:
         double softer;      // and that of the other one; the same elsewhere
         double transverse;  // T/l, N/m
         double damping;     // N·s/m, axial
-        double graph;       // α_g·bound, N·s/m, all ways
         double bound;       // of the law, N/m: what rounding errors of the tangent are relative to
     };
     struct Coefficients {
@@ -97,7 +96,7 @@ private:
         const double factor = std::abs(c.stiffness()) + std::abs(c.projected()) +
                               std::abs(c.damping()) * rayleigh_.stiffness_proportional;
         return factor * std::max(link.bound, std::abs(link.transverse)) +
-               std::abs(c.damping()) * (link.damping + link.graph);
+               std::abs(c.damping()) * link.damping;
     }
     double mass_coefficient(const Combination& c) const {
         return c.mass() + c.damping() * rayleigh_.mass_proportional;
@@ -125,7 +124,6 @@ private:
     std::vector<Link> links_;                // springs with at least one free end
     std::vector<std::array<int, 3>> names_;  // of each link: spring, particle a, particle b
     int springs_ = 0;                        // met so far, links or not
-    double graph_damping_ = 0;               // as steppers hold it, s
 };
 
 template <int Dim>
@@ -134,7 +132,6 @@ void SpringPencil<Dim>::set_particles(const System& system) {
     using Scalar = typename System::Scalar;
     rayleigh_ = {held_as<Scalar>(system.rayleigh().mass_proportional),
                  held_as<Scalar>(system.rayleigh().stiffness_proportional)};
-    graph_damping_ = held_as<Scalar>(system.graph_damping());
     free_ = FreeParticles(system);
     mass_.resize(Dim * free_.count());
     facts_ = {Dim,  true, true,
@@ -159,12 +156,11 @@ void SpringPencil<Dim>::add_link(const Set& set, std::size_t s, const Tangent& t
     link.a = a;
     link.b = b;
     link.damping = in_range(set.damping_of(s), "damping of spring", index);
-    link.graph = graph_damping_ * link.bound;
     names_.push_back({index, set.a[s], set.b[s]});
     links_.push_back(link);
     if (a >= 0) ++degree_[a];
     if (b >= 0) ++degree_[b];
-    if (link.damping > 0 || link.graph > 0) facts_.is_rayleigh = false;
+    if (link.damping > 0) facts_.is_rayleigh = false;
 }
 
 template <int Dim>
@@ -210,11 +206,6 @@ SpringPencil<Dim> SpringPencil<Dim>::any_pose(const System& system, Damping coun
     using Real = TangentReal<typename System::Scalar>;
     SpringPencil pencil;
     pencil.set_particles(system);
-    // On Laplacians it is Rayleigh damping.
-    const double graph = std::exchange(pencil.graph_damping_, 0);
-    if (counted == Damping::all || counted == Damping::half)
-        pencil.rayleigh_.stiffness_proportional += graph;
-    if (counted == Damping::none) pencil.rayleigh_ = {};
     if (counted == Damping::half) {
         pencil.rayleigh_.mass_proportional /= 2;
         pencil.rayleigh_.stiffness_proportional /= 2;
@@ -235,22 +226,16 @@ SpringPencil<Dim> SpringPencil<Dim>::any_pose(const System& system, Damping coun
     if (counted == Damping::half) {
         for (Link& link : pencil.links_) link.damping /= 2;
     }
-    if (counted == Damping::none) {
-        for (Link& link : pencil.links_) link.damping = 0;
-        pencil.facts_.is_rayleigh = true;
-    }
     return pencil;
 }
 
 template <int Dim>
 auto SpringPencil<Dim>::coefficients(const Combination& c, const Link& link) const -> Coefficients {
     const double on_plus = c.projected() + c.damping() * rayleigh_.stiffness_proportional;
-    const double graph = c.damping() * link.graph;
     const auto elastic = [&](double slope) {
         return c.stiffness() * slope + on_plus * k_plus(slope);
     };
-    return {elastic(link.axial) + c.damping() * link.damping + graph,
-            elastic(link.transverse) + graph};
+    return {elastic(link.axial) + c.damping() * link.damping, elastic(link.transverse)};
 }
 
 template <int Dim>
@@ -346,8 +331,7 @@ SpringPencil<Dim> SpringPencil<Dim>::explicit_part(const std::vector<double>& sh
     for (std::size_t s = 0; s < links_.size(); ++s) {
         const double part = (1 - shares[static_cast<std::size_t>(names_[s][0])]) / margin;
         Link& link = pencil.links_[s];
-        for (double* value :
-             {&link.axial, &link.softer, &link.transverse, &link.damping, &link.graph}) {
+        for (double* value : {&link.axial, &link.softer, &link.transverse, &link.damping}) {
             *value *= part;
         }
         link.bound *= std::abs(part);
@@ -370,7 +354,6 @@ std::shared_ptr<const ScenePencil> SpringPencil<Dim>::scaled(double stiffness, d
         link.axial *= stiffness;
         link.softer *= stiffness;
         link.transverse *= stiffness;
-        link.graph *= stiffness;
         // The rounding that a bound stands for must not vanish with it.
         const bool zero = link.bound == 0 || stiffness == 0;
         link.bound = std::max(link.bound * stiffness, zero ? 0 : least);

@@ -9,7 +9,6 @@
 #include "../method/mode.hpp"
 #include "../stability/any_pose.hpp"
 #include "../stability/energy_limit.hpp"
-#include "../stability/energy_stable_limit.hpp"
 #include "../stability/stability.hpp"
 #include "certificate.hpp"
 #include "dense.hpp"
@@ -46,26 +45,14 @@ StepLimit<Scalar> any_pose_limit(const SpringSystem<Scalar, Dim, Laws...>& syste
     return stability_detail::any_pose_bracket(system, effort);
 }
 
-/// energy_limit(system), with ℓ narrowed by factorisations of n × n matrices [T22].
-/// @param tightness  of ℓ's bracket of steps, ≥ 0 and finite; 0: by bounds alone
+/// energy_limit(system), narrowed as any_pose_limit's bracket is [T22].
+/// @param tightness  ≥ 0 and finite; 0: by bounds alone
 template <class Scalar, int Dim, class... Laws>
-EnergyLimit<Scalar> energy_limit(const SpringSystem<Scalar, Dim, Laws...>& system,
-                                 double tightness) {
+StepLimit<Scalar> energy_limit(const SpringSystem<Scalar, Dim, Laws...>& system, double tightness) {
     require_non_negative("energy_limit", "tightness", tightness);
     if (tightness == 0) return energy_limit(system);
     stability_detail::Factorisations<> effort(tightness);
     return stability_detail::energy_bracket(system, effort);
-}
-
-/// energy_stable_limit(system), narrowed as any_pose_limit's bracket is [T22].
-/// @param tightness  ≥ 0 and finite; 0: by bounds alone
-template <class Scalar, int Dim, class... Laws>
-StepLimit<Scalar> energy_stable_limit(const SpringSystem<Scalar, Dim, Laws...>& system,
-                                      double tightness) {
-    require_non_negative("energy_stable_limit", "tightness", tightness);
-    if (tightness == 0) return energy_stable_limit(system);
-    stability_detail::Factorisations<> effort(tightness);
-    return stability_detail::energy_stable_bracket(system, effort);
 }
 
 /// Answer of certify().

@@ -15,7 +15,8 @@ namespace taut::guard_detail {
 
 /// What the guard knows of a part from frame to frame.
 struct Part {
-    double credit = 0;   ///< d ≤ 0, J
+    /// d, J: what it has gained beyond its books, or else, < 0, what it may gain back.
+    double balance = 0;
     double by_code = 0;  ///< what code forces left unexplained while it was taken again, J
     int again = 0;       ///< frames in a row that were taken again
     int skip = 0;        ///< frames to come that are not tried
@@ -26,8 +27,8 @@ struct Part {
 /// Free particles joined by springs; pins join nothing.
 class Parts {
 public:
-    /// Follows the system's springs and pins. Where parts join, credits add; where one splits, the
-    /// pieces share its credit by free mass [T43].
+    /// Follows the system's springs and pins. Where parts join, balances add; where one splits,
+    /// the pieces share its balance by free mass [T43].
     template <class System>
     void update(const System& system) {
         if (of_.size() == static_cast<std::size_t>(system.size()) &&
@@ -59,7 +60,7 @@ public:
         };
         each_old([&](std::size_t, std::size_t from, double m) { mass[from] += m; });
         each_old([&](std::size_t to, std::size_t from, double m) {
-            list[to].credit += list_[from].credit * m / mass[from];
+            list[to].balance += list_[from].balance * m / mass[from];
             list[to].by_code += list_[from].by_code * m / mass[from];
         });
         of_ = std::move(of);

@@ -2,17 +2,104 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <type_traits>
+#include <utility>
 
-#include "../../integrator/detail/guarded_traits.hpp"
+#include "../../core/concepts.hpp"
 #include "../../method/visit.hpp"
+#include "../../model/state_view.hpp"
 
 namespace taut::guard_detail {
+
+template <class Stepper>
+using method_of = decltype(Stepper::method);
+template <class Stepper>
+using constraint_forces_of = decltype(std::declval<const Stepper&>().constraint_forces());
+
+template <class Stepper>
+using watch_of = decltype(std::declval<Stepper&>().watch(nullptr));
+
+/// Lets a stepper that can show its steps to a meter, as long as this lives.
+template <class By, class Meter>
+class Watching {
+public:
+    Watching(By& by, Meter* meter) : by_(by) { set(meter); }
+    ~Watching() { set(nullptr); }
+    Watching(const Watching&) = delete;
+    Watching& operator=(const Watching&) = delete;
+
+private:
+    void set([[maybe_unused]] Meter* meter) {
+        if constexpr (detail::is_detected_v<watch_of, By>) by_.watch(meter);
+    }
+    By& by_;
+};
+
+struct NoResponse {
+    template <class State>
+    void operator()(State&) const {}
+};
+
+template <class Stepper>
+struct stepped_system;
+template <template <class...> class Stepper, class System, class... Policies>
+struct stepped_system<Stepper<System, Policies...>> {
+    using type = System;
+};
+
+/// The guard's stepper: one of its own, or one that outlives it.
+template <class Stepper>
+class HeldStepper {
+public:
+    template <class... Arguments>
+    explicit HeldStepper(std::in_place_t, Arguments&&... arguments)
+        : own_(std::in_place, std::forward<Arguments>(arguments)...) {}
+    explicit HeldStepper(Stepper& lent) : lent_(&lent) {}
+
+    Stepper& get() { return own_ ? *own_ : *lent_; }
+    const Stepper& get() const { return own_ ? *own_ : *lent_; }
+
+private:
+    std::optional<Stepper> own_;
+    Stepper* lent_ = nullptr;  // used without own_
+};
+
+/// The guard's copy of an engine's arrays, in the system's precision.
+template <class State>
+class ViewedState {
+public:
+    /// Gives the copy to advance(State&), and copies it back if that got anywhere. Arrays that
+    /// hold what the last call left there are not read: they may be less precise.
+    template <class View, class Advance>
+    auto advance(View& view, Advance&& advance) {
+        model_detail::require_state<State, View>();
+        if (!is_in(view)) view.copy_to(state_);
+        const auto report = advance(state_);
+        if (report.advanced > 0) view.copy_from(state_);
+        return report;
+    }
+
+private:
+    template <class Stored, int Dim>
+    bool is_in(const StateView<Stored, Dim>& view) const {
+        return view.x.cols() == state_.x.cols() && view.v.cols() == state_.v.cols() &&
+               view.time == static_cast<double>(state_.time) &&
+               view.x == state_.x.template cast<Stored>() &&
+               view.v == state_.v.template cast<Stored>();
+    }
+
+    State state_;
+};
 
 /// Which steps the trial may take: one without a `method` counts as implicit.
 template <class Stepper>
 constexpr method::AnyPose any_pose_of() {
-    return method::Of<integrator_detail::guarded_method<Stepper>()>::any_pose;
+    if constexpr (detail::is_detected_v<method_of, Stepper>) {
+        return method::Of<Stepper::method>::any_pose;
+    } else {
+        return method::AnyPose::every_step;
+    }
 }
 
 /// Takes steps by a stepper, or by a call that takes one.

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
+#include "../../integrator/sweep/sweep.hpp"
 #include "parts.hpp"
 
 namespace taut::guard_detail {
@@ -18,75 +19,92 @@ struct Work {
 
 /// Books the work on every part, step by step where that is needed [T43].
 template <class System>
-class WorkMeter {
+class WorkMeter final : public integrator_detail::sweep::StepWatch<System> {
 public:
     using Scalar = typename System::Scalar;
     using State = typename System::State;
     using Force = typename System::Force;
     using Vector = typename System::Vector;
+    using Places = integrator_detail::sweep::PlaceVectors<System>;
+    /// How a step takes its forces: at both ends, at the new one, or one step ahead [T42].
+    enum class Kind { at_both_ends, at_the_end, ahead };
 
-    /// Whether steps must be seen one by one: pins move, or a force is given as code.
-    bool stepwise(const System& system, const State& state) {
+    /// Forgets what was booked; steps of h, s, follow.
+    /// @returns whether the states between them must be seen: pins move, or a force is given as
+    /// code
+    bool start(const System& system, const State& state, const Parts& parts, Scalar h, Kind kind) {
+        system_ = &system;
+        parts_ = &parts;
+        h_ = h;
+        kind_ = kind;
         const auto& forces = system.external_forces();
         code_ = forces.whole || forces.outside;
         pins_move_ = false;
         for (Index i = 0; i < system.size() && !pins_move_; ++i) {
             pins_move_ = system.is_pinned(i) && !state.v.col(i).isZero(0);
         }
+        if (pins_move_) list_springs();
+        works_.assign(parts.count(), {});
+        if (code_) bend_.setZero(int(System::Dim), system.size());
+        seen_ = 0;
+        x_ = state.x;
         return code_ || pins_move_;
     }
+    /// Whether a force is given as code.
     bool code() const { return code_; }
+    /// States that were seen since.
+    Index seen() const { return seen_; }
 
-    /// Forgets what was booked; steps from `state` follow.
-    void start(const System& system, const State& state, const Parts& parts) {
-        works_.assign(parts.count(), {});
-        if (code_) {
-            system.external_force(state, force_);
-        } else {
-            force_ = system.external_forces().constant;
+    /// A state between two steps, or at either end of all.
+    void see(const State& state) {
+        add_pins([&](Index i) { return state.x.col(i); }, [&](Index i) { return state.v.col(i); });
+        if (code_) add_code(state, nullptr);
+        ++seen_;
+    }
+    void see(const Places& x, const Places& v, const State* state, const Force* force) override {
+        add_pins(x, v);
+        if (code_ && !state) {
+            own_.x.resize(int(System::Dim), system_->size());
+            own_.v.resize(int(System::Dim), system_->size());
+            for (Index i = 0; i < system_->size(); ++i) {
+                own_.x.col(i) = x(i);
+                own_.v.col(i) = v(i);
+            }
         }
-        bend_.setZero(int(System::Dim), code_ ? system.size() : 0);
-        bent_ = false;
-        if (pins_move_) list_springs(system);
+        if (code_) add_code(state ? *state : own_, force);
+        ++seen_;
+    }
+    /// Forces that held from the last state to this one, N, Dim × n or fewer columns.
+    void add_held(const Force& held, const State& state) {
+        for (Index i = 0; i < held.cols(); ++i) add(parts_->of(i), along(held, state, i));
+    }
+    /// All constant forces, unless see() has counted them, once all steps are taken or after each.
+    void add_constant(const State& state) {
+        if (!code_) add_held(system_->external_forces().constant, state);
         x_ = state.x;
-        v_ = state.v;
     }
-    /// How a step takes its forces: at both ends, at the new one, or one step ahead [T42].
-    enum class Kind { at_both_ends, at_the_end, ahead };
-    /// After a step of h, s; or once after all, unless stepwise.
-    void step(const System& system, const State& state, const Parts& parts, Scalar h, Kind kind) {
-        if (pins_move_) add_pins(system, state, parts, h, kind);
-        if (code_) {
-            system.external_force(state, next_);
-            add_forces(state, parts, kind);
-            std::swap(force_, next_);
-            bent_ = true;
-        } else {
-            add_held(force_, state, parts);
-        }
-        x_ = state.x;
-        v_ = state.v;
-    }
-    /// Forces that held all through the last step, N, Dim × n; before step().
-    void add_held(const Force& held, const State& state, const Parts& parts) {
-        for (Index i = 0; i < held.cols(); ++i) add(parts.of(i), along(held, state, i));
-    }
-    /// By whatever changed the state between two steps.
-    void add_change(const System& system, const std::vector<Energy>& before,
-                    const std::vector<Energy>& after, const State& state) {
+    /// By whatever changed the state between two steps: the next one begins at `state`.
+    void add_change(const std::vector<Energy>& before, const std::vector<Energy>& after,
+                    const State& state) {
         for (std::size_t p = 0; p < works_.size(); ++p) {
             add(static_cast<Index>(p), after[p].total - before[p].total);
         }
-        if (code_) {
-            system.external_force(state, force_);
-            bent_ = false;
-        }
+        seen_ = 0;
         x_ = state.x;
-        v_ = state.v;
+        see(state);
     }
     const Work& operator[](std::size_t part) const { return works_[part]; }
 
 private:
+    /// A spring between a pin and a free particle, at the last state that was seen.
+    struct PinnedSpring {
+        std::size_t index;  // in its set
+        Index pin, free;
+        Vector x, v, u;  // of the free particle, m, m/s; of the pin, m/s
+        Vector p;        // where the pin was, m
+        double given;    // the power of its damper on the free particle, W
+    };
+
     void add(Index part, double work) {
         if (part < 0) return;
         works_[static_cast<std::size_t>(part)].booked += work;
@@ -95,86 +113,104 @@ private:
     double along(const Force& f, const State& state, Index i) const {
         return static_cast<double>(f.col(i).dot(state.x.col(i) - x_.col(i)));
     }
-    /// force_ at the start of the step, next_ at its end.
-    void add_forces(const State& state, const Parts& parts, Kind kind) {
-        for (Index i = 0; i < force_.cols(); ++i) {
-            const Vector change = next_.col(i) - force_.col(i);
-            const auto way = static_cast<double>((state.x.col(i) - x_.col(i)).norm());
-            const double begun = along(force_, state, i);
-            const double mean = (begun + along(next_, state, i)) / 2;
-            const double doubt =
-                bent_ ? static_cast<double>((change - bend_.col(i)).norm()) * way / 2 : 0;
+    /// By forces given as code, from the last state, where they were force_, to this one.
+    void add_code(const State& state, const Force* known) {
+        if (!known) system_->external_force(state, next_);
+        const Force& next = known ? *known : next_;
+        if (seen_ == 0) {
+            force_ = next;
+            x_ = state.x;
+            return;
+        }
+        for (Index i = 0; i < next.cols(); ++i) {
+            const Vector change = next.col(i) - force_.col(i);
+            const Vector way = state.x.col(i) - x_.col(i);
+            const auto begun = static_cast<double>(force_.col(i).dot(way));
+            const auto gap = static_cast<double>((change - bend_.col(i)).squaredNorm());
+            force_.col(i) = next.col(i);
+            x_.col(i) = state.x.col(i);
             bend_.col(i) = change;
-            if (parts.of(i) < 0) continue;
-            auto& work = works_[static_cast<std::size_t>(parts.of(i))];
-            work.booked += kind == Kind::ahead ? begun : mean - doubt;
-            work.checked += mean - doubt;
+            const Index part = parts_->of(i);
+            if (part < 0) continue;
+            double mean = begun + static_cast<double>(change.dot(way)) / 2;
+            if (seen_ > 1) mean -= std::sqrt(gap * static_cast<double>(way.squaredNorm())) / 2;
+            auto& work = works_[static_cast<std::size_t>(part)];
+            work.booked += kind_ == Kind::ahead ? begun : mean;
+            work.checked += mean;
         }
     }
-    void list_springs(const System& system) {
-        if (known_ && revision_ == system.topology_revision()) return;
-        known_ = true;
-        revision_ = system.topology_revision();
-        springs_.clear();
-        system.for_each_set([&](const auto& set) {
-            auto& list = springs_.emplace_back();
+    void list_springs() {
+        if (listed_ == system_->topology_revision() + 1) return;
+        listed_ = system_->topology_revision() + 1;
+        pulls_.clear();
+        system_->for_each_set([&](const auto& set) {
+            auto& list = pulls_.emplace_back();
             for (std::size_t s = 0; s < set.a.size(); ++s) {
-                if (system.is_pinned(set.a[s]) != system.is_pinned(set.b[s])) list.push_back(s);
+                const bool first = system_->is_pinned(set.a[s]);
+                if (first == system_->is_pinned(set.b[s])) continue;
+                PinnedSpring& spring = list.emplace_back();
+                spring.index = s;
+                spring.pin = first ? set.a[s] : set.b[s];
+                spring.free = first ? set.b[s] : set.a[s];
             }
         });
     }
-    /// By the springs and dampers between a pin and a free particle.
-    void add_pins(const System& system, const State& state, const Parts& parts, Scalar h,
-                  Kind kind) {
-        const auto by = system.stiffness_damping().template cast<Scalar>();
+    /// By the springs and dampers between a moving pin and a free particle, since the last state.
+    template <class X, class V>
+    void add_pins(const X& x, const V& v) {
+        const auto alpha = static_cast<Scalar>(system_->rayleigh().stiffness_proportional);
         std::size_t law = 0;
-        system.for_each_set([&](const auto& set) {
-            for (const std::size_t s : springs_[law++]) {
-                const auto spring = set[s];
-                const bool first = system.is_pinned(spring.a);
-                const Index pin = first ? spring.a : spring.b;
-                const Index free = first ? spring.b : spring.a;
-                const Vector u = v_.col(pin);
+        if (!pins_move_) return;
+        system_->for_each_set([&](const auto& set) {
+            for (PinnedSpring& old : pulls_[law++]) {
+                const Vector u = v(old.pin);
                 if (u.isZero(0)) continue;
-                const auto to_b = [&](const Vector& p, const Vector& q) -> Vector {
-                    return first ? Vector(q - p) : Vector(p - q);
-                };
-                const Vector old_x = to_b(x_.col(pin), x_.col(free));
-                const Vector old_v = to_b(u, v_.col(free));
-                if (kind == Kind::ahead) {
-                    const Vector f = pull_ahead(spring, old_x, old_v, h, by);
-                    add(parts.of(free), -double(h) * double((first ? f : Vector(-f)).dot(u)));
-                    continue;
+                const auto spring = set[old.index];
+                const Vector here = x(old.free), p = x(old.pin), speed = v(old.free);
+                if (seen_ > 0 && kind_ == Kind::ahead) {
+                    // The pin is the end a of a spring turned round.
+                    const Vector f =
+                        pull_ahead(spring, Vector(old.x - old.p), Vector(old.v - old.u), h_, alpha);
+                    add(parts_->of(old.free), -double(h_) * double(f.dot(old.u)));
                 }
-                const Vector new_x = to_b(state.x.col(pin), state.x.col(free));
-                const Vector new_v = to_b(u, state.v.col(free));
-                const auto energy = [&](const Vector& dx) {
-                    return static_cast<double>(spring.energy(spring_length(dx)));
-                };
-                const double pulled = energy(to_b(state.x.col(pin), x_.col(free))) - energy(old_x) +
-                                      energy(new_x) - energy(to_b(x_.col(pin), state.x.col(free)));
                 // What a damper gives the free particle: the rest of its work is heat.
-                const auto given = [&](const Vector& dx, const Vector& dv) {
-                    const Vector f = pull(spring, dx, dv, by) - pull(spring, dx);
-                    return double(
-                        (first ? Vector(-f) : f).dot(first ? Vector(dv + u) : Vector(u - dv)));
-                };
-                double power = given(new_x, new_v);
-                if (kind == Kind::at_both_ends) power = (power + given(old_x, old_v)) / 2;
-                add(parts.of(free), pulled / 2 + double(h) * power);
+                const Vector dx = here - p, dv = speed - u;
+                const double given =
+                    -double((pull(spring, dx, dv, alpha) - pull(spring, dx)).dot(speed));
+                if (seen_ > 0 && kind_ != Kind::ahead) {
+                    const auto energy = [&](const Vector& pin, const Vector& free) {
+                        return static_cast<double>(
+                            spring.energy(spring_length(Vector(free - pin))));
+                    };
+                    const double pulled = energy(p, old.x) - energy(old.p, old.x) +
+                                          energy(p, here) - energy(old.p, here);
+                    const double power =
+                        kind_ == Kind::at_both_ends ? (given + old.given) / 2 : given;
+                    add(parts_->of(old.free), pulled / 2 + double(h_) * power);
+                }
+                old.x = here;
+                old.v = speed;
+                old.u = u;
+                old.p = p;
+                old.given = given;
             }
         });
     }
 
+    const System* system_ = nullptr;
+    const Parts* parts_ = nullptr;
+    Scalar h_ = 0;
+    Kind kind_ = Kind::ahead;
+    bool code_ = false, pins_move_ = false;
+    std::uint64_t listed_ = 0;  // the topology_revision() of pulls_, and one
+    Index seen_ = 0;
     std::vector<Work> works_;
-    std::vector<std::vector<std::size_t>> springs_;  // of each law, from a pin to a free particle
-    std::uint64_t revision_ = 0;                     // that they were listed at
-    bool known_ = false, code_ = false, pins_move_ = false;
-    bool bent_ = false;  // whether bend_ is known
-    Force x_, v_;        // at the step's start, m, m/s
-    Force force_;        // outside forces there, N
-    Force next_;         // at its end
-    Force bend_;         // the last change of the force, N
+    std::vector<std::vector<PinnedSpring>> pulls_;  // of each law
+    Force x_;                                       // at the last state, m
+    Force force_;                                   // outside forces there, N
+    Force next_;                                    // workspace
+    Force bend_;                                    // the last change of the force, N
+    State own_;                                     // workspace
 };
 
 }  // namespace taut::guard_detail

@@ -32,10 +32,10 @@ public:
     explicit ExplicitSteps(const ExplicitOptions& options) : options_(options) {
         if (options.threads < 1)
             fail("ExplicitOptions: threads is ", options.threads, "; it must be >= 1");
-        require_step_damping<System>(options.damping);
     }
-    const StepDamping& damping() const { return options_.damping; }
 
+    /// Steps of a SpringSystem by its sweep are shown to that; null ends it.
+    void watch(sweep::StepWatch<System>* by) { sweep_.watch(by); }
     /// Steps of a method that needs one acceleration.
     /// @param update  update(x, v, a, h): x and v, of one step, by the acceleration a = M⁻¹f(x, v);
     ///                arrays or registers
@@ -43,15 +43,15 @@ public:
     Report run(const System& system, AnyState& state, Scalar h, Index count, const Update& update) {
         return run(
             system, state, h, count,
-            [&](auto& sweep, const auto&... how) {
-                return sweep.run(system, state, h, count, how..., update);
+            [&](auto& sweep, int threads) {
+                return sweep.run(system, state, h, count, threads, update);
             },
             [&](State& own) {
-                update_force(system, own, h);
+                update_force(system, own);
                 update(own.x.array(), own.v.array(), acceleration(system), h);
             });
     }
-    /// @param by_sweep  bool by_sweep(sweep, threads, damping): all steps at once; where not all is
+    /// @param by_sweep  bool by_sweep(sweep, threads): all steps at once; where not all is
     ///                  finite, `state` is not touched
     /// @param plain     plain(State&): one step in place
     template <class AnyState, class BySweep, class Plain>
@@ -60,8 +60,7 @@ public:
         if constexpr (model_detail::is_spring_system_v<System>) {
             const Report report = StepLoop<State>::check(system, state, h);
             if (!report || count <= 0) return report;
-            const auto added = options_.damping.times(static_cast<double>(h));
-            if (by_sweep(sweep_, options_.threads, added)) {
+            if (by_sweep(sweep_, options_.threads)) {
                 return {Status::ok, static_cast<int>(count)};
             }
             // Not finite: the steps below find out which step and which particle.
@@ -72,20 +71,14 @@ public:
         });
     }
     /// The force at a state, by the plain path.
-    void update_force(const System& system, const State& state, [[maybe_unused]] Scalar h) {
-        if constexpr (model_detail::is_spring_system_v<System>) {
-            system.force(state, f_, options_.damping.times(static_cast<double>(h)));
-        } else {
-            system.force(state, f_);
-        }
-    }
+    void update_force(const System& system, const State& state) { system.force(state, f_); }
     /// Steps with the springs one step ahead [T42]. @param update  as of run()
     template <class AnyState, class Update>
     Report run_ahead(const System& system, AnyState& state, Scalar h, Index count,
                      const Update& update) {
         return run(
             system, state, h, count,
-            [&](auto& sweep, int threads, const StepDamping&) {
+            [&](auto& sweep, int threads) {
                 return sweep.run_ahead(system, state, h, count, threads, update);
             },
             [&](State& own) {
@@ -100,7 +93,7 @@ public:
         if constexpr (Ahead) {
             system.force_ahead(state, h, f_);
         } else {
-            update_force(system, state, h);
+            update_force(system, state);
         }
         f_ = acceleration(system).matrix().eval();
         correct(ColumnVectors{f_}, ColumnVectors{state.v});

@@ -46,11 +46,11 @@ public:
 
     /// Adds the forces of the tile's batches.
     /// @tparam Both  whether a spring takes its positions ahead and as they are [T42]
-    template <bool Dampers, Proportional Kind, bool Both>
+    template <bool Dampers, bool Rayleigh, bool Both>
     void add_forces(const Table& table, const TileView<Scalar>& view) const {
         const auto tile = static_cast<std::size_t>(view.tile);
         for (std::size_t s = tile == 0 ? 0 : batch_end_[tile - 1]; s < batch_end_[tile]; ++s) {
-            add_batch<Dampers, Kind, Both>(table, view, batches_[s]);
+            add_batch<Dampers, Rayleigh, Both>(table, view, batches_[s]);
         }
     }
 
@@ -73,7 +73,7 @@ private:
 
     using Springs = std::vector<PlacedSpring>::const_iterator;
     Springs append_batch(const Set& set, Springs next, Springs end, Table& table);
-    template <bool Dampers, Proportional Kind, bool Both>
+    template <bool Dampers, bool Rayleigh, bool Both>
     void add_batch(const Table& table, const TileView<Scalar>& view, const Batch& batch) const;
 
     std::vector<Batch> batches_;          // tile by tile
@@ -128,10 +128,10 @@ auto BatchPlan<Scalar, Dim, Law>::append_batch(const Set& set, Springs next, Spr
 }
 
 template <class Scalar, int Dim, class Law>
-template <bool Dampers, Proportional Kind, bool Both>
+template <bool Dampers, bool Rayleigh, bool Both>
 void BatchPlan<Scalar, Dim, Law>::add_batch(const Table& table, const TileView<Scalar>& view,
                                             const Batch& batch) const {
-    constexpr bool velocities = Dampers || Kind != Proportional::none;
+    constexpr bool velocities = Dampers || Rayleigh;
     constexpr int chunk = 64;  // springs; all that is known of them stays in the first cache
     static_assert(chunk % max_width == 0);
     alignas(64) Vector x[most_gathered];
@@ -183,18 +183,18 @@ void BatchPlan<Scalar, Dim, Law>::add_batch(const Table& table, const TileView<S
                 pull.of_dv.store(dx_dv + s);
             };
             if constexpr (Both) {
-                const auto pull = springs.template pull_ahead<Dampers, Kind>(
-                    view.damping, square, product, Register::load(old_l2 + s));
+                const auto pull = springs.template pull_ahead<Dampers, Rayleigh>(
+                    view.alpha, square, product, Register::load(old_l2 + s));
                 keep(pull);
                 pull.of_here.store(old_l2 + s);
             } else {
-                keep(springs.template pull<Dampers, Kind>(view.damping, square, product));
+                keep(springs.template pull<Dampers, Rayleigh>(view.alpha, square, product));
             }
         }
         for (int s = 0; s < count; ++s) {
             Vector force = l2[s] * dx[s];
             if constexpr (Both) force -= old_l2[s] * old_dx[s];
-            if constexpr (Kind != Proportional::none) force += dx_dv[s] * dv[s];
+            if constexpr (Rayleigh) force += dx_dv[s] * dv[s];
             f[ends[s].a] += force;
             f[ends[s].b] -= force;
         }

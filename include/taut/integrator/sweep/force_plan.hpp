@@ -105,15 +105,13 @@ public:
         if (outside_) outside_->add(*outside_plan_, view);
         std::apply(
             [&](const auto&... plan) {
-                const auto add = [&](auto kind) {
-                    (plan.template add_forces<decltype(kind)::value, Ahead>(view, stars_), ...);
+                const auto add = [&](auto rayleigh) {
+                    (plan.template add_forces<decltype(rayleigh)::value, Ahead>(view, stars_), ...);
                 };
-                if (view.damping.projected > 0) {
-                    add(std::integral_constant<Proportional, Proportional::projected>{});
-                } else if (view.damping.graph > 0) {
-                    add(std::integral_constant<Proportional, Proportional::graph>{});
+                if (view.alpha > 0) {
+                    add(std::true_type{});
                 } else {
-                    add(std::integral_constant<Proportional, Proportional::none>{});
+                    add(std::false_type{});
                 }
             },
             plans_);

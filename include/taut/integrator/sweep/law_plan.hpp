@@ -29,21 +29,21 @@ public:
     bool damped() const { return damped_; }
     /// Adds the forces of the tile's springs on the places of its block.
     /// @tparam Ahead  whether springs that push do so along the old direction [T42]
-    template <Proportional Kind, bool Ahead>
+    template <bool Rayleigh, bool Ahead>
     void add_forces(const TileView<Scalar>& view, bool stars) const {
         constexpr bool both = Ahead && !Law::convex;
-        damped_ ? add_forces<true, Kind, both>(view, stars)
-                : add_forces<false, Kind, both>(view, stars);
+        damped_ ? add_forces<true, Rayleigh, both>(view, stars)
+                : add_forces<false, Rayleigh, both>(view, stars);
     }
 
 private:
-    template <bool Dampers, Proportional Kind, bool Both>
+    template <bool Dampers, bool Rayleigh, bool Both>
     void add_forces(const TileView<Scalar>& view, bool stars) const {
         if constexpr (Dim > 1) {
-            if (stars) return stars_.template add_forces<Dampers, Kind, Both>(view);
+            if (stars) return stars_.template add_forces<Dampers, Rayleigh, Both>(view);
         }
-        runs_.template add_forces<Dampers, Kind, Both>(table_, view);
-        batches_.template add_forces<Dampers, Kind, Both>(table_, view);
+        runs_.template add_forces<Dampers, Rayleigh, Both>(table_, view);
+        batches_.template add_forces<Dampers, Rayleigh, Both>(table_, view);
     }
 
     SpringTable<Scalar, Law> table_;  // of runs and batches

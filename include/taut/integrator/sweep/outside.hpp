@@ -43,6 +43,13 @@ public:
         return {planes_.data(), plan.stride()};
     }
 
+    /// What the force of the whole state was last asked at; null without one.
+    const typename System::State* state() const { return asks_for_state() ? &state_ : nullptr; }
+    /// All that at_state() last gave, N; null where a force is missing in it.
+    const typename System::Force* force() const {
+        return asks_for_state() && !forces_->outside ? &force_ : nullptr;
+    }
+
 private:
     const ExternalForces<Scalar, Dim>* forces_ = nullptr;  // the system's
     typename System::State state_;                         // what a force of the whole state sees

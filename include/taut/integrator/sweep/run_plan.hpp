@@ -28,11 +28,11 @@ public:
 
     /// Adds the forces of the tile's segments.
     /// @tparam Both  whether a spring takes its positions ahead and as they are [T42]
-    template <bool Dampers, Proportional Kind, bool Both>
+    template <bool Dampers, bool Rayleigh, bool Both>
     void add_forces(const Table& table, const TileView<Scalar>& view) const {
         const auto tile = static_cast<std::size_t>(view.tile);
         for (std::size_t s = tile == 0 ? 0 : segment_end_[tile - 1]; s < segment_end_[tile]; ++s) {
-            add_segment<Dampers, Kind, Both>(table, view, segments_[s]);
+            add_segment<Dampers, Rayleigh, Both>(table, view, segments_[s]);
         }
     }
 
@@ -61,7 +61,7 @@ private:
     }
     void add_run(const Set& set, const SortedSprings::Run& run, const Blocks& blocks, Table& table,
                  std::vector<std::vector<Segment>>& segments);
-    template <bool Dampers, Proportional Kind, bool Both>
+    template <bool Dampers, bool Rayleigh, bool Both>
     void add_segment(const Table& table, const TileView<Scalar>& view,
                      const Segment& segment) const;
 
@@ -126,7 +126,7 @@ void RunPlan<Scalar, Dim, Law>::add_run(const Set& set, const SortedSprings::Run
 }
 
 template <class Scalar, int Dim, class Law>
-template <bool Dampers, Proportional Kind, bool Both>
+template <bool Dampers, bool Rayleigh, bool Both>
 void RunPlan<Scalar, Dim, Law>::add_segment(const Table& table, const TileView<Scalar>& view,
                                             const Segment& segment) const {
     const Run& run = runs_[segment.run];
@@ -149,7 +149,7 @@ void RunPlan<Scalar, Dim, Law>::add_segment(const Table& table, const TileView<S
         [[maybe_unused]] Vector here;
         for_each_axis<Dim>([&](int d) {
             dx[d] = Register::load(x_b[d] + i) - Register::load(x_a[d] + i);
-            if constexpr (Dampers || Kind != Proportional::none) {
+            if constexpr (Dampers || Rayleigh) {
                 dv[d] = Register::load(v_b[d] + i) - Register::load(v_a[d] + i);
             }
             if constexpr (Both) {
@@ -157,19 +157,19 @@ void RunPlan<Scalar, Dim, Law>::add_segment(const Table& table, const TileView<S
             }
         });
         Register dx_dv(Scalar(0));
-        if constexpr (Dampers || Kind == Proportional::projected) dx_dv = dot(dx, dv);
+        if constexpr (Dampers || Rayleigh) dx_dv = dot(dx, dv);
         const auto pull = [&] {
             if constexpr (Both) {
-                return springs.template pull_ahead<Dampers, Kind>(view.damping, dot(dx, dx), dx_dv,
-                                                                  dot(here, here));
+                return springs.template pull_ahead<Dampers, Rayleigh>(view.alpha, dot(dx, dx),
+                                                                      dx_dv, dot(here, here));
             } else {
-                return springs.template pull<Dampers, Kind>(view.damping, dot(dx, dx), dx_dv);
+                return springs.template pull<Dampers, Rayleigh>(view.alpha, dot(dx, dx), dx_dv);
             }
         }();
         for_each_axis<Dim>([&](int d) {
             Register force = pull.of_dx * dx[d];
             if constexpr (Both) force -= pull.of_here * here[d];
-            if constexpr (Kind != Proportional::none) force += pull.of_dv * dv[d];
+            if constexpr (Rayleigh) force += pull.of_dv * dv[d];
             Scalar* on_a = force_a[d] + i;
             Scalar* on_b = force_b[d] + i;
             (Register::load(on_a) + force).store(on_a);

@@ -154,24 +154,24 @@ public:
             return Register::load(result.data());
         }
         /// The pull of the springs here, 0 in the gaps: see pull_coefficients.
-        template <bool Dampers, Proportional Kind>
-        EIGEN_ALWAYS_INLINE Pull<Register> pull(const StiffnessDamping<Scalar>& by,
-                                                const Register& l2, const Register& dx_dv) const {
-            const auto pull = pull_coefficients<Dampers, Kind>(*this, by, l2, dx_dv);
+        template <bool Dampers, bool Rayleigh>
+        EIGEN_ALWAYS_INLINE Pull<Register> pull(Scalar alpha, const Register& l2,
+                                                const Register& dx_dv) const {
+            const auto pull = pull_coefficients<Dampers, Rayleigh>(*this, alpha, l2, dx_dv);
             const Register L = rest_length_.load();
             return {unless_negative(L, pull.of_dx),
-                    Kind == Proportional::none ? pull.of_dv : unless_negative(L, pull.of_dv)};
+                    !Rayleigh ? pull.of_dv : unless_negative(L, pull.of_dv)};
         }
         /// The pull of the springs here one step ahead, 0 in the gaps: see pull_ahead_coefficients.
-        template <bool Dampers, Proportional Kind>
-        EIGEN_ALWAYS_INLINE PullAhead<Register> pull_ahead(const StiffnessDamping<Scalar>& by,
-                                                           const Register& y2, const Register& y_dv,
+        template <bool Dampers, bool Rayleigh>
+        EIGEN_ALWAYS_INLINE PullAhead<Register> pull_ahead(Scalar alpha, const Register& y2,
+                                                           const Register& y_dv,
                                                            const Register& l2) const {
-            auto pull = pull_ahead_coefficients<Dampers, Kind>(*this, by, y2, y_dv, l2);
+            auto pull = pull_ahead_coefficients<Dampers, Rayleigh>(*this, alpha, y2, y_dv, l2);
             const Register L = rest_length_.load();
             pull.of_dx = unless_negative(L, pull.of_dx);
             pull.of_here = unless_negative(L, pull.of_here);
-            if constexpr (Kind != Proportional::none) pull.of_dv = unless_negative(L, pull.of_dv);
+            if constexpr (Rayleigh) pull.of_dv = unless_negative(L, pull.of_dv);
             return pull;
         }
 

@@ -37,7 +37,7 @@ public:
 
     /// Adds the forces of the tile's stars; then those on its places are complete.
     /// @tparam Both  whether a spring takes its positions ahead and as they are [T42]
-    template <bool Dampers, Proportional Kind, bool Both>
+    template <bool Dampers, bool Rayleigh, bool Both>
     void add_forces(const TileView<Scalar>& view) const {
         const auto tile = static_cast<std::size_t>(view.tile);
         const Index first = static_cast<Index>(view.begin) * 4;
@@ -51,11 +51,11 @@ public:
             of.stars = &stars_[g * group];
             const auto targets = within_block(of.stars, 4 * view.size);
             of.targets = targets.data();
-            add_group<Dampers, Kind, Both>(view.damping, springs, of, all);
+            add_group<Dampers, Rayleigh, Both>(view.alpha, springs, of, all);
         }
         for (const std::size_t end = ends_[tile].all; g < end; ++g) {
             of.stars = of.targets = &stars_[g * group];
-            add_group<Dampers, Kind, Both>(view.damping, springs, of, all);
+            add_group<Dampers, Rayleigh, Both>(view.alpha, springs, of, all);
         }
     }
 
@@ -124,42 +124,39 @@ private:
         const Star* targets;
         Scalar* forces;
     };
-    template <bool Dampers, Proportional Kind, bool Both, int... s>
-    static EIGEN_ALWAYS_INLINE void add_group(const StiffnessDamping<Scalar>& damping,
-                                              typename Table::Reader& springs, const Group& of,
-                                              Numbers<s...>);
+    template <bool Dampers, bool Rayleigh, bool Both, int... s>
+    static EIGEN_ALWAYS_INLINE void add_group(Scalar alpha, typename Table::Reader& springs,
+                                              const Group& of, Numbers<s...>);
     /// Coefficients of the springs of a group.
     struct Pulls {
         alignas(64) std::array<Scalar, group * star_size> of_dx, of_dv, of_here;
     };
-    template <bool Dampers, Proportional Kind, bool Both>
-    static EIGEN_ALWAYS_INLINE void pull(const StiffnessDamping<Scalar>& damping,
-                                         typename Table::Reader& springs, const Register& l2,
-                                         const Register& dx_dv,
+    template <bool Dampers, bool Rayleigh, bool Both>
+    static EIGEN_ALWAYS_INLINE void pull(Scalar alpha, typename Table::Reader& springs,
+                                         const Register& l2, const Register& dx_dv,
                                          [[maybe_unused]] const Register& old_l2, Pulls& pulls,
                                          int first) {
         const auto keep = [&](const auto& pull) {
             pull.of_dx.store(pulls.of_dx.data() + first);
-            if constexpr (Kind != Proportional::none) pull.of_dv.store(pulls.of_dv.data() + first);
+            if constexpr (Rayleigh) pull.of_dv.store(pulls.of_dv.data() + first);
             if constexpr (Both) pull.of_here.store(pulls.of_here.data() + first);
         };
         if constexpr (Both) {
-            keep(springs.template pull_ahead<Dampers, Kind>(damping, l2, dx_dv, old_l2));
+            keep(springs.template pull_ahead<Dampers, Rayleigh>(alpha, l2, dx_dv, old_l2));
         } else {
-            keep(springs.template pull<Dampers, Kind>(damping, l2, dx_dv));
+            keep(springs.template pull<Dampers, Rayleigh>(alpha, l2, dx_dv));
         }
         springs.next();
     }
-    template <bool Dampers, Proportional Kind, bool Both, int... i>
-    static EIGEN_ALWAYS_INLINE void pull(const StiffnessDamping<Scalar>& damping,
-                                         typename Table::Reader& springs, const Lanes& l2,
-                                         const Lanes& dx_dv, const Lanes& old_l2, Pulls& pulls,
-                                         Numbers<i...>) {
-        (pull<Dampers, Kind, Both>(damping, springs, l2[i], dx_dv[i], old_l2[i], pulls,
-                                   i * Register::width),
+    template <bool Dampers, bool Rayleigh, bool Both, int... i>
+    static EIGEN_ALWAYS_INLINE void pull(Scalar alpha, typename Table::Reader& springs,
+                                         const Lanes& l2, const Lanes& dx_dv, const Lanes& old_l2,
+                                         Pulls& pulls, Numbers<i...>) {
+        (pull<Dampers, Rayleigh, Both>(alpha, springs, l2[i], dx_dv[i], old_l2[i], pulls,
+                                       i * Register::width),
          ...);
     }
-    template <Proportional Kind, bool Both, int... k>
+    template <bool Rayleigh, bool Both, int... k>
     static EIGEN_ALWAYS_INLINE Vectors forces(const Pulls& pulls, int first, const Vectors& dx,
                                               [[maybe_unused]] const Vectors& dv,
                                               [[maybe_unused]] const Vectors& here, Numbers<k...>) {
@@ -169,7 +166,7 @@ private:
             const auto of_here = Point::factors(pulls.of_here.data() + first);
             force = {(force[k] - of_here[k] * here[k])...};
         }
-        if constexpr (Kind != Proportional::none) {
+        if constexpr (Rayleigh) {
             const auto of_dv = Point::factors(pulls.of_dv.data() + first);
             force = {(force[k] + of_dv[k] * dv[k])...};
         }
@@ -220,15 +217,15 @@ StarPlan<Scalar, Law>::StarPlan(const Set& set, const std::vector<PlacedSpring>&
 }
 
 template <class Scalar, class Law>
-template <bool Dampers, Proportional Kind, bool Both, int... s>
-EIGEN_ALWAYS_INLINE void StarPlan<Scalar, Law>::add_group(const StiffnessDamping<Scalar>& damping,
+template <bool Dampers, bool Rayleigh, bool Both, int... s>
+EIGEN_ALWAYS_INLINE void StarPlan<Scalar, Law>::add_group(Scalar alpha,
                                                           typename Table::Reader& springs,
                                                           const Group& of, Numbers<s...>) {
     const std::array<Vectors, group> dx{differences(of.x, of.stars[s], all_tips)...};
     [[maybe_unused]] std::array<Vectors, group> dv;
     [[maybe_unused]] std::array<Vectors, group> here;
     Lanes dx_dv{}, old_l2{};
-    if constexpr (Dampers || Kind != Proportional::none) {
+    if constexpr (Dampers || Rayleigh) {
         dv = {differences(of.v, of.stars[s], all_tips)...};
         dx_dv = lanes({dots(dx[s], dv[s])...});
     }
@@ -237,10 +234,12 @@ EIGEN_ALWAYS_INLINE void StarPlan<Scalar, Law>::add_group(const StiffnessDamping
         old_l2 = lanes({dots(here[s], here[s])...});
     }
     Pulls pulls;
-    pull<Dampers, Kind, Both>(damping, springs, lanes({dots(dx[s], dx[s])...}), dx_dv, old_l2,
-                              pulls, std::make_integer_sequence<int, std::tuple_size_v<Lanes>>());
+    pull<Dampers, Rayleigh, Both>(alpha, springs, lanes({dots(dx[s], dx[s])...}), dx_dv, old_l2,
+                                  pulls,
+                                  std::make_integer_sequence<int, std::tuple_size_v<Lanes>>());
     (add_star(of.forces, of.targets[s],
-              forces<Kind, Both>(pulls, s * star_size, dx[s], dv[s], here[s], all_tips), all_tips),
+              forces<Rayleigh, Both>(pulls, s * star_size, dx[s], dv[s], here[s], all_tips),
+              all_tips),
      ...);
 }
 

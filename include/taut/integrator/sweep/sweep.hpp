@@ -167,6 +167,19 @@
 
 namespace taut::integrator_detail::sweep {
 
+/// Sees the states between the steps of a sweep, from the first to the last.
+template <class System>
+class StepWatch {
+public:
+    /// @param x, v   by particle; velocities are those that the forces there are taken at
+    /// @param state  the same, and @param force  all external forces there, N; each null if unknown
+    virtual void see(const PlaceVectors<System>& x, const PlaceVectors<System>& v,
+                     const typename System::State* state, const typename System::Force* force) = 0;
+
+protected:
+    ~StepWatch() = default;
+};
+
 /// An update of steps whose springs take their positions ahead and as they are.
 template <class Update>
 struct WithBoth : Update {};
@@ -182,24 +195,24 @@ public:
     using Scalar = typename System::Scalar;
     static constexpr int Dim = System::Dim;
 
+    /// From now on run, run_ahead and run_verlet show their states to that; null ends it.
+    void watch(StepWatch<System>* by) { watch_ = by; }
     /// Takes `count` steps of h, s.
-    /// @param added   damping beside the system's, StepDamping::times(h)
     /// @param update  update(x, v, a, h): x, v, of one coordinate, by the acceleration a; registers
     /// @returns whether the new state is finite; else `state` is not touched
     template <class AnyState, class Update>
     bool run(const System& system, AnyState& state, Scalar h, Index count, int threads,
-             const StepDamping& added, const Update& update);
+             const Update& update);
     /// The same with the springs one step ahead: they pull along their new direction, push along
     /// the old one [T42].
     template <class AnyState, class Update>
     bool run_ahead(const System& system, AnyState& state, Scalar h, Index count, int threads,
                    const Update& update);
     /// Takes `count` > 0 steps of velocity Verlet.
-    /// @param go_on  whether state and system are as the last call of this left them, and h is the
-    ///               same or `added` none
+    /// @param go_on  whether state and system are as the last call of this left them
     template <class AnyState>
     bool run_verlet(const System& system, AnyState& state, Scalar h, Index count, int threads,
-                    const StepDamping& added, bool go_on);
+                    bool go_on);
     /// Takes `count` steps of h, s: v⁺ = v + h a, x⁺ = x + h v⁺, by accelerations that are
     /// corrected all together.
     /// @tparam Ahead   whether springs pull as in run_ahead
@@ -218,14 +231,19 @@ private:
     /// Brings all members up to date.
     /// @param both  whether springs that push take their positions as they are, too
     template <class AnyState>
-    void load(const System& system, const AnyState& state, const StepDamping& added, Scalar ahead,
-              bool both = false);
+    void load(const System& system, const AnyState& state, Scalar ahead = 0, bool both = false);
     /// Puts the state back after `count` steps. @param x  its positions, planes, m
     template <class AnyState>
     void store(const Planes<Scalar>& x, Scalar h, Index count, AnyState& state) const {
         plan_.from_planes(x, state.x);
         plan_.from_planes(state_.planes().v, state.v);
         for (Index i = 0; i < count; ++i) state.time += h;
+    }
+    void show(const typename System::State* state, const typename System::Force* force) {
+        if (!watch_) return;
+        if (places_.empty()) places_ = plan_.places();
+        watch_->see({plan_, places_, state_.planes().x}, {plan_, places_, state_.planes().v}, state,
+                    force);
     }
     /// @returns whether all is finite
     template <class Update>
@@ -242,19 +260,19 @@ private:
     StateMemory<Scalar> state_;
     PlaceUpdate<Scalar, Dim> update_;
     Outside<System> outside_;
-    VectorX<Scalar> scratch_;       // forces on one block for each thread, N; 0 between blocks
-    VectorX<Scalar> end_x_;         // of run_verlet, planes, m
-    std::vector<int> places_;       // of run_corrected: of each particle, if known
+    VectorX<Scalar> scratch_;  // forces on one block for each thread, N; 0 between blocks
+    VectorX<Scalar> end_x_;    // of run_verlet, planes, m
+    std::vector<int> places_;  // of each particle, if known
+    StepWatch<System>* watch_ = nullptr;
     VectorX<Scalar> acceleration_;  // at the end of the last run_verlet, planes, m/s²
-    StiffnessDamping<Scalar> damping_;
-    Scalar ahead_ = 0;  // s, by which springs see x ahead
+    Scalar alpha_ = 0;              // of Rayleigh damping, s
+    Scalar ahead_ = 0;              // s, by which springs see x ahead
 };
 
 template <class System>
 template <class AnyState>
-void Sweep<System>::load(const System& system, const AnyState& state, const StepDamping& added,
-                         Scalar ahead, bool both) {
-    damping_ = system.stiffness_damping(added).template cast<Scalar>();
+void Sweep<System>::load(const System& system, const AnyState& state, Scalar ahead, bool both) {
+    alpha_ = static_cast<Scalar>(system.rayleigh().stiffness_proportional);
     ahead_ = ahead;
     const bool new_plan = plan_.update(system);
     if (new_plan) places_.clear();
@@ -263,7 +281,7 @@ void Sweep<System>::load(const System& system, const AnyState& state, const Step
     const Index size = plan_.size() * plan_.grain();
     state_.resize(
         plan_.planes(), size, plan_.stride(), ahead_ > 0,
-        {plan_.damped() || bool(damping_) || plan_.has_outside(), plan_.has_outside() || both});
+        {plan_.damped() || alpha_ > 0 || plan_.has_outside(), plan_.has_outside() || both});
     plan_.to_planes(state.x, state_.planes().x);
     plan_.to_planes(state.v, state_.planes().v);
     if (ahead_ > 0) state_.look_ahead(ahead_);
@@ -274,15 +292,17 @@ void Sweep<System>::load(const System& system, const AnyState& state, const Step
 template <class System>
 template <class Update>
 bool Sweep<System>::steps(Scalar h, Index count, int threads, const Update& update) {
-    const bool one_by_one = outside_.asks_for_state();
-    if (one_by_one && !state_.finite()) return false;  // a finite double may be infinite as a float
+    const bool asks = outside_.asks_for_state();
+    if (asks && !state_.finite()) return false;  // a finite double may be infinite as a float
     for (Index done = 0; done < count;) {
-        const Index next = one_by_one ? 1 : std::min(steps_between_checks, count - done);
+        const Index next = asks || watch_ ? 1 : std::min(steps_between_checks, count - done);
         update_.set_external(outside_.at_state(plan_, state_.planes()));
+        show(outside_.state(), outside_.force());
         some_steps(h, next, threads, update);
-        if (!state_.finite()) return false;
-        outside_.pass(h);
         done += next;
+        const bool check = asks || done == count || done % steps_between_checks == 0;
+        if (check && !state_.finite()) return false;
+        outside_.pass(h);
     }
     return true;
 }
@@ -344,7 +364,7 @@ void Sweep<System>::step_block(const StatePlanes<Scalar>& planes, int block, Sca
     TileView<Scalar> view{{planes.spring_x.first, planes.spring_x.stride},
                           {planes.v.first, planes.v.stride},
                           {planes.x.first, planes.x.stride},
-                          damping_,
+                          alpha_,
                           plan_.blocks().begin(block),
                           plan_.blocks().size(),
                           0,

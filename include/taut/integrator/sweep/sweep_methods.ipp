@@ -9,9 +9,10 @@ namespace taut::integrator_detail::sweep {
 template <class System>
 template <class AnyState, class Update>
 bool Sweep<System>::run(const System& system, AnyState& state, Scalar h, Index count, int threads,
-                        const StepDamping& added, const Update& update) {
-    load(system, state, added, static_cast<Scalar>(added.look_ahead));
+                        const Update& update) {
+    load(system, state);
     if (!steps(h, count, threads, update)) return false;
+    show(nullptr, nullptr);
     store(state_.planes().x, h, count, state);
     return true;
 }
@@ -21,22 +22,24 @@ template <class AnyState, class Update>
 bool Sweep<System>::run_ahead(const System& system, AnyState& state, Scalar h, Index count,
                               int threads, const Update& update) {
     constexpr bool pushes = ForcePlan<System>::pushes;
-    load(system, state, {}, h, pushes);
+    load(system, state, h, pushes);
     bool finite;
     if constexpr (pushes) {
         finite = steps(h, count, threads, WithBoth<Update>{update});
     } else {
         finite = steps(h, count, threads, update);
     }
-    if (finite) store(state_.planes().x, h, count, state);
-    return finite;
+    if (!finite) return false;
+    show(nullptr, nullptr);
+    store(state_.planes().x, h, count, state);
+    return true;
 }
 
 template <class System>
 template <class AnyState>
 bool Sweep<System>::run_verlet(const System& system, AnyState& state, Scalar h, Index count,
-                               int threads, const StepDamping& added, bool go_on) {
-    load(system, state, added, static_cast<Scalar>(added.look_ahead));
+                               int threads, bool go_on) {
+    load(system, state);
     const Scalar half = h / 2;
     const auto kick_and_drift = [half](auto& x, auto& v, const auto& a, const auto& step) {
         v += Register(half) * a;
@@ -49,12 +52,12 @@ bool Sweep<System>::run_verlet(const System& system, AnyState& state, Scalar h, 
         x += step * v;
     };
     if (go_on) {
+        show(nullptr, nullptr);
         auto x = state_.whole(state_.planes().x);
         auto v = state_.whole(state_.planes().v);
         v += half * acceleration_;
         x += h * v;
         outside_.pass(h);
-        if (ahead_ > 0) state_.look_ahead(ahead_);
         if (!state_.finite()) return false;
     } else if (!steps(h, 1, threads, kick_and_drift)) {
         return false;
@@ -77,7 +80,7 @@ template <bool Ahead, class AnyState, class Correct>
 bool Sweep<System>::run_corrected(const System& system, AnyState& state, Scalar h, Index count,
                                   int threads, const Correct& correct) {
     // The acceleration takes the place of the new x, which must not be that of the old one.
-    load(system, state, {}, Ahead ? h : Scalar(0), Ahead);
+    load(system, state, Ahead ? h : Scalar(0), Ahead);
     const bool one_by_one = outside_.asks_for_state();
     if (one_by_one && !state_.finite()) return false;
     if (places_.empty()) places_ = plan_.places();

@@ -78,10 +78,10 @@ struct TileView {
     Planes<const Scalar> x;   // m, of all places, as springs see them
     Planes<const Scalar> v;   // m/s, of all places
     Planes<const Scalar> at;  // m, of all places, as they are
-    StiffnessDamping<Scalar> damping;
-    int begin;  // the block's first place
-    int size;   // places of a block
-    int tile;   // among those of all blocks
+    Scalar alpha;             // of Rayleigh damping, s
+    int begin;                // the block's first place
+    int size;                 // places of a block
+    int tile;                 // among those of all blocks
     /// Forces on the places of the block, N: those on ends a and those on ends b. Apart, because a
     /// register stored to one address and loaded from the next would wait for the store. Stars' are
     /// all in the first.

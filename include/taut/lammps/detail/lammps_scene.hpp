@@ -47,7 +47,6 @@ void check_forces(const System& system, LammpsEquals& equals) {
     };
     refuse(system.rayleigh().stiffness_proportional > 0,
            "stiffness-proportional Rayleigh damping (set_rayleigh)");
-    refuse(system.graph_damping() > 0, "graph damping (set_graph_damping)");
     refuse(outside.outside != nullptr, outside.outside ? outside.outside->name() : "");
     refuse(static_cast<bool>(outside.whole), "a force of the state (set_external_force)");
     refuse(outside.constants > 0, "a constant force (set_constant_force)");

@@ -166,13 +166,6 @@ void SpringSystem<Scalar, Dim, Laws...>::set_rayleigh(const RayleighDamping& ray
 }
 
 template <class Scalar, int Dim, class... Laws>
-void SpringSystem<Scalar, Dim, Laws...>::set_graph_damping(double alpha) {
-    require_held<Scalar>("SpringSystem::set_graph_damping", "alpha", alpha);
-    graph_damping_ = alpha;
-    ++revision_;
-}
-
-template <class Scalar, int Dim, class... Laws>
 Index SpringSystem<Scalar, Dim, Laws...>::spring_count() const {
     Index count = 0;
     for_each_set([&](const auto& set) { count += set.size(); });

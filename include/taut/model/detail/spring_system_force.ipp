@@ -26,28 +26,25 @@ void SpringSystem<Scalar, Dim, Laws...>::sum_forces(const State& state, Force& f
 }
 
 template <class Scalar, int Dim, class... Laws>
-void SpringSystem<Scalar, Dim, Laws...>::force(const State& state, Force& f,
-                                               const StepDamping& added) const {
+void SpringSystem<Scalar, Dim, Laws...>::force(const State& state, Force& f) const {
     detail::require_fits("SpringSystem::force", state, size());
-    const auto by = stiffness_damping(added).template cast<Scalar>();
-    const auto ahead = static_cast<Scalar>(added.look_ahead);
+    const auto alpha = static_cast<Scalar>(rayleigh_.stiffness_proportional);
     sum_forces(state, f, [&](const auto& spring) -> Vector {
-        Vector dx = state.x.col(spring.b) - state.x.col(spring.a);
-        if (!by && ahead == 0 && spring.damping == 0) return pull(spring, dx);
+        const Vector dx = state.x.col(spring.b) - state.x.col(spring.a);
+        if (alpha == 0 && spring.damping == 0) return pull(spring, dx);
         const Vector dv = state.v.col(spring.b) - state.v.col(spring.a);
-        if (ahead != 0) dx += ahead * dv;  // 0·∞ would hide an overflow
-        return pull(spring, dx, dv, by);
+        return pull(spring, dx, dv, alpha);
     });
 }
 
 template <class Scalar, int Dim, class... Laws>
 void SpringSystem<Scalar, Dim, Laws...>::force_ahead(const State& state, Scalar h, Force& f) const {
     detail::require_fits("SpringSystem::force_ahead", state, size());
-    const auto by = stiffness_damping().template cast<Scalar>();
+    const auto alpha = static_cast<Scalar>(rayleigh_.stiffness_proportional);
     sum_forces(state, f, [&](const auto& spring) {
         const Vector dx = state.x.col(spring.b) - state.x.col(spring.a);
         const Vector dv = state.v.col(spring.b) - state.v.col(spring.a);
-        return pull_ahead(spring, dx, dv, h, by);
+        return pull_ahead(spring, dx, dv, h, alpha);
     });
 }
 

@@ -91,15 +91,14 @@ void StepObjective<System>::begin(const System& system, const State& state, Scal
 template <class System>
 void StepObjective<System>::set_dampers(const System& system, const State& state) {
     dampers_.clear();
-    const auto by = system.stiffness_damping().template cast<Scalar>();
-    bool damped(by);
+    const auto alpha = static_cast<Scalar>(system.rayleigh().stiffness_proportional);
+    bool damped = alpha > 0;
     system.for_each_set([&](const auto& set) { damped = damped || !set.damping.empty(); });
     if (!damped) return;
     system.for_each_tangent(state.x, [&](const SpringTangent<Scalar, Dim>& raw) {
         const auto t = raw.projected();
-        const Scalar graph = by.graph * t.bound;
-        const Scalar axial = h_ * (by.projected * t.axial + t.damping + graph);
-        const Scalar transverse = h_ * (by.projected * t.transverse + graph);
+        const Scalar axial = h_ * (alpha * t.axial + t.damping);
+        const Scalar transverse = h_ * alpha * t.transverse;
         if (axial > 0 || transverse > 0) {
             dampers_.push_back(
                 {static_cast<int>(t.a), static_cast<int>(t.b), axial, transverse, t.d});

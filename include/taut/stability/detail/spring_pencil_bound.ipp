@@ -12,16 +12,14 @@ auto SpringPencil<Dim>::splitting(const Combination& c, const std::vector<double
     Splitting split;
     split.block.assign(degree_.size(), Block::Zero());
     split.rounding.assign(degree_.size(), 0);
-    // The factor of every K⁺: where it is not positive, neither is any transverse coefficient but
-    // for graph damping, whatever the rounding of the tangents.
+    // The factor of every K⁺: where it is not positive, neither is any transverse coefficient,
+    // whatever the rounding of the tangents.
     const double factor = c.projected() + c.damping() * rayleigh_.stiffness_proportional;
     const double eps = std::numeric_limits<double>::epsilon();
     for (const Link& link : links_) {
         const auto [axial, transverse] = extreme_coefficients(c, link, 1);
         const double size = magnitude(c, link);
-        const auto negative = [&](double part) { return part < -64 * eps * size; };
-        if (c.stiffness() == 0 && factor <= 0 &&
-            (c.damping() <= 0 || (negative(axial) && (link.graph == 0 || negative(transverse))))) {
+        if (c.stiffness() == 0 && factor <= 0 && (c.damping() <= 0 || axial < -64 * eps * size)) {
             continue;  // not positive for certain
         }
         const Block P = spring_block(link.d, std::max(axial, 0.0), std::max(transverse, 0.0));

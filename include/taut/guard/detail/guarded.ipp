@@ -5,9 +5,9 @@
 namespace taut {
 
 template <class Stepper, class System>
-void Guard<Stepper, System>::renew() {
+void Guarded<Stepper, System>::renew() {
     if (!proved_limit_ || proved_limit_->revision != system_->revision()) {
-        proved_limit_ = energy_stable_limit(*system_);
+        proved_limit_ = energy_limit(*system_);
         any_pose_limit_ = any_pose_limit(*system_);
     }
     parts_.update(*system_);
@@ -15,14 +15,10 @@ void Guard<Stepper, System>::renew() {
 
 /// The longest, s.
 template <class Stepper, class System>
-auto Guard<Stepper, System>::trial_step() const -> Scalar {
+auto Guarded<Stepper, System>::trial_step() const -> Scalar {
     Scalar h = std::numeric_limits<Scalar>::infinity();
     if constexpr (any_pose == method::AnyPose::limited) {
-        double share = 0.95;
-        if constexpr (detail::is_detected_v<integrator_detail::damping_of, Stepper>) {
-            share = share_of_limit(share, stepper().damping());
-        }
-        h = static_cast<Scalar>(share) * any_pose_limit_->certified;
+        h = Scalar(0.95) * any_pose_limit_->certified;
     } else if constexpr (any_pose == method::AnyPose::proved) {
         h = proved_limit_->certified;
     }
@@ -31,8 +27,8 @@ auto Guard<Stepper, System>::trial_step() const -> Scalar {
 
 /// Measures what a frame begins with, and refuses what cannot be advanced.
 template <class Stepper, class System>
-Status Guard<Stepper, System>::open(const State& state, Scalar frame, Scalar longest,
-                                    GuardReport<Scalar>& report) {
+Status Guarded<Stepper, System>::open(const State& state, Scalar frame, Scalar longest,
+                                      GuardedReport<Scalar>& report) {
     const Report checked = integrator_detail::StepLoop<State>::check(*system_, state, frame);
     report.where = checked.where;
     if (!checked) return checked.status;
@@ -50,7 +46,7 @@ Status Guard<Stepper, System>::open(const State& state, Scalar frame, Scalar lon
     }
     for (std::size_t p = 0; p < parts_.count(); ++p) {
         // An edit may have stopped what had earned it.
-        parts_[p].credit = std::max(parts_[p].credit, -0.1 * begin_[p].kinetic);
+        parts_[p].balance = std::max(parts_[p].balance, -0.1 * begin_[p].kinetic);
     }
     blamed_ = nullptr;
     start_ = state;
@@ -61,30 +57,35 @@ Status Guard<Stepper, System>::open(const State& state, Scalar frame, Scalar lon
 }
 
 template <class Stepper, class System>
-auto Guard<Stepper, System>::cut(Scalar span, Scalar longest) -> Frame {
+auto Guarded<Stepper, System>::cut(Scalar span, Scalar longest) -> Frame {
     const double steps = std::ceil(static_cast<double>(span) / static_cast<double>(longest));
     const Index count = std::max(Index(1), static_cast<Index>(steps));
     return {span / static_cast<Scalar>(count), count};
 }
 
-/// @param take  bool take(state, h, count): steps
+/// @param by    what takes the steps
+/// @param take  bool take(state, h, count): steps by it
 /// @returns whether all steps were taken, to a finite state
 template <class Stepper, class System>
-template <class Take, class Respond>
-bool Guard<Stepper, System>::run(State& state, Frame frame, Kind kind, Take&& take,
-                                 Respond& respond) {
-    constexpr bool responds = !std::is_same_v<std::decay_t<Respond>, integrator_detail::NoResponse>;
-    constexpr bool held = detail::is_detected_v<integrator_detail::constraint_forces_of, Stepper>;
-    const bool stepwise = work_.stepwise(*system_, state) || responds || held;
-    work_.start(*system_, state, parts_);
+template <class By, class Take, class Respond>
+bool Guarded<Stepper, System>::run(State& state, Frame frame, Kind kind, By& by, Take&& take,
+                                   Respond& respond) {
+    constexpr bool responds = !std::is_same_v<std::decay_t<Respond>, guard_detail::NoResponse>;
+    constexpr bool held = detail::is_detected_v<guard_detail::constraint_forces_of, Stepper>;
+    constexpr bool shows = detail::is_detected_v<guard_detail::watch_of, By>;
+    const bool seen = work_.start(*system_, state, parts_, frame.h, kind);
+    const bool stepwise = responds || held || (seen && !shows);
     const Index at_once = stepwise ? 1 : frame.steps;
+    if (stepwise) work_.see(state);
+    const guard_detail::Watching watching(by, seen && !stepwise ? &work_ : nullptr);
     for (Index done = 0; done < frame.steps; done += at_once) {
         if (!take(state, frame.h, at_once)) return false;
         if (!detail::fits(state, system_->size()) || !state.finite()) return false;
         if constexpr (held) {
-            if (kind != Kind::ahead) work_.add_held(stepper().constraint_forces(), state, parts_);
+            if (kind != Kind::ahead) work_.add_held(stepper().constraint_forces(), state);
         }
-        work_.step(*system_, state, parts_, frame.h, kind);
+        if (stepwise) work_.see(state);
+        work_.add_constant(state);
         if constexpr (responds) {
             touched_ = state;
             respond(state);
@@ -100,17 +101,17 @@ bool Guard<Stepper, System>::run(State& state, Frame frame, Kind kind, Take&& ta
             if (state.x == touched_.x && state.v == touched_.v) continue;
             measure(touched_, before_);
             measure(state, after_);
-            work_.add_change(*system_, before_, after_, state);
+            work_.add_change(before_, after_, state);
         }
     }
-    return true;
+    return stepwise || !seen || work_.seen() == frame.steps + 1;
 }
 
 template <class Stepper, class System>
 template <class Respond>
-bool Guard<Stepper, System>::try_frame(State& state, Frame frame, Respond& respond) {
+bool Guarded<Stepper, System>::try_frame(State& state, Frame frame, Respond& respond) {
     const auto take = [&](State& own, Scalar h, Index count) {
-        if constexpr (detail::is_detected_v<integrator_detail::method_of, Stepper>) {
+        if constexpr (detail::is_detected_v<guard_detail::method_of, Stepper>) {
             return guard_detail::take_steps(stepper(), own, h, count);
         } else {
             // Pins and time are not the caller's to move.
@@ -129,34 +130,34 @@ bool Guard<Stepper, System>::try_frame(State& state, Frame frame, Respond& respo
     constexpr Kind kind = any_pose == method::AnyPose::limited  ? Kind::at_both_ends
                           : any_pose == method::AnyPose::proved ? Kind::ahead
                                                                 : Kind::at_the_end;
-    return run(state, frame, kind, take, respond);
+    return run(state, frame, kind, stepper(), take, respond);
 }
 
-/// a of a part, J: what its trial gained beyond its books and its credit.
+/// a of a part, J: what it has gained beyond its books by the end of its trial.
 template <class Stepper, class System>
-double Guard<Stepper, System>::gain(std::size_t part) const {
-    return parts_[part].credit + end_[part].total - begin_[part].total - work_[part].booked -
-           rounding_[part];
+double Guarded<Stepper, System>::gain(std::size_t part) const {
+    return parts_[part].balance + end_[part].total - begin_[part].total - work_[part].booked;
 }
 
 template <class Stepper, class System>
-bool Guard<Stepper, System>::holds(std::size_t part) const {
-    return end_[part].finite() && gain(part) <= 1e-12 * end_[part].kinetic;
+bool Guarded<Stepper, System>::holds(std::size_t part) const {
+    return end_[part].finite() && gain(part) <= rounding_[part] + 1e-12 * end_[part].kinetic;
 }
 
 /// Says of every part what becomes of its trial, and trims what gained a little.
 template <class Stepper, class System>
-void Guard<Stepper, System>::judge(State& state, bool tried) {
+void Guarded<Stepper, System>::judge(State& state, bool tried) {
     if (!tried) return;
     measure(state, end_);
     std::vector<guard_detail::Gain> gains(parts_.count());
     for (std::size_t p = 0; p < parts_.count(); ++p) {
         if (parts_[p].skip > 0) continue;
+        const double quarter = end_[p].kinetic / 4;
         if (holds(p)) {
             taken_[p] = Taken::tried;
-        } else if (end_[p].finite() && gain(p) <= end_[p].kinetic / 4) {
+        } else if (end_[p].finite() && gain(p) - rounding_[p] <= quarter) {
             taken_[p] = Taken::trimmed;
-            gains[p] = {gain(p), end_[p].speed};
+            gains[p] = {std::min(gain(p), quarter), end_[p].speed};
         }
     }
     if (any(Taken::trimmed)) {
@@ -167,7 +168,7 @@ void Guard<Stepper, System>::judge(State& state, bool tried) {
         if (taken_[p] == Taken::trimmed && !holds(p)) taken_[p] = Taken::again;
         if (taken_[p] == Taken::again) continue;
         booked_[p] = work_[p].booked;
-        parts_[p].credit = std::max(gain(p), -0.1 * end_[p].kinetic);
+        parts_[p].balance = std::max(gain(p), -0.1 * end_[p].kinetic);
         parts_[p].again = 0;
         parts_[p].next_skip = 2;
     }
@@ -176,8 +177,8 @@ void Guard<Stepper, System>::judge(State& state, bool tried) {
 /// @returns whether what the user gives was finite
 template <class Stepper, class System>
 template <class Respond>
-bool Guard<Stepper, System>::take_again(State& state, Scalar span, bool tried,
-                                        GuardReport<Scalar>& report, Respond& respond) {
+bool Guarded<Stepper, System>::take_again(State& state, Scalar span, bool tried,
+                                          GuardedReport<Scalar>& report, Respond& respond) {
     const auto take = [&](State& own, Scalar h, Index count) {
         const Report stepped = proved_.step(own, h, count);
         report.where = stepped.where;
@@ -187,7 +188,7 @@ bool Guard<Stepper, System>::take_again(State& state, Scalar span, bool tried,
         const Frame frame =
             cut(span, proved_limit_->certified / static_cast<Scalar>(1 << halvings));
         again_ = start_;
-        if (!run(again_, frame, Kind::ahead, take, respond)) {
+        if (!run(again_, frame, Kind::ahead, proved_, take, respond)) {
             if (blamed_ || !stiff_by_code()) return false;
             if (halvings == 2)
                 std::replace(taken_.begin(), taken_.end(), Taken::again, Taken::frozen);
@@ -217,7 +218,7 @@ bool Guard<Stepper, System>::take_again(State& state, Scalar span, bool tried,
 
 /// Whether forces given as code can be why a step was not finite: they were, where it began.
 template <class Stepper, class System>
-bool Guard<Stepper, System>::stiff_by_code() {
+bool Guarded<Stepper, System>::stiff_by_code() {
     if (!work_.code()) return false;
     system_->external_force(start_, touched_.v);
     return touched_.v.allFinite();
@@ -225,7 +226,7 @@ bool Guard<Stepper, System>::stiff_by_code() {
 
 /// What forces given as code left unexplained while a part was taken again, J.
 template <class Stepper, class System>
-double Guard<Stepper, System>::unexplained(std::size_t part) const {
+double Guarded<Stepper, System>::unexplained(std::size_t part) const {
     if (!work_.code()) return 0;
     return parts_[part].by_code + end_[part].total - begin_[part].total - work_[part].checked -
            rounding_[part];
@@ -233,22 +234,26 @@ double Guard<Stepper, System>::unexplained(std::size_t part) const {
 
 /// Of that, what is let pass, J.
 template <class Stepper, class System>
-double Guard<Stepper, System>::band(std::size_t part) const {
+double Guarded<Stepper, System>::band(std::size_t part) const {
     return 0.05 * std::max(begin_[part].speed, end_[part].speed);
 }
 
 /// A part that was taken again for the last time in this frame.
 template <class Stepper, class System>
-void Guard<Stepper, System>::settle_again(std::size_t part, GuardReport<Scalar>& report) {
+void Guarded<Stepper, System>::settle_again(std::size_t part, GuardedReport<Scalar>& report) {
     guard_detail::Part& own = parts_[part];
     booked_[part] = work_[part].booked;
     if (!end_[part].finite() || !(unexplained(part) <= band(part))) taken_[part] = Taken::frozen;
     own.by_code = std::clamp(unexplained(part), -band(part), band(part));
-    const double rise = end_[part].total - begin_[part].total;
-    if (taken_[part] == Taken::again && rise > booked_[part] + rounding_[part]) {
+    const double rise = end_[part].total - begin_[part].total - booked_[part];
+    if (taken_[part] == Taken::again && rise > rounding_[part]) {
         report.spring = strongest_spring(part);
     }
-    own.credit = std::max(own.credit, -0.1 * end_[part].kinetic);
+    if (taken_[part] == Taken::again) {
+        // What it lost pays what it owes, and earns nothing.
+        own.balance = std::max(own.balance + rise, std::min(own.balance, 0.0));
+        own.balance = std::max(own.balance, -0.1 * end_[part].kinetic);
+    }
     if (own.skip > 0) {
         --own.skip;
     } else if (++own.again >= 3) {
@@ -259,7 +264,7 @@ void Guard<Stepper, System>::settle_again(std::size_t part, GuardReport<Scalar>&
 
 /// Stops the frozen parts where the frame began: what then moves their energy is pins.
 template <class Stepper, class System>
-void Guard<Stepper, System>::freeze(State& state) {
+void Guarded<Stepper, System>::freeze(State& state) {
     if (!any(Taken::frozen)) return;
     for (Index i = 0; i < system_->size(); ++i) {
         if (taken_of(i, true) != Taken::frozen) continue;
@@ -270,14 +275,15 @@ void Guard<Stepper, System>::freeze(State& state) {
     for (std::size_t p = 0; p < parts_.count(); ++p) {
         if (taken_[p] != Taken::frozen) continue;
         booked_[p] = end_[p].total - (begin_[p].total - begin_[p].speed / 2);
-        parts_[p].credit = parts_[p].by_code = 0;
+        parts_[p].balance = std::max(0.0, parts_[p].balance - begin_[p].speed / 2);
+        parts_[p].by_code = 0;
     }
 }
 
 /// The spring of a part that exceeds its law's bound most, or −1; it counts the laws in their
 /// order. At the ends of the frame that was taken again.
 template <class Stepper, class System>
-Index Guard<Stepper, System>::strongest_spring(std::size_t part) const {
+Index Guarded<Stepper, System>::strongest_spring(std::size_t part) const {
     Index found = -1, index = -1;
     Scalar most = 1 + 64 * std::numeric_limits<Scalar>::epsilon();
     system_->visit_springs([&](const auto& spring) {
@@ -297,7 +303,7 @@ Index Guard<Stepper, System>::strongest_spring(std::size_t part) const {
 
 /// Sums up the frame, whose end is `state`.
 template <class Stepper, class System>
-void Guard<Stepper, System>::close(const State& state, GuardReport<Scalar>& report) {
+void Guarded<Stepper, System>::close(const State& state, GuardedReport<Scalar>& report) {
     last_.keep(*system_, state);
     report.parts = static_cast<Index>(parts_.count());
     for (std::size_t p = 0; p < parts_.count(); ++p) {
@@ -306,7 +312,7 @@ void Guard<Stepper, System>::close(const State& state, GuardReport<Scalar>& repo
         report.frozen += taken_[p] == Taken::frozen;
         report.energy += end_[p].total;
         report.work += booked_[p];
-        report.credit += parts_[p].credit;
+        report.balance += parts_[p].balance;
         report.rounding += rounding_[p];
         report.blind = report.blind || rounding_[p] > end_[p].kinetic / 100;
         if (taken_[p] <= report.taken) continue;
@@ -320,7 +326,7 @@ void Guard<Stepper, System>::close(const State& state, GuardReport<Scalar>& repo
 
 /// What set the forces that are given as code; null without them.
 template <class Stepper, class System>
-const char* Guard<Stepper, System>::force_name() const {
+const char* Guarded<Stepper, System>::force_name() const {
     const auto& forces = system_->external_forces();
     if (forces.whole) return "set_external_force";
     return forces.outside ? forces.outside->name() : nullptr;
@@ -328,9 +334,9 @@ const char* Guard<Stepper, System>::force_name() const {
 
 template <class Stepper, class System>
 template <class Respond>
-auto Guard<Stepper, System>::advance(State& state, Scalar frame, Respond&& respond)
-    -> GuardReport<Scalar> {
-    GuardReport<Scalar> report;
+auto Guarded<Stepper, System>::advance(State& state, Scalar frame, Respond&& respond)
+    -> GuardedReport<Scalar> {
+    GuardedReport<Scalar> report;
     renew();
     const Scalar longest = trial_step();
     report.status = open(state, frame, longest, report);
