@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
-// What Guard costs beside bare velocity Verlet at the same step, and how often it trims: a second
+// What Guarded costs beside bare velocity Verlet at the same step, and how often it trims: a second
 // of a falling cloth, at rest and with its corners shaken. Prints Markdown. Argument: particles
 // along an edge.
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
-// What Guard does to frames, what it keeps of its promise, and what it costs. Prints Markdown;
+// What Guarded does to frames, what it keeps of its promise, and what it costs. Prints Markdown;
 // exits with 1 if a promise is broken or a frame refused. Argument: the letters of the tables, all
 // of them unless given.
 

@@ -15,7 +15,7 @@
 #include <taut/scene/cloth.hpp>
 #include <taut/scene/mesh.hpp>
 #include <taut/resolution/resolution.hpp>
-#include <taut/stability/energy_stable_limit.hpp>
+#include <taut/stability/energy_limit.hpp>
 #include <vector>
 
 #include "../examples/common/mesh_file.hpp"
@@ -53,7 +53,7 @@ Scene cloth(Index side) {
 Path motion(const System& system, System::State state, double duration) {
     constexpr int samples = 30;
     const double interval = duration / samples;
-    const double most = taut::energy_stable_limit(system).certified;
+    const double most = taut::energy_limit(system).certified;
     const double steps = std::ceil(interval / most);
     taut::EnergyStableEuler<System> stepper(system);
     Path path{state.x};

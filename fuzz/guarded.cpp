@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
-// Tries to break what Guard promises [T43]: scenes, trial steppers, frames, outside forces, moving
-// pins, contacts and edits are decoded from the input. Energies are measured apart from the guard.
+// Tries to break what Guarded promises [T43]: scenes, trial steppers, frames, outside forces,
+// moving pins, contacts and edits are decoded from the input. Energies are measured apart from the
+// guard.
 
 #include <algorithm>
 #include <cmath>
@@ -159,8 +160,8 @@ struct Spoiler {
     }
 };
 
-template <class Guard, class System>
-void advance_frames(Guard& guard, System& system, typename System::State state, Bytes& bytes) {
+template <class Guarded, class System>
+void advance_frames(Guarded& guard, System& system, typename System::State state, Bytes& bytes) {
     using Scalar = typename System::Scalar;
     constexpr double unit = std::numeric_limits<Scalar>::epsilon() / 2;
     const double speed_up = std::exp2(bytes.byte() / 32.0 - 2);
@@ -180,7 +181,7 @@ void advance_frames(Guard& guard, System& system, typename System::State state, 
         }
         // Not so long that it is taken again in millions of steps.
         const double limit = taut::any_pose_limit(system).certified;
-        const double proved = taut::energy_stable_limit(system).certified;
+        const double proved = taut::energy_limit(system).certified;
         const double frame = std::min(
             {speed_up * (1 + bytes.byte() % 3) * limit, 300 * proved, limit > 0 ? 1.0 / 60 : 0.0});
         const bool tame = proved > 1e-25 && is_tame(system, state, frame);
@@ -210,8 +211,8 @@ void advance_frames(Guard& guard, System& system, typename System::State state, 
         require(report.spring == -1, "no law exceeds its bound");
         const double steps = std::max(static_cast<double>(report.substeps), 4 * frame / proved);
         const double pushed = std::max(code_size(system, before), code_size(system, state));
-        const double rounding = report.rounding + (by_code ? 8 * unit * steps * pushed : 0.0);
-        require(promise.keeps(now, report.work, rounding, unit), "E ≤ E + 0.1 K + Σ(W + ρ)");
+        const double unseen = by_code ? 8 * unit * steps * pushed : 0.0;
+        require(promise.keeps(now, report, unit, unseen), "E ≤ E + 0.1 K + ΣW + d");
         require(std::abs(report.energy - now.energy) <= 16 * unit * now.size + least,
                 "the report's energy is that of the state");
         bool moves = false;
@@ -229,18 +230,19 @@ void guard_scene(Bytes bytes) {
     const auto state = taut_fuzz::decode_state(bytes, system);
     const int chosen = bytes.byte() % static_cast<int>(sizeof...(Steppers) + 1);
     set_force(system, bytes);
-    taut::GuardOptions<typename System::Scalar> options;
+    taut::GuardedOptions<typename System::Scalar> options;
     options.max_substeps = 1 + bytes.byte() % 64;
     if (chosen == static_cast<int>(sizeof...(Steppers))) {
         Spoiler<System> spoiler(system, bytes);
-        taut::Guard guard(system, spoiler, options);
+        taut::Guarded guard(system, spoiler, options);
         taut_fuzz::accepted([&] { advance_frames(guard, system, state, bytes); });
         return;
     }
     int index = 0;
     const auto run = [&](auto guard) { advance_frames(guard, system, state, bytes); };
-    taut_fuzz::accepted(
-        [&] { ((index++ == chosen ? run(taut::Guard<Steppers>(system, options)) : void()), ...); });
+    taut_fuzz::accepted([&] {
+        ((index++ == chosen ? run(taut::Guarded<Steppers>(system, options)) : void()), ...);
+    });
 }
 
 using Springs = taut::SpringSystem<double, 2>;

@@ -108,9 +108,9 @@ void require_wrappers(Bytes& bytes, const System& system, const typename System:
     }
     require_steps(constrained, state, h);
 
-    taut::GuardOptions<Scalar> few;
+    taut::GuardedOptions<Scalar> few;
     few.max_substeps = 20;
-    taut::Guard guard(system, few);
+    taut::Guarded guard(system, few);
     auto moved = state;
     for (int frame = 0; frame < 3; ++frame) {
         const auto before = moved;

@@ -38,7 +38,7 @@ bool accuracy_rows(const char* law) {
                 if (!system.is_pinned(i)) state.v(2, i) = 0.5 * std::sin(6 * state.x(1, i));
             }
         }
-        taut::Guard guard(system);
+        taut::Guarded guard(system);
         State guarded = state;
         Tally tally;
         Index count = 0;
@@ -47,7 +47,7 @@ bool accuracy_rows(const char* law) {
             sound = tally.add(report) && sound;
             count = report.substeps;
         }
-        const double proved = taut::energy_stable_limit(system).certified;
+        const double proved = taut::energy_limit(system).certified;
         const State truth = moved<Verlet>(system, state, 16 * count);
         const State finer = moved<Verlet>(system, state, 32 * count);
         const State bare = moved<Verlet>(system, state, count);
@@ -84,7 +84,7 @@ bool code_rows(const char* law) {
             if (kind == 4) f -= 30 * m / h * (s.v.colwise() - Eigen::Vector3d(10, 5, 0));
         });
         auto state = system.initial_state();
-        taut::Guard guard(system);
+        taut::Guarded guard(system);
         Tally tally;
         Index named = 0;
         double fastest = 0, widest = 0;

@@ -6,11 +6,12 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <taut/guard/report.hpp>
 #include <taut/model/spring_system.hpp>
 #include <vector>
 
-// What Guard's promise [T43] is judged by: energies in long double, written from their definitions
-// with nothing of the guard in them.
+// What Guarded's promise [T43] is judged by: energies in long double, written from their
+// definitions with nothing of the guard in them.
 
 namespace guard_books {
 
@@ -84,7 +85,8 @@ Books books_of(const System& system, const typename System::State& state) {
     return books_of(system, state, parts_of(system));
 }
 
-/// E_n ≤ E_m + 0.1 K_m + Σ(W + ρ) for all m < n at once: the least right side of every m so far.
+/// E_n ≤ E_m + 0.1 K_m + ΣW + d_n for all m < n at once: the least right side of every m so far. d
+/// is the guard's word, which may be no more than ρ and that of the frames taken again.
 class Promise {
 public:
     /// @param least  what underflow may hide, J
@@ -96,14 +98,18 @@ public:
         allowed_ += after.energy - before.energy;
     }
     /// A frame that ended so. @returns whether it kept the promise
-    /// @param unit  the unit roundoff of what the guard measures in
-    bool keeps(const Books& end, double work, double rounding, double unit) {
-        allowed_ += Real(work) + rounding;
+    /// @param report  of the guard   @param unit  the unit roundoff of what it measures in
+    /// @param unseen  what rounding may hide beside ρ, J
+    template <class Report>
+    bool keeps(const Books& end, const Report& report, double unit, double unseen = 0) {
+        allowed_ += Real(report.work) + unseen;
+        if (report.taken >= taut::Taken::again) rounded_ += report.rounding + unseen;
         scale_ = std::max({scale_, end.size, std::abs(allowed_)});
         // Measured by the guard in a few roundings of its own; an edit may take away most of E.
         const Real grain = 8 * Real(unit) * end.size + 1e-13L * scale_ + least_;
-        over_ = end.energy - allowed_;
-        const bool kept = !(over_ > grain);
+        over_ = end.energy - allowed_ - report.balance;
+        const bool owes = report.balance > report.rounding + rounded_ + grain;
+        const bool kept = !(over_ > grain) && !owes;
         allowed_ = std::min(allowed_, end.energy + end.kinetic / 10);
         return kept;
     }
@@ -113,6 +119,7 @@ public:
 private:
     Real allowed_ = std::numeric_limits<Real>::infinity();
     Real over_ = 0;
+    Real rounded_ = 0;  // Σρ of the frames taken again, J
     Real least_;
     Real scale_ = 0;  // the largest energy so far, J
 };

@@ -23,7 +23,7 @@ struct Row {
 
 template <class System>
 Row two_seconds(const System& system, typename System::State state, Motion motion) {
-    taut::Guard guard(system);
+    taut::Guarded guard(system);
     if (motion == Motion::thrown) throw_free(system, state);
     Row row;
     const auto part = guard_books::parts_of(system);
@@ -39,8 +39,7 @@ Row two_seconds(const System& system, typename System::State state, Motion motio
         if (!row.tally.add(report)) break;
         work += report.work;
         books = guard_books::books_of(system, state, part);
-        row.tally.broken +=
-            !promise.keeps(books, report.work, report.rounding, unit_of<typename System::Scalar>());
+        row.tally.broken += !promise.keeps(books, report, unit_of<typename System::Scalar>());
         most = std::max(most, books.moving);
     }
     row.moved = most > 1e-6 * books.size;
@@ -108,7 +107,7 @@ template <class System>
 bool damped_rows(const char* law) {
     bool sound = true;
     const Cloth plain = square(28);
-    const double undamped = taut::energy_stable_limit(as<System>(plain)).certified;
+    const double undamped = taut::energy_limit(as<System>(plain)).certified;
     // A strip along the height: its links, two diagonals at 45° and two bends carry 2.4 stretch.
     const double m = plain.mass(30), links = 27;
     const double omega = 3.14159265 / 2 * std::sqrt(2.4 * 1000 / m) / links;
@@ -124,7 +123,7 @@ bool damped_rows(const char* law) {
                         drag, share, taut::damping_ratio(damping, omega),
                         percent(row.tally.trimmed, row.tally.frames),
                         percent(row.tally.again, row.tally.frames),
-                        taut::energy_stable_limit(system).certified / undamped);
+                        taut::energy_limit(system).certified / undamped);
             std::fflush(stdout);
         }
     }
@@ -153,7 +152,7 @@ bool ordinary() {
 bool damped() {
     std::printf(
         "## e. A driven cloth of 28 × 28 with damping, 2 s at 60 Hz\n\n"
-        "ζ: damping ratio of its first stretch along the height. Step: energy_stable_limit beside "
+        "ζ: damping ratio of its first stretch along the height. Step: energy_limit beside "
         "undamped.\n\n"
         "| law, motion | drag, 1/s | α, undamped steps | ζ | frames trimmed, %% | taken again, %% "
         "| step |\n|---|---|---|---|---|---|---|\n");

@@ -6,7 +6,7 @@
 #include <string>
 #include <taut/method/visit.hpp>
 #include <taut/stability/any_pose.hpp>
-#include <taut/stability/energy_stable_limit.hpp>
+#include <taut/stability/energy_limit.hpp>
 #include <taut/stability/stability.hpp>
 #include <taut/tight/tight.hpp>
 
@@ -274,7 +274,7 @@ void judge_pose(Draw& draw, Tally& tally, const Scene<System>& scene) {
     Judge laplacians(tally, in_enough_bits({[&s = system] { return exact_laplacians(s); }}));
     laplacians.limit(Method::symplectic_euler, "any pose, by bounds", any);
     laplacians.limit(Method::symplectic_euler, "any pose, narrowed", narrow);
-    laplacians.energy_stable(taut::energy_stable_limit(system));
+    laplacians.energy_stable(taut::energy_limit(system));
 }
 
 /// A random scene; some of them again with the stiffest mode as near to critical damping,
