@@ -167,8 +167,7 @@ void advance_frames(Guarded& guard, System& system, typename System::State state
     const double speed_up = std::exp2(bytes.byte() / 32.0 - 2);
     const bool respond = bytes.one_in(4);
     const bool by_code = system.has_external_force();
-    const Real least = std::pow(Real(std::numeric_limits<Scalar>::max()), Real(-0.7));
-    guard_books::Promise promise(least);
+    guard_books::Promise promise;
     Books last = guard_books::books_of(system, state);
     promise.open(last);
     const int frames = 4 + bytes.byte() % 60;
@@ -213,7 +212,7 @@ void advance_frames(Guarded& guard, System& system, typename System::State state
         const double pushed = std::max(code_size(system, before), code_size(system, state));
         const double unseen = by_code ? 8 * unit * steps * pushed : 0.0;
         require(promise.keeps(now, report, unit, unseen), "E ≤ E + 0.1 K + ΣW + d");
-        require(std::abs(report.energy - now.energy) <= 16 * unit * now.size + least,
+        require(std::abs(report.energy - now.energy) <= 16 * unit * now.size + now.hidden,
                 "the report's energy is that of the state");
         bool moves = false;
         for (Index p = 0; p < system.size(); ++p)

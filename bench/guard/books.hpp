@@ -24,6 +24,7 @@ struct Books {
     Real kinetic = 0;  ///< K, that of each part about its centre of mass
     Real moving = 0;   ///< kinetic energy of the free particles
     Real size = 0;     ///< Σ of what E is the difference of: the scale of its rounding
+    Real hidden = 0;   ///< what underflow may hide
 };
 
 /// Free particles that springs join, by a particle of each: −1 for a pin.
@@ -48,6 +49,8 @@ Books books_of(const System& system, const typename System::State& state,
                const std::vector<Index>& part) {
     constexpr int Dim = System::Dim;
     using Vector = Eigen::Matrix<Real, Dim, 1>;
+    // A length is √ of a square that may be lost.
+    const Real underflow = std::sqrt(Real(std::numeric_limits<typename System::Scalar>::min()));
     Books books;
     std::vector<Real> mass(part.size(), 0);
     std::vector<Vector> momentum(part.size(), Vector::Zero());
@@ -60,6 +63,7 @@ Books books_of(const System& system, const typename System::State& state,
         books.moving += m * v.squaredNorm() / 2;
         books.energy += m * v.squaredNorm() / 2 - m * gravity.dot(x);
         books.size += m * v.squaredNorm() + m * gravity.norm() * x.norm();
+        books.hidden += 8 * m * (1 + gravity.norm()) * underflow * underflow;
         mass[part[i]] += m;
         momentum[part[i]] += m * v;
     }
@@ -77,6 +81,7 @@ Books books_of(const System& system, const typename System::State& state,
         books.energy += spring.energy(l);
         books.size += spring.stiffness_bound() * (l + spring.rest_length) *
                       (a.norm() + b.norm() + spring.rest_length);
+        books.hidden += 8 * spring.stiffness_bound() * (1 + spring.rest_length) * underflow;
     });
     return books;
 }
@@ -89,8 +94,6 @@ Books books_of(const System& system, const typename System::State& state) {
 /// is the guard's word, which may be no more than ρ and that of the frames taken again.
 class Promise {
 public:
-    /// @param least  what underflow may hide, J
-    explicit Promise(Real least = 0) : least_(least) {}
     void open(const Books& books) { allowed_ = books.energy + books.kinetic / 10; }
     /// Whoever edits the scene changes E.
     void edit(const Books& before, const Books& after) {
@@ -105,8 +108,9 @@ public:
         allowed_ += Real(report.work) + unseen;
         if (report.taken >= taut::Taken::again) rounded_ += report.rounding + unseen;
         scale_ = std::max({scale_, end.size, std::abs(allowed_)});
+        hidden_ = std::max(hidden_, end.hidden);
         // Measured by the guard in a few roundings of its own; an edit may take away most of E.
-        const Real grain = 8 * Real(unit) * end.size + 1e-13L * scale_ + least_;
+        const Real grain = 8 * Real(unit) * end.size + 1e-13L * scale_ + hidden_;
         over_ = end.energy - allowed_ - report.balance;
         const bool owes = report.balance > report.rounding + rounded_ + grain;
         const bool kept = !(over_ > grain) && !owes;
@@ -120,7 +124,7 @@ private:
     Real allowed_ = std::numeric_limits<Real>::infinity();
     Real over_ = 0;
     Real rounded_ = 0;  // Σρ of the frames taken again, J
-    Real least_;
+    Real hidden_ = 0;
     Real scale_ = 0;  // the largest energy so far, J
 };
 
