@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
-// What drag and α make of scenes that Guard keeps sound: how calm they get, what the damping takes
-// off the proved step, and how many frames are still trimmed. Prints Markdown. Nothing is timed.
-// Arguments: particles along an edge; the file that the figure of docs/calm.md is written to.
+// What drag and α make of scenes that Guarded keeps sound: how calm they get, what the damping
+// takes off the proved step, and how many frames are still trimmed. Prints Markdown. Nothing is
+// timed. Arguments: particles along an edge; the file that the figure of docs/calm.md is written
+// to.
 
 #include <algorithm>
 #include <cmath>

@@ -20,7 +20,7 @@ int main() {
 
     auto state = cloth.initial_state();
     taut::EnergyStableEuler stepper(cloth);
-    const double h = taut::energy_stable_limit(cloth).certified;
+    const double h = taut::energy_limit(cloth).certified;
     taut::ContactReport<double, 3> met;
     while (state.time < 1) {
         if (!stepper.step(state, h)) return 1;

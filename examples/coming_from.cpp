@@ -232,7 +232,7 @@ void cloth() {
     const double k = 1000;
     const double moving = taut::any_pose_limit(net).certified;
     std::printf("64 x 64 cloth, 0.3 kg, 1000 N/m: compliance 1e-3 m/N\n");
-    const double h = taut::energy_stable_limit(net).certified;
+    const double h = taut::energy_limit(net).certified;
     std::printf("  h^2 k W: %.0f at 1/60 s, %.2f at the any-pose limit of %.3g s\n",
                 frame * frame * k * W, moving * moving * k * W, moving);
     std::printf("  %.2f at %.3g s, at which energy never rises (%d a frame)\n", h * h * k * W, h,

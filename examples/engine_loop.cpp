@@ -59,7 +59,7 @@ int main() {
     view.copy_from(cloth.initial_state());
     const Eigen::Vector3f start = view.x.col(hand);
 
-    taut::Guard guard(cloth);
+    taut::Guarded guard(cloth);
     const float first_limit = taut::any_pose_limit(cloth).certified;
     int ticks = 0, trimmed = 0, again = 0, cuts = 0;
     Index torn = 0, substeps = 0;

@@ -126,7 +126,7 @@ Findings report_on_scene(const Options& options, Progress& progress) {
     progress.at("bounding the limits at any pose");
     const double tightness = options.proof || options.any_pose ? proof_tightness : 0;
     found.any_pose = taut::any_pose_limit(scene.system, tightness);
-    found.energy_stable = taut::energy_stable_limit(scene.system, tightness);
+    found.energy_stable = taut::energy_limit(scene.system, tightness);
     if (found.remedies) {
         progress.at("looking for masses that make the wanted step safe");
         found.remedies->added_mass = taut::added_mass(scene.system, state, options.want_step);

@@ -117,7 +117,7 @@ void only_when_it_moves() {
     net.set_gravity({0, 0, -9.81});
     const taut::Stability<double> stability(net, net.initial_state());
     const double at_start = 0.95 * stability.max_step(Method::symplectic_euler).certified;
-    const double proved = taut::energy_stable_limit(net).certified;
+    const double proved = taut::energy_limit(net).certified;
     taut::SymplecticEuler symplectic(net);
     taut::EnergyStableEuler stable(net);
     const auto farthest = [&](auto& stepper, double h) {
@@ -157,14 +157,14 @@ void only_when_it_collides() {
     options.pin_corners = false;
     const double k = 8e5;  // N/m
     Net net = taut::hanging_cloth<double>(options);
-    const double h = taut::energy_stable_limit(net).certified;
+    const double h = taut::energy_limit(net).certified;
 
     taut::EnergyStableEuler stepper(net);
     const double bare = fall(net, k, [&](auto& state) { return bool(stepper.step(state, h)); });
 
     int frames = 0, stopped = 0;
     const char* force = "nothing";
-    taut::Guard guard(net);
+    taut::Guarded guard(net);
     const double guarded = fall(net, k, [&](auto& state) {
         const auto report = guard.advance(state, 1.0 / 60);
         ++frames;
@@ -181,7 +181,7 @@ void only_when_it_collides() {
         counted.add_spring(i, floor, k);
         counted.pin(floor);
     }
-    const double shorter = taut::energy_stable_limit(counted).certified;
+    const double shorter = taut::energy_limit(counted).certified;
     const double small =
         fall(net, k, [&](auto& state) { return bool(stepper.step(state, shorter)); });
 
@@ -204,7 +204,7 @@ void only_when_it_collides() {
 void only_when_dragged() {
     const Net net = cloth();
     const double limit = taut::any_pose_limit(net).certified;
-    const double h = taut::energy_stable_limit(net).certified;
+    const double h = taut::energy_limit(net).certified;
     for (const bool jump : {true, false}) {
         auto state = net.initial_state();
         taut::EnergyStableEuler stepper(net);
@@ -337,10 +337,10 @@ void only_if_it_cannot_push() {
     taut::SymplecticEuler symplectic(net);
     const Rise bare =
         energy_rise(net, [&](auto& state) { return bool(symplectic.step(state, linear)); });
-    const double h = taut::energy_stable_limit(net).certified;
+    const double h = taut::energy_limit(net).certified;
     taut::EnergyStableEuler stepper(net);
     const Rise proved = energy_rise(net, [&](auto& state) { return bool(stepper.step(state, h)); });
-    taut::Guard guard(net);
+    taut::Guarded guard(net);
     int trimmed = 0, again = 0;
     const Rise guarded = energy_rise(net, [&](auto& state) {
         const auto report = guard.advance(state, 1.0 / 60);

@@ -112,7 +112,8 @@ public:
         // Measured by the guard in a few roundings of its own; an edit may take away most of E.
         const Real grain = 8 * Real(unit) * end.size + 1e-13L * scale_ + hidden_;
         over_ = end.energy - allowed_ - report.balance;
-        const bool owes = report.balance > report.rounding + rounded_ + grain;
+        const Real owed = report.rounding + (report.taken >= taut::Taken::again ? rounded_ : 0);
+        const bool owes = report.balance > owed + grain + 2e-12L * end.kinetic;
         const bool kept = !(over_ > grain) && !owes;
         allowed_ = std::min(allowed_, end.energy + end.kinetic / 10);
         return kept;

@@ -73,7 +73,7 @@ namespace detail {
 inline std::vector<taut::Points<double, 3>> motion(const System& system, System::State state,
                                                    double duration, int frames) {
     const double interval = duration / frames;
-    const double most = taut::energy_stable_limit(system).certified;
+    const double most = taut::energy_limit(system).certified;
     const auto steps = static_cast<taut::Index>(std::max(1.0, std::ceil(interval / most)));
     taut::EnergyStableEuler stepper(system);
     std::vector<taut::Points<double, 3>> path{state.x};

@@ -32,7 +32,7 @@ inline double default_step(const Options& options, const Cloth& cloth, double fr
     const double longest = std::min({frame, usual, contact});
     if (options.implicit()) return longest;
     const bool stable = options.integrator == "energy_stable";
-    const auto limit = stable ? taut::energy_stable_limit(cloth) : taut::any_pose_limit(cloth);
+    const auto limit = stable ? taut::energy_limit(cloth) : taut::any_pose_limit(cloth);
     if (limit.unbounded()) return longest;
     if (!(limit.certified > 0)) {
         throw std::runtime_error("no step is certified: " + std::string(describe(limit.cause)));

@@ -75,8 +75,8 @@ Advance plain_or_guarded(const Options& chosen, const Scene& scene, const Prepar
         prepare(*stepper);
         return by_stepper(scene, std::move(stepper));
     }
-    using Guard = taut::Guard<Stepper>;
-    typename Guard::Options options;
+    using Guard = taut::Guarded<Stepper>;
+    typename Guarded::Options options;
     options.max_step = scene.plan.h;
     options.max_substeps = std::numeric_limits<taut::Index>::max();  // a frame is never cut short
     auto guard = std::make_shared<Guard>(scene.cloth, options, arguments...);

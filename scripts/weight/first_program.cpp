@@ -21,7 +21,7 @@ int main() {
     std::printf("explicit Euler at 1e-4 s needs alpha in (%.4g, %.4g) s\n", alpha.lower,
                 alpha.upper);
 
-    auto moving = taut::energy_stable_limit(cloth);
+    auto moving = taut::energy_limit(cloth);
     taut::EnergyStableEuler stepper(cloth);
     for (int i = 0; i < 1000; ++i) {
         if (auto report = stepper.step(state, moving.certified); !report) {

@@ -5,7 +5,7 @@
 #include "random_system.hpp"
 #include "referee.hpp"
 
-// Violent scenes and an exact account of their energy, for what [T34] promises.
+// Violent scenes and an exact account of their energy, for what [T42] promises.
 
 namespace taut_test {
 

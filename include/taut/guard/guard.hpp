@@ -63,6 +63,9 @@ public:
     static_assert(any_pose != method::AnyPose::no_step,
                   "taut::Guarded: the stepper's method, like explicit Euler, has no limit that "
                   "holds at every pose; guard SymplecticEuler, which costs the same");
+    static_assert(!detail::is_detected_v<guard_detail::added_kinetic_of, Stepper>,
+                  "taut::Guarded: ImexEuler needs no guard, for no step of it gains energy; step "
+                  "by it alone");
 
     /// Keeps a reference: the system must outlive the guard, which makes a trial stepper of its
     /// own. Options out of range go to fail().

@@ -54,7 +54,7 @@ public:
 
     /// Keeps a reference: the system must outlive the stepper. Options out of range go to fail().
     ImexEuler(const System& system, const Options& options)
-        : system_(&system), options_(options), steps_({options.threads, {}}) {
+        : system_(&system), options_(options), steps_({options.threads}) {
         require_positive("ImexEuler", "step", options.step);
         (void)renew();
     }

@@ -18,6 +18,9 @@ template <class Stepper>
 using constraint_forces_of = decltype(std::declval<const Stepper&>().constraint_forces());
 
 template <class Stepper>
+using added_kinetic_of = decltype(std::declval<const Stepper&>().added_kinetic(
+    std::declval<const typename Stepper::State&>()));
+template <class Stepper>
 using watch_of = decltype(std::declval<Stepper&>().watch(nullptr));
 
 /// Lets a stepper that can show its steps to a meter, as long as this lives.

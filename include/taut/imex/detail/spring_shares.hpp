@@ -27,7 +27,7 @@ public:
         // What steppers round must not end a proof.
         h *= 1 + stability_detail::step_rounding<typename System::Scalar>;
         drag_ = h * system.rayleigh().mass_proportional / 2;
-        const double alpha = system.stiffness_damping().total();
+        const double alpha = system.rayleigh().stiffness_proportional;
         system.visit_springs([&](const auto& its) {
             const auto spring = its.template cast<double>();
             const double k = spring.stiffness_bound();

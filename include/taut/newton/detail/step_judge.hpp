@@ -132,11 +132,11 @@ void StepJudge<System>::size_up(const System& system, const StepObjective<System
     size_.assign(static_cast<std::size_t>(system.size()), 0);
     blur_.assign(static_cast<std::size_t>(system.size()), 0);
     open_blur_ = 0;
-    const auto by = system.stiffness_damping().template cast<Wide>();
+    const auto alpha = static_cast<Wide>(system.rayleigh().stiffness_proportional);
     const auto reach = [&](Index i) { return length(start_.col(i)) + length(end_.col(i)); };
     after_ = weigh(system, end_, v_, [&](Index a, Index b, Wide tension, Wide bound, Wide damping) {
         const Wide move = length(u.col(b) - u.col(a));
-        const Wide drag = h_ * (by.total() * bound + damping);
+        const Wide drag = h_ * (alpha * bound + damping);
         const Wide blur = 8 * epsilon * (h_ * h_ * bound + drag) * (reach(a) + reach(b));
         for (const Index i : {a, b}) {
             size_[i] += h_ * h_ * tension + drag * move;
