@@ -95,10 +95,10 @@ Books books_of(const System& system, const typename System::State& state) {
 class Promise {
 public:
     void open(const Books& books) { allowed_ = books.energy + books.kinetic / 10; }
-    /// Whoever edits the scene changes E.
+    /// Whoever edits the scene changes E; what is pinned takes with it what it owes.
     void edit(const Books& before, const Books& after) {
         scale_ = std::max({scale_, before.size, after.size});
-        allowed_ += after.energy - before.energy;
+        allowed_ += after.energy - before.energy + owing_;
     }
     /// A frame that ended so. @returns whether it kept the promise
     /// @param report  of the guard   @param unit  the unit roundoff of what it measures in
@@ -113,6 +113,7 @@ public:
         const Real grain = 8 * Real(unit) * end.size + 1e-13L * scale_ + hidden_;
         over_ = end.energy - allowed_ - report.balance;
         const Real owed = report.rounding + (report.taken >= taut::Taken::again ? rounded_ : 0);
+        owing_ = std::max(0.0, report.balance);
         const bool owes = report.balance > owed + grain + 2e-12L * end.kinetic;
         const bool kept = !(over_ > grain) && !owes;
         allowed_ = std::min(allowed_, end.energy + end.kinetic / 10);
@@ -125,6 +126,7 @@ private:
     Real allowed_ = std::numeric_limits<Real>::infinity();
     Real over_ = 0;
     Real rounded_ = 0;  // Σρ of the frames taken again, J
+    Real owing_ = 0;    // d where it is above 0, J
     Real hidden_ = 0;
     Real scale_ = 0;  // the largest energy so far, J
 };
