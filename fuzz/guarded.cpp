@@ -93,18 +93,27 @@ bool is_tame(const System& system, const typename System::State& state, Real fra
     return frame > least && lightest > least;
 }
 
-/// Σ|F||x| of the forces given as code, J: ρ does not count what of their work is rounded.
+/// What of the work of forces given as code, and of moving pins, rounding may hide beside ρ, in
+/// units of the roundoff, J.
 template <class System>
-double code_size(const System& system, const typename System::State& state) {
+double outside_size(const System& system, const typename System::State& state, double frame,
+                    double steps) {
     typename System::Force f(int(System::Dim), system.size());
     f.setZero();
     system.external_force(state, f);
     double sum = 0;
     for (Index i = 0; i < system.size(); ++i) {
-        if (!system.is_pinned(i))
-            sum +=
-                static_cast<double>(f.col(i).norm()) * static_cast<double>(state.x.col(i).norm());
+        if (system.is_pinned(i)) continue;
+        sum += steps * double(f.col(i).norm()) * double(state.x.col(i).norm());
     }
+    system.visit_springs([&](const auto& spring) {
+        const double speed =
+            std::max(system.is_pinned(spring.a) ? double(state.v.col(spring.a).norm()) : 0.0,
+                     system.is_pinned(spring.b) ? double(state.v.col(spring.b).norm()) : 0.0);
+        sum += double(spring.stiffness_bound()) * speed * frame *
+               (double(state.x.col(spring.a).norm()) + double(state.x.col(spring.b).norm()) +
+                double(spring.rest_length));
+    });
     return sum;
 }
 
@@ -209,8 +218,9 @@ void advance_frames(Guarded& guard, System& system, typename System::State state
             return;
         require(report.spring == -1, "no law exceeds its bound");
         const double steps = std::max(static_cast<double>(report.substeps), 4 * frame / proved);
-        const double pushed = std::max(code_size(system, before), code_size(system, state));
-        const double unseen = by_code ? 8 * unit * steps * pushed : 0.0;
+        const double unseen = 8 * unit *
+                              std::max(outside_size(system, before, frame, steps),
+                                       outside_size(system, state, frame, steps));
         require(promise.keeps(now, report, unit, unseen), "E ≤ E + 0.1 K + ΣW + d");
         require(std::abs(report.energy - now.energy) <= 16 * unit * now.size + now.hidden,
                 "the report's energy is that of the state");

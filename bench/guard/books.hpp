@@ -106,13 +106,15 @@ public:
     template <class Report>
     bool keeps(const Books& end, const Report& report, double unit, double unseen = 0) {
         allowed_ += Real(report.work) + unseen;
-        if (report.taken >= taut::Taken::again) rounded_ += report.rounding + unseen;
+        rounded_ += unseen;
+        if (report.taken >= taut::Taken::again) rounded_ += report.rounding;
         scale_ = std::max({scale_, end.size, std::abs(allowed_)});
         hidden_ = std::max(hidden_, end.hidden);
         // Measured by the guard in a few roundings of its own; an edit may take away most of E.
         const Real grain = 8 * Real(unit) * end.size + 1e-13L * scale_ + hidden_;
         over_ = end.energy - allowed_ - report.balance;
-        const Real owed = report.rounding + (report.taken >= taut::Taken::again ? rounded_ : 0);
+        const Real owed =
+            report.rounding + unseen + (report.taken >= taut::Taken::again ? rounded_ : 0);
         owing_ = std::max(0.0, report.balance);
         const bool owes = report.balance > owed + grain + 2e-12L * end.kinetic;
         const bool kept = !(over_ > grain) && !owes;
