@@ -70,7 +70,7 @@ bool is_tame(const System& system, const typename System::State& state, Real fra
         lightest = std::min(lightest, Real(system.mass(i)));
         heaviest = std::max(heaviest, Real(system.mass(i)));
     }
-    if (heaviest == 0) return true;
+    if (heaviest == 0) return false;
     const Books books = guard_books::books_of(system, state);
     const Real push = f.size() == 0 ? Real(0) : Real(f.cwiseAbs().maxCoeff());
     const Real pull = Real(system.gravity().norm()) + push / lightest;
