@@ -98,6 +98,7 @@ bool is_tame(const System& system, const typename System::State& state, Real fra
 template <class System>
 double outside_size(const System& system, const typename System::State& state, double frame,
                     double steps) {
+    using Scalar = typename System::Scalar;
     typename System::Force f(int(System::Dim), system.size());
     f.setZero();
     system.external_force(state, f);
@@ -110,9 +111,19 @@ double outside_size(const System& system, const typename System::State& state, d
         const double speed =
             std::max(system.is_pinned(spring.a) ? double(state.v.col(spring.a).norm()) : 0.0,
                      system.is_pinned(spring.b) ? double(state.v.col(spring.b).norm()) : 0.0);
-        sum += double(spring.stiffness_bound()) * speed * frame *
-               (double(state.x.col(spring.a).norm()) + double(state.x.col(spring.b).norm()) +
-                double(spring.rest_length));
+        const auto a = state.x.col(spring.a), b = state.x.col(spring.b);
+        const double reach = double(a.norm()) + double(b.norm()) + double(spring.rest_length);
+        // The direction of one that is as short as the rounding of its ends is that rounding.
+        const Scalar l = taut::spring_length((b - a).eval());
+        const double damper = double(spring.damping) + system.rayleigh().stiffness_proportional *
+                                                           double(spring.stiffness_bound());
+        const double force =
+            std::abs(double(spring.tension(l))) +
+            damper * double((state.v.col(spring.b) - state.v.col(spring.a)).norm());
+        const double turned =
+            force *
+            std::min(reach / double(l), 1.0 / double(std::numeric_limits<Scalar>::epsilon()));
+        sum += (double(spring.stiffness_bound()) * reach + turned) * speed * frame;
     });
     return sum;
 }
