@@ -46,8 +46,8 @@ Advance by_stepper(const Scene& scene, std::shared_ptr<Stepper> stepper) {
     };
 }
 
-template <class Guard>
-Advance by_guard(const Scene& scene, std::shared_ptr<Guard> guard) {
+template <class Guarded>
+Advance by_guard(const Scene& scene, std::shared_ptr<Guarded> guard) {
     return [guard, frame = scene.plan.frame, &cloth = scene.cloth,
             &obstacle = scene.obstacle](State& state) {
         Advanced advanced;
@@ -75,11 +75,11 @@ Advance plain_or_guarded(const Options& chosen, const Scene& scene, const Prepar
         prepare(*stepper);
         return by_stepper(scene, std::move(stepper));
     }
-    using Guard = taut::Guarded<Stepper>;
+    using Guarded = taut::Guarded<Stepper>;
     typename Guarded::Options options;
     options.max_step = scene.plan.h;
     options.max_substeps = std::numeric_limits<taut::Index>::max();  // a frame is never cut short
-    auto guard = std::make_shared<Guard>(scene.cloth, options, arguments...);
+    auto guard = std::make_shared<Guarded>(scene.cloth, options, arguments...);
     prepare(guard->stepper());
     return by_guard(scene, std::move(guard));
 }
