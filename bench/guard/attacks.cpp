@@ -135,7 +135,7 @@ void one_scene(Scene<System> scene, Row& row) {
         }
         if (!fine || !(bare.v.norm() < 1e4)) bare = scene.state;
         books = guard_books::books_of(scene.system, scene.state, part);
-        const bool kept = promise.keeps(books, report.work, report.balance, unit_of<Scalar>());
+        const bool kept = promise.keeps(books, report, unit_of<Scalar>());
         row.tally.broken += !kept;
         if (!kept && row.tally.broken == 1) {
             std::fprintf(stderr,

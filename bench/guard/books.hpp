@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <taut/guard/report.hpp>
 #include <taut/model/spring_system.hpp>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct Books {
     Real kinetic = 0;  ///< K, that of each part about its centre of mass
     Real moving = 0;   ///< kinetic energy of the free particles
     Real size = 0;     ///< Σ of what E is the difference of: the scale of its rounding
+    Real hidden = 0;   ///< what underflow may hide
 };
 
 /// Free particles that springs join, by a particle of each: −1 for a pin.
@@ -47,6 +49,8 @@ Books books_of(const System& system, const typename System::State& state,
                const std::vector<Index>& part) {
     constexpr int Dim = System::Dim;
     using Vector = Eigen::Matrix<Real, Dim, 1>;
+    // A length is √ of a square that may be lost.
+    const Real underflow = std::sqrt(Real(std::numeric_limits<typename System::Scalar>::min()));
     Books books;
     std::vector<Real> mass(part.size(), 0);
     std::vector<Vector> momentum(part.size(), Vector::Zero());
@@ -59,6 +63,7 @@ Books books_of(const System& system, const typename System::State& state,
         books.moving += m * v.squaredNorm() / 2;
         books.energy += m * v.squaredNorm() / 2 - m * gravity.dot(x);
         books.size += m * v.squaredNorm() + m * gravity.norm() * x.norm();
+        books.hidden += 8 * m * (1 + gravity.norm()) * underflow * underflow;
         mass[part[i]] += m;
         momentum[part[i]] += m * v;
     }
@@ -76,6 +81,7 @@ Books books_of(const System& system, const typename System::State& state,
         books.energy += spring.energy(l);
         books.size += spring.stiffness_bound() * (l + spring.rest_length) *
                       (a.norm() + b.norm() + spring.rest_length);
+        books.hidden += 8 * spring.stiffness_bound() * (1 + spring.rest_length) * underflow;
     });
     return books;
 }
@@ -84,31 +90,37 @@ Books books_of(const System& system, const typename System::State& state) {
     return books_of(system, state, parts_of(system));
 }
 
-/// E_n ≤ E_m + 0.1 K_m + ΣW + d_n for all m < n at once: the least right side of every m so far.
+/// E_n ≤ E_m + 0.1 K_m + ΣW + d_n for all m < n at once: the least right side of every m so far. d
+/// is the guard's word, which may be no more than ρ and that of the frames taken again.
 class Promise {
 public:
-    /// @param least  what underflow may hide, J
-    explicit Promise(Real least = 0) : least_(least) {}
     void open(const Books& books) { allowed_ = books.energy + books.kinetic / 10; }
-    /// Whoever edits the scene changes E.
+    /// Whoever edits the scene changes E; what is pinned takes with it what it owes.
     void edit(const Books& before, const Books& after) {
         scale_ = std::max({scale_, before.size, after.size});
-        // What a part owed may have gone with it.
-        allowed_ += after.energy - before.energy + std::max(0.0, balance_);
+        allowed_ += after.energy - before.energy + owing_;
     }
     /// A frame that ended so. @returns whether it kept the promise
-    /// @param balance  d at its end, J   @param held  σ, what code forces may hold back, J
-    /// @param unit  the unit roundoff of what the guard measures
-    /// in
-    bool keeps(const Books& end, double work, double balance, double unit, double held = 0) {
-        allowed_ += Real(work);
-        balance_ = balance;
+    /// @param report  of the guard   @param unit  the unit roundoff of what it measures in
+    /// @param unseen  what rounding may hide beside ρ, J   @param by_code  whether forces are code
+    template <class Report>
+    bool keeps(const Books& end, const Report& report, double unit, double unseen = 0,
+               bool by_code = false) {
+        allowed_ += Real(report.work) + unseen;
+        rounded_ += unseen;
+        if (report.taken >= taut::Taken::again) rounded_ += report.slack;
         scale_ = std::max({scale_, end.size, std::abs(allowed_)});
+        hidden_ = std::max(hidden_, end.hidden);
         // Measured by the guard in a few roundings of its own; an edit may take away most of E.
-        const Real grain = 8 * Real(unit) * end.size + 1e-13L * scale_ + least_;
-        over_ = end.energy - allowed_ - balance;
-        const bool kept = !(over_ > grain);
-        allowed_ = std::min(allowed_, end.energy + end.kinetic / 10 + held);
+        const Real grain = 8 * Real(unit) * end.size + 1e-13L * scale_ + hidden_;
+        over_ = end.energy - allowed_ - report.balance;
+        const Real owed =
+            report.slack + unseen + (report.taken >= taut::Taken::again ? rounded_ : 0);
+        owing_ = std::max(0.0, report.balance);
+        const bool owes = report.balance > owed + grain + 2e-12L * end.kinetic;
+        const bool kept = !(over_ > grain) && !owes;
+        // Forces given as code hold back up to σ.
+        allowed_ = std::min(allowed_, end.energy + end.kinetic / 10 + (by_code ? report.slack : 0));
         return kept;
     }
     /// By how much the last frame was above what is allowed, J; below 0 if it was not.
@@ -117,8 +129,9 @@ public:
 private:
     Real allowed_ = std::numeric_limits<Real>::infinity();
     Real over_ = 0;
-    Real least_;
-    double balance_ = 0;
+    Real rounded_ = 0;  // Σρ of the frames taken again, J
+    Real owing_ = 0;    // d where it is above 0, J
+    Real hidden_ = 0;
     Real scale_ = 0;  // the largest energy so far, J
 };
 

@@ -23,7 +23,7 @@ bool minute(const char* law, Index side) {
         const auto report = guard.advance(state, frame);
         if (!tally.add(report)) break;
         books = guard_books::books_of(system, state, part);
-        tally.broken += !promise.keeps(books, report.work, report.balance, unit_of<double>());
+        tally.broken += !promise.keeps(books, report, unit_of<double>());
         most.moving = std::max(most.moving, books.moving);
     }
     std::printf("| %s, %ld × %ld | %+.2f | %.1f | %.2f |\n", law, count(side), count(side),
@@ -80,7 +80,7 @@ bool rest_row(const char* law, double offset) {
         const auto report = guard.advance(state, static_cast<float>(frame));
         if (!tally.add(report)) break;
         books = guard_books::books_of(system, state, part);
-        tally.broken += !promise.keeps(books, report.work, report.balance, unit_of<float>());
+        tally.broken += !promise.keeps(books, report, unit_of<float>());
         rounding = std::max(rounding, report.slack);
         fastest = std::max(fastest, static_cast<double>(state.v.colwise().norm().maxCoeff()));
     }
@@ -117,7 +117,7 @@ bool at_rest() {
     std::printf(
         "## d. A cloth of 16 × 16 at rest, in float, a minute at 60 Hz\n\n"
         "| law | from the origin, m along every axis | frames trimmed, %% | taken again, %% | "
-        "blind, %% | fastest, m/s | energy gained, J | Σρ, J "
+        "blind, %% | fastest, m/s | energy gained, J | largest ρ, J "
         "|\n|---|---|---|---|---|---|---|---|\n");
     bool sound = true;
     for (const double offset : {0.0, 10.0, 100.0}) {

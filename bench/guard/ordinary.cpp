@@ -39,8 +39,7 @@ Row two_seconds(const System& system, typename System::State state, Motion motio
         if (!row.tally.add(report)) break;
         work += report.work;
         books = guard_books::books_of(system, state, part);
-        row.tally.broken +=
-            !promise.keeps(books, report.work, report.balance, unit_of<typename System::Scalar>());
+        row.tally.broken += !promise.keeps(books, report, unit_of<typename System::Scalar>());
         most = std::max(most, books.moving);
     }
     row.moved = most > 1e-6 * books.size;

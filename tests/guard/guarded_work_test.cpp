@@ -14,6 +14,7 @@
 
 #include "../support/catch.hpp"
 #include "../support/random_system.hpp"
+#include "../support/tolerance.hpp"
 
 // What the guard books of moving pins and of forces given as code, and what it does about them.
 

@@ -40,11 +40,12 @@ namespace taut {
 /// refused, as long as states, forces and velocities of pins are finite and no law exceeds its
 /// stiffness_bound; the report names a spring that does. W of forces given as code is by the
 /// trapezoid of every step. Where their change in a step times half of the way is more than a
-/// quarter of the part's kinetic energy, the step does not follow them: the frame is taken in
-/// shorter ones, to 1/16 of the proved step or of the frame; then the part is stopped and the force
-/// named (Taken::frozen), and all parts are where it made a state that is not finite.
-/// Declare stiff forces as springs, dampers and drag. Not promised: accuracy, and anything inside a
-/// frame. What `respond` or a trial throws leaves the state as it was.
+/// quarter of the part's kinetic energy in it, the step does not follow them: a spring of stiffness
+/// k from h²k/m = 1/4, a drag c from hc/m = 1/2. Then the frame is taken in shorter ones, to 1/16
+/// of the proved step or of the frame; then the part is stopped and the force named
+/// (Taken::frozen), and all parts are where it made a state that is not finite. Declare stiff
+/// forces as springs, dampers and drag. Not promised: accuracy, and anything inside a frame. What
+/// `respond` or a trial throws leaves the state as it was.
 ///
 /// The trial takes steps of at most 0.95 of any_pose_limit [T23], an implicit one the whole frame,
 /// and the rest steps of energy_limit [T42]; both are asked again when the system's

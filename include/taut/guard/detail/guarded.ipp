@@ -46,8 +46,10 @@ Status Guarded<Stepper, System>::open(const State& state, Scalar frame, Scalar l
         return Status::invalid_state;
     }
     for (std::size_t p = 0; p < parts_.count(); ++p) {
-        // An edit may have stopped what had earned it.
-        parts_[p].balance = std::max(parts_[p].balance, -0.1 * begin_[p].kinetic);
+        // An edit may have stopped what had earned it; what is new owes nothing for its start.
+        const double least = -0.1 * begin_[p].kinetic;
+        parts_[p].balance = parts_[p].fresh ? least : std::max(parts_[p].balance, least);
+        parts_[p].fresh = false;
     }
     blamed_ = nullptr;
     start_ = state;
@@ -147,12 +149,10 @@ bool Guarded<Stepper, System>::holds(std::size_t part) const {
     return end_[part].finite() && gain(part) <= slack_[part] + 1e-12 * end_[part].kinetic;
 }
 
-/// Whether forces given as code changed little in every step of the last run.
+/// Whether every step of the last run follows the forces that are given as code.
 template <class Stepper, class System>
 bool Guarded<Stepper, System>::resolved(std::size_t part) const {
-    return !work_.code() ||
-           work_[part].jump <= std::max({begin_[part].speed / 8, end_[part].speed / 8,
-                                         parts_[part].peak / 4, slack_[part]});
+    return work_[part].jump <= slack_[part];
 }
 
 /// Says of every part what becomes of its trial, and trims what gained a little.
@@ -314,7 +314,6 @@ void Guarded<Stepper, System>::close(const State& state, GuardedReport<Scalar>& 
         report.balance += parts_[p].balance;
         report.slack += slack_[p];
         report.blind = report.blind || slack_[p] - work_[p].swing > end_[p].kinetic / 100;
-        parts_[p].peak = std::max(end_[p].speed / 2, 0.9 * parts_[p].peak);
         if (taken_[p] <= report.taken) continue;
         report.taken = taken_[p];
         report.where = parts_[p].first;

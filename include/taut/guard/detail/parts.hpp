@@ -61,7 +61,7 @@ public:
         each_old([&](std::size_t, std::size_t from, double m) { mass[from] += m; });
         each_old([&](std::size_t to, std::size_t from, double m) {
             list[to].balance += list_[from].balance * m / mass[from];
-            list[to].peak += list_[from].peak * m / mass[from];
+            list[to].fresh = false;
         });
         of_ = std::move(of);
         list_ = std::move(list);

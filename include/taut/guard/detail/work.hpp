@@ -15,8 +15,9 @@ namespace taut::guard_detail {
 struct Work {
     double booked = 0;  ///< W, of forces given as code by the trapezoid
     double turn = 0;    ///< of that, what their change in each step makes
-    double jump = 0;    ///< the most that code forces changed in a step, by half of the way
-    double swing = 0;   ///< what they may hold back of their work at the end
+    double jump = 0;  ///< what code forces changed in a step by half of the way, above a quarter of
+                      ///< the step's kinetic energy, at most
+    double swing = 0;  ///< what they may hold back of their work at the end
 };
 
 /// Books the work on every part, step by step where that is needed [T43].
@@ -139,6 +140,7 @@ private:
             return;
         }
         jumps_.assign(works_.size(), 0);
+        const double h = static_cast<double>(h_);
         for (Index i = 0; i < next.cols(); ++i) {
             const Vector change = next.col(i) - force_.col(i);
             const Vector way = state.x.col(i) - x_.col(i);
