@@ -29,9 +29,9 @@ namespace taut {
 /// and takes it again by EnergyStableEuler, which cannot gain, where that is not enough.
 ///
 /// What it promises. For each part, the free particles that springs join, let E be the kinetic
-/// energy with that of springs and gravity, K the kinetic energy about the centre of mass, W the
-/// work of outside forces, moving pins, constraints and `respond`, and d its balance. Between any
-/// two frames m < n of it, edits between frames apart,
+/// energy with that of springs and gravity, K the kinetic energy, of a part that no pin
+/// holds about the centre of mass, W the work of outside forces, moving pins, constraints and
+/// `respond`, and d its balance. Between any two frames m < n of it, edits between frames apart,
 ///
 ///     E_n ≤ E_m + 0.1 K_m + σ_m + Σ W + d_n,   d_n ≤ ρ_n + σ_n where the trial stands,
 ///
@@ -176,6 +176,8 @@ private:
     std::vector<guard_detail::Energy> begin_, end_;     // of each part, like all that follows
     std::vector<guard_detail::Energy> before_, after_;  // a response
     const char* blamed_ = nullptr;                      // what the user gave that was not finite
+    Index where_ = -1;                                  // and of which particle
+    bool edited_ = true;                                // whether anything was since the last frame
     Scalar shortest_ = 0;                               // step that a frame may take, s
     std::vector<double> slack_;                         // ρ and σ, J
     std::vector<double> booked_;                        // W, J

@@ -52,7 +52,7 @@ struct [[nodiscard]] GuardedReport {
     double work = 0;      ///< W, by outside forces, moving pins, constraints and `respond`, J
     double balance = 0;   ///< d, gained beyond the books; < 0: may be gained back, J
     double slack = 0;     ///< ρ + σ, what rounding and code forces may hide, J
-    bool blind = false;   ///< whether that is above a hundredth of a moving part's K
+    bool blind = false;   ///< whether ρ is above a hundredth of a part's K, and may hide 1 mm/s
     Index where = -1;     ///< a particle of the worst part, or the one that is not finite
     Index spring = -1;    ///< one that pulls more than its law's stiffness_bound allows
     const char* force =

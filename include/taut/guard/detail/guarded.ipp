@@ -34,7 +34,8 @@ Status Guarded<Stepper, System>::open(const State& state, Scalar frame, Scalar l
     if (!checked) return checked.status;
     if (!(longest > 0) || !(proved_limit_->certified > 0)) return Status::invalid_step;
     shortest_ = std::min(frame, proved_limit_->certified);
-    if (last_.is(*system_, state) && end_.size() == parts_.count()) {
+    edited_ = !last_.is(*system_, state);
+    if (!edited_ && end_.size() == parts_.count()) {
         begin_ = end_;
     } else {
         measure(state, begin_);
@@ -95,6 +96,7 @@ bool Guarded<Stepper, System>::run(State& state, Frame frame, Kind kind, By& by,
             respond(state);
             if (!detail::fits(state, system_->size()) || !state.finite()) {
                 blamed_ = "respond";
+                where_ = detail::fits(state, system_->size()) ? state.first_not_finite() : -1;
                 return false;
             }
             for (Index i = 0; i < system_->size(); ++i) {
@@ -313,7 +315,9 @@ void Guarded<Stepper, System>::close(const State& state, GuardedReport<Scalar>& 
         report.work += booked_[p];
         report.balance += parts_[p].balance;
         report.slack += slack_[p];
-        report.blind = report.blind || slack_[p] - work_[p].swing > end_[p].kinetic / 100;
+        const double hidden = slack_[p] - work_[p].swing;
+        report.blind =
+            report.blind || (hidden > end_[p].kinetic / 100 && hidden > 0.5e-6 * end_[p].mass);
         if (taken_[p] <= report.taken) continue;
         report.taken = taken_[p];
         report.where = parts_[p].first;
@@ -323,12 +327,13 @@ void Guarded<Stepper, System>::close(const State& state, GuardedReport<Scalar>& 
     report.force = force_name();
 }
 
-/// What set the forces that are given as code; null without them.
+/// What set the forces from outside; null without them.
 template <class Stepper, class System>
 const char* Guarded<Stepper, System>::force_name() const {
     const auto& forces = system_->external_forces();
     if (forces.whole) return "set_external_force";
-    return forces.outside ? forces.outside->name() : nullptr;
+    if (forces.outside) return forces.outside->name();
+    return forces.constant.cols() > 0 ? "set_constant_force" : nullptr;
 }
 
 template <class Stepper, class System>
@@ -349,6 +354,8 @@ auto Guarded<Stepper, System>::advance(State& state, Scalar frame, Respond&& res
     const double proved = std::ceil(static_cast<double>(span / proved_limit_->certified));
     for (std::size_t p = 0; p < parts_.count(); ++p) {
         slack_[p] = 4 * unit * std::sqrt(std::max(1.0, proved)) * begin_[p].terms;
+        // An edit may have taken with it what would have paid.
+        if (edited_) parts_[p].balance = std::min(parts_[p].balance, slack_[p]);
     }
 
     struct Undo {  // of what is refused, or thrown out of
@@ -367,6 +374,10 @@ auto Guarded<Stepper, System>::advance(State& state, Scalar frame, Respond&& res
     if ((!tried || any(Taken::again)) && !take_again(state, span, tried, report, respond)) {
         report.status = Status::diverged;
         report.force = blamed_ ? blamed_ : force_name();
+        if (blamed_) report.where = where_;
+        for (std::size_t p = 0; p < parts_.count() && report.spring < 0 && !blamed_; ++p) {
+            if (taken_[p] == Taken::again) report.spring = strongest_spring(p);
+        }
         return report;
     }
     state.time = start_.time + span;

@@ -17,7 +17,7 @@ namespace taut::guard_detail {
 struct Part {
     /// d, J: what it has gained beyond its books, or else, < 0, what it may gain back.
     double balance = 0;
-    double peak = 0;    ///< the largest ½Σ m|v|² of late, J
+    bool fresh = true;  ///< whether it has not been seen before
     int again = 0;      ///< frames in a row that were taken again
     int skip = 0;       ///< frames to come that are not tried
     int next_skip = 2;  ///< how many, the next time
@@ -99,8 +99,9 @@ private:
 /// The energy of a part, of free particles and springs, with gravity.
 struct Energy {
     double total = 0;    ///< E, J
-    double kinetic = 0;  ///< K, about the centre of mass, J
+    double kinetic = 0;  ///< K, about the centre of mass unless it hangs on a pin, J
     double speed = 0;    ///< Σ m|v|², J
+    double mass = 0;     ///< kg
     double terms = 0;    ///< S, what rounding is a share of, J
 
     bool finite() const { return std::isfinite(total + speed + terms); }
@@ -160,6 +161,7 @@ private:
         for (std::size_t part = 0; part < energies.size(); ++part) {
             const double about = sums_[part].momentum.squaredNorm() / sums_[part].mass;
             energies[part].kinetic = std::max(0.0, (energies[part].speed - about) / 2);
+            energies[part].mass = sums_[part].mass;
         }
     }
     template <class Set>
@@ -175,6 +177,8 @@ private:
                                 spring.stiffness_bound() * h * dv.template lpNorm<1>();
             const Scalar reach = reach_[spring.a] + reach_[spring.b] + spring.rest_length;
             auto& energy = energies[static_cast<std::size_t>(part)];
+            const bool hangs = parts.of(spring.a) < 0 || parts.of(spring.b) < 0;
+            if (hangs) energy.kinetic = energy.speed / 2;
             energy.total += static_cast<double>(spring.energy(l));
             energy.terms += static_cast<double>(pull) * static_cast<double>(reach);
         }

@@ -121,6 +121,7 @@ private:
         Index pin, free;
         Vector x, v, u;  // of the free particle, m, m/s; of the pin, m/s
         Vector p;        // where the pin was, m
+        Vector pull;     // of the spring on the pin, without damping, N
         double given;    // the power of its damper on the free particle, W
     };
 
@@ -152,9 +153,9 @@ private:
             const auto turn = static_cast<double>(change.dot(way)) / 2;
             works_[part].booked += begun + turn;
             works_[part].turn += turn;
-            const auto size =
-                static_cast<double>(change.squaredNorm()) * static_cast<double>(way.squaredNorm());
-            jumps_[part] += std::sqrt(size) / 2;
+            const auto way2 = static_cast<double>(way.squaredNorm());
+            jumps_[part] += std::sqrt(static_cast<double>(change.squaredNorm()) * way2) / 2 -
+                            static_cast<double>(system_->mass(i)) * way2 / (8 * h * h);
         }
         for (std::size_t p = 0; p < works_.size(); ++p) {
             // What is not a number stays so.
@@ -196,24 +197,19 @@ private:
                     add(parts_->of(old.free), -double(f.dot(p - old.p)));
                 }
                 // What a damper gives the free particle: the rest of its work is heat.
-                const Vector dx = here - p, dv = speed - u;
-                const double given =
-                    -double((pull(spring, dx, dv, alpha) - pull(spring, dx)).dot(speed));
+                const Vector dx = here - p, dv = speed - u, f = pull(spring, dx);
+                const double given = -double((pull(spring, dx, dv, alpha) - f).dot(speed));
                 if (seen_ > 0 && kind_ != Kind::ahead) {
-                    const auto energy = [&](const Vector& pin, const Vector& free) {
-                        return static_cast<double>(
-                            spring.energy(spring_length(Vector(free - pin))));
-                    };
-                    const double pulled = energy(p, old.x) - energy(old.p, old.x) +
-                                          energy(p, here) - energy(old.p, here);
+                    const double pulled = -double(Vector(old.pull + f).dot(p - old.p)) / 2;
                     const double power =
                         kind_ == Kind::at_both_ends ? (given + old.given) / 2 : given;
-                    add(parts_->of(old.free), pulled / 2 + double(h_) * power);
+                    add(parts_->of(old.free), pulled + double(h_) * power);
                 }
                 old.x = here;
                 old.v = speed;
                 old.u = u;
                 old.p = p;
+                old.pull = f;
                 old.given = given;
             }
         });
