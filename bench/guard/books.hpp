@@ -99,12 +99,10 @@ Books books_of(const System& system, const typename System::State& state) {
 class Promise {
 public:
     void open(const Books& books) { allowed_ = books.energy + books.kinetic / 10; }
-    /// Whoever edits the scene changes E; what is pinned takes with it what it owes, and a part
-    /// that is new begins with its tenth of K.
+    /// Whoever edits the scene changes E; what is pinned takes with it what it owes.
     void edit(const Books& before, const Books& after) {
         scale_ = std::max({scale_, before.size, after.size});
-        allowed_ += after.energy - before.energy + owing_ +
-                    std::max(Real(0), after.kinetic - before.kinetic) / 10;
+        allowed_ += after.energy - before.energy + owing_;
     }
     /// A frame that ended so. @returns whether it kept the promise
     /// @param report  of the guard   @param unit  the unit roundoff of what it measures in

@@ -47,10 +47,8 @@ Status Guarded<Stepper, System>::open(const State& state, Scalar frame, Scalar l
         return Status::invalid_state;
     }
     for (std::size_t p = 0; p < parts_.count(); ++p) {
-        // An edit may have stopped what had earned it; what is new owes nothing for its start.
-        const double least = -0.1 * begin_[p].kinetic;
-        parts_[p].balance = parts_[p].fresh ? least : std::max(parts_[p].balance, least);
-        parts_[p].fresh = false;
+        // An edit may have stopped what had earned it.
+        parts_[p].balance = std::max(parts_[p].balance, -0.1 * begin_[p].kinetic);
     }
     blamed_ = nullptr;
     too_stiff_ = false;

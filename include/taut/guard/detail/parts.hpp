@@ -17,7 +17,6 @@ namespace taut::guard_detail {
 struct Part {
     /// d, J: what it has gained beyond its books, or else, < 0, what it may gain back.
     double balance = 0;
-    bool fresh = true;  ///< whether it has not been seen before
     int again = 0;      ///< frames in a row that were taken again
     int skip = 0;       ///< frames to come that are not tried
     int next_skip = 2;  ///< how many, the next time
@@ -61,7 +60,6 @@ public:
         each_old([&](std::size_t, std::size_t from, double m) { mass[from] += m; });
         each_old([&](std::size_t to, std::size_t from, double m) {
             list[to].balance += list_[from].balance * m / mass[from];
-            list[to].fresh = false;
         });
         of_ = std::move(of);
         list_ = std::move(list);
