@@ -134,7 +134,7 @@ TEMPLATE_TEST_CASE("spring_mechanics: ends that coincide pull by no force but th
         const Vector nothing = Vector::Zero();
         const Vector dv = random.vector<TestType, 3>(-1, 1);
         CHECK(pull(drawn.spring, nothing) == nothing);
-        const auto force = pull(drawn.spring, nothing, dv, {2, 3});
+        const auto force = pull(drawn.spring, nothing, dv, TestType(5));
         CHECK(distance(force, 5 * drawn.spring.stiffness_bound() * dv) <=
               Tolerance<TestType>::rounding * largest(force));
     });

@@ -28,24 +28,28 @@ namespace taut {
 /// step, keeps the books of its energy, trims the end velocities where the frame gained a little,
 /// and takes it again by EnergyStableEuler, which cannot gain, where that is not enough.
 ///
-/// What it promises. For each part, the free particles that springs join, let E be the kinetic
-/// energy with that of springs and gravity, K the kinetic energy, of a part that no pin
-/// holds about the centre of mass, W the work of outside forces, moving pins, constraints and
-/// `respond`, and d its balance. Between any two frames m < n of it, edits between frames apart,
+/// What it promises. Of each part, the free particles that springs join, let E be the kinetic
+/// energy with that of springs and gravity, K the kinetic energy (about the centre of mass, unless
+/// a spring ties the part to a pin), W the work of outside forces, moving pins, constraints and
+/// `respond`, and d its balance. Between any two frames m < n, edits between frames apart,
 ///
 ///     E_n ≤ E_m + 0.1 K_m + σ_m + Σ W + d_n,   d_n ≤ ρ_n + σ_n where the trial stands,
 ///
-/// with ρ what rounding may hide and σ what forces given as code hold back of their work within a
-/// step, 0 without them. A frame that is taken again raises d by rounding alone. And no frame is
-/// refused, as long as states, forces and velocities of pins are finite and no law exceeds its
-/// stiffness_bound; the report names a spring that does. W of forces given as code is by the
-/// trapezoid of every step. Where their change in a step times half of the way is more than a
-/// quarter of the part's kinetic energy in it, the step does not follow them: a spring of stiffness
-/// k from h²k/m = 1/4, a drag c from hc/m = 1/2. Then the frame is taken in shorter ones, to 1/16
-/// of the proved step or of the frame; then the part is stopped and the force named
-/// (Taken::frozen), and all parts are where it made a state that is not finite. Declare stiff
-/// forces as springs, dampers and drag. Not promised: accuracy, and anything inside a frame. What
-/// `respond` or a trial throws leaves the state as it was.
+/// with ρ what rounding may hide, and σ, 0 without forces given as code, what these hold back of
+/// their work within a step. A frame that is taken again raises d by rounding alone. No frame is
+/// refused as long as states, forces and velocities of pins are finite and no law exceeds its
+/// stiffness_bound; the report names a spring that does.
+///
+/// W of forces given as code is by the trapezoid of every step. A step does not follow them where
+/// their change times half of the way is more than a quarter of the part's kinetic energy in it: a
+/// spring of stiffness k from h²k/m = 1/4 on, a drag c from hc/m = 1/2. Then the frame is taken in
+/// shorter steps, to 1/16 of the proved one or of the frame, and if that does not help, the part is
+/// stopped and the force named (Taken::frozen); where a force made a state that is not finite, all
+/// parts are. Declare stiff forces as springs, dampers and drag.
+///
+/// Not promised: accuracy, and anything inside a frame. A frame that is taken again does not know
+/// what a trial's constraints hold: pin what must stay. What `respond` or a trial throws leaves the
+/// state as it was.
 ///
 /// The trial takes steps of at most 0.95 of any_pose_limit [T23], an implicit one the whole frame,
 /// and the rest steps of energy_limit [T42]; both are asked again when the system's
