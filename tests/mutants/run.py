@@ -16,6 +16,7 @@ may be stopped and started again. docs/testing.md says more.
 
 import argparse
 import collections
+import fcntl
 import filecmp
 import hashlib
 import os
@@ -140,6 +141,13 @@ class Copy:
         self.results = self.work / "results.tsv"
         self.logs.mkdir(parents=True, exist_ok=True)
 
+    def lock(self):
+        self.held = open(self.work / "lock", "w", encoding="utf-8")
+        try:
+            fcntl.flock(self.held, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            sys.exit(f"{self.work} is in use by another run; give --work")
+
     def sync(self):
         """As the tree is, whatever an interrupted run left; what is equal keeps its time."""
         listed = subprocess.run(["git", "ls-files", "-coz", "--exclude-standard"], cwd=ROOT, check=True,
@@ -187,7 +195,9 @@ class Copy:
         log = self.logs / "configure.log"
         status, _ = self.command(
             ["cmake", "--preset", "test", "-S", ".", "-B", self.build, "-D", "TAUT_BUILD_EXAMPLES=OFF",
-             "-D", "TAUT_TEST_PARTS=units", "-D", "TAUT_WERROR=OFF", *self.options.cmake], log, 600, self.tree)
+             "-D", "TAUT_TEST_PARTS=units", "-D", "TAUT_WERROR=OFF",
+             "-D", "TAUT_COMPILED=OFF",  # which a line of the core would have built anew, for whatever program
+             *self.options.cmake], log, 600, self.tree)
         if status != 0:
             sys.exit(f"cmake failed: {log}")
 
@@ -321,6 +331,8 @@ def main():
         return 0
     if not check(mutants):
         return 1
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit("stopped"))  # which ends the child and mends the line
+    copy.lock()
     copy.sync()
     copy.configure()
     for m in sorted(mutants, key=lambda m: m.room):  # a stable sort: a room is built once
