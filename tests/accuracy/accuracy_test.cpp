@@ -41,7 +41,8 @@ std::optional<taut::ModeError> measured(const System& system, double omega, doub
     taut::with_stepper(system, candidate, [&](auto& stepper) {
         auto state = rest;
         state.x(0, 0) += 1e-3;
-        REQUIRE(stepper.step(state, h, 40));  // past BDF2's second multiplier
+        // Past BDF2's second multiplier; others would only lose digits.
+        REQUIRE(stepper.step(state, h, method == Method::bdf2 ? 40 : 1));
         for (Index j = 0; j < swing.size(); ++j) {
             swing[j] = state.x(0, 0) - rest.x(0, 0);
             REQUIRE(stepper.step(state, h));
@@ -94,6 +95,8 @@ TEST_CASE("accuracy: predicted against measured on one mass and one spring", "[t
         const double z = std::exp2(random.uniform(-5, -1));
         for (const Method method : all_methods) {
             INFO(name(method) << ", z = " << z << ", zeta = " << zeta);
+            // Damped by h besides, it may not swing at all.
+            if (method == Method::energy_stable_euler && zeta + z > 0.95) continue;
             const auto seen = measured(system, omega, zeta, z / omega, method);
             REQUIRE(seen);
             const auto predicted = mode_error(method, z, zeta);

@@ -166,7 +166,7 @@ TEST_CASE("resolve: a goal that asks for all particles is told so, within the bu
 
 TEST_CASE("resolve: chaos is told from a coarse mesh", "[tradeoff]") {
     // A stiff rope that swings and whips for seconds.
-    auto whip = rope(400, 300);
+    auto whip = rope(400, 3000);
     const auto found = resolve(whip, whip.initial_state(), 8, 1e-3);
     INFO(found.why);
     CHECK(found.outcome == Resolved::unpredictable);
