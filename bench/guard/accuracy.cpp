@@ -91,17 +91,19 @@ bool code_rows(const char* law) {
         for (int i = 0; i < 600; ++i) {
             const auto report = guard.advance(state, frame);
             if (!tally.add(report)) break;
-            named += report.frozen > 0 && report.force != nullptr;
+            named += report.force != nullptr;
             fastest = std::max(fastest, state.v.colwise().norm().maxCoeff());
             widest =
                 std::max(widest, (state.x.colwise() - state.x.col(0)).colwise().norm().maxCoeff());
         }
-        const bool exploded = !state.finite() || fastest > 1000 || widest > 14;
+        // Springs of 3m/h² hold so much energy.
+        const double most = kind == 1 ? 3 / h : 1000;
+        const bool exploded = !state.finite() || fastest > most || widest > 14;
         std::printf("| %s, %s | %s | %ld | %ld | %ld | %ld | %.3g | %.3g |\n", law, codes[kind],
                     exploded ? "yes" : "no", count(tally.refused), count(tally.again),
                     count(tally.frozen), count(named), fastest, widest);
         std::fflush(stdout);
-        sound = sound && !exploded && tally.sound() && named == tally.frozen;
+        sound = sound && !exploded && tally.sound() && named > 0 && named >= tally.frozen;
     }
     return sound;
 }

@@ -21,7 +21,7 @@ using Real = long double;
 /// A scene's energies, J, summed over its parts.
 struct Books {
     Real energy = 0;   ///< E: kinetic, of springs and of gravity
-    Real kinetic = 0;  ///< K, that of each part about its centre of mass
+    Real kinetic = 0;  ///< K, that of each part about its centre of mass, unless it hangs on a pin
     Real moving = 0;   ///< kinetic energy of the free particles
     Real size = 0;     ///< Σ of what E is the difference of: the scale of its rounding
     Real hidden = 0;   ///< what underflow may hide
@@ -67,9 +67,13 @@ Books books_of(const System& system, const typename System::State& state,
         mass[part[i]] += m;
         momentum[part[i]] += m * v;
     }
+    std::vector<bool> hangs(part.size(), false);
+    system.for_each_spring([&](Index a, Index b) {
+        if ((part[a] < 0) != (part[b] < 0)) hangs[std::max(part[a], part[b])] = true;
+    });
     books.kinetic = books.moving;
     for (std::size_t p = 0; p < part.size(); ++p) {
-        if (mass[p] > 0) books.kinetic -= momentum[p].squaredNorm() / mass[p] / 2;
+        if (mass[p] > 0 && !hangs[p]) books.kinetic -= momentum[p].squaredNorm() / mass[p] / 2;
     }
     books.kinetic = std::max(books.kinetic, Real(0));
     system.visit_springs([&](const auto& narrow) {
@@ -95,10 +99,12 @@ Books books_of(const System& system, const typename System::State& state) {
 class Promise {
 public:
     void open(const Books& books) { allowed_ = books.energy + books.kinetic / 10; }
-    /// Whoever edits the scene changes E; what is pinned takes with it what it owes.
+    /// Whoever edits the scene changes E; what is pinned takes with it what it owes, and a part
+    /// that is new begins with its tenth of K.
     void edit(const Books& before, const Books& after) {
         scale_ = std::max({scale_, before.size, after.size});
-        allowed_ += after.energy - before.energy + owing_;
+        allowed_ += after.energy - before.energy + owing_ +
+                    std::max(Real(0), after.kinetic - before.kinetic) / 10;
     }
     /// A frame that ended so. @returns whether it kept the promise
     /// @param report  of the guard   @param unit  the unit roundoff of what it measures in

@@ -180,11 +180,12 @@ private:
     std::vector<guard_detail::Energy> begin_, end_;     // of each part, like all that follows
     std::vector<guard_detail::Energy> before_, after_;  // a response
     const char* blamed_ = nullptr;                      // what the user gave that was not finite
-    Index where_ = -1;                                  // and of which particle
-    bool edited_ = true;                                // whether anything was since the last frame
-    Scalar shortest_ = 0;                               // step that a frame may take, s
-    std::vector<double> slack_;                         // ρ and σ, J
-    std::vector<double> booked_;                        // W, J
+    bool too_stiff_ = false;      // whether a code force asked for shorter steps
+    Index where_ = -1;            // and of which particle
+    bool edited_ = true;          // whether anything was since the last frame
+    Scalar shortest_ = 0;         // step that a frame may take, s
+    std::vector<double> slack_;   // ρ and σ, J
+    std::vector<double> booked_;  // W, J
     std::vector<Taken> taken_;
     guard_detail::ViewedState<State> viewed_;
 };

@@ -56,7 +56,7 @@ struct [[nodiscard]] GuardedReport {
     Index where = -1;     ///< a particle of the worst part, or the one that is not finite
     Index spring = -1;    ///< one that pulls more than its law's stiffness_bound allows
     const char* force =
-        nullptr;  ///< what set a force that is not finite or too stiff, or "respond"
+        nullptr;  ///< what set one that is not finite, or too stiff for the step; or "respond"
 
     /// Whether status is ok.
     explicit operator bool() const { return status == Status::ok; }

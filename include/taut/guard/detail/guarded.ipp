@@ -53,6 +53,7 @@ Status Guarded<Stepper, System>::open(const State& state, Scalar frame, Scalar l
         parts_[p].fresh = false;
     }
     blamed_ = nullptr;
+    too_stiff_ = false;
     start_ = state;
     parts_.keep();
     booked_.assign(parts_.count(), 0);
@@ -165,6 +166,7 @@ void Guarded<Stepper, System>::judge(State& state, bool tried) {
     std::vector<guard_detail::Gain> gains(parts_.count());
     for (std::size_t p = 0; p < parts_.count(); ++p) {
         const bool follows = resolved(p);
+        too_stiff_ = too_stiff_ || !follows;
         slack_[p] += work_[p].swing;
         if (parts_[p].skip > 0 || !follows) continue;
         const double quarter = end_[p].kinetic / 4;
@@ -199,7 +201,9 @@ bool Guarded<Stepper, System>::take_again(State& state, Scalar span, bool tried,
         report.where = stepped.where;
         return bool(stepped);
     };
+    bool halved = false;
     for (int halvings = 0; halvings <= most_halvings; ++halvings) {
+        halved = halvings > 0;
         const Index steps = cut(span, proved_limit_->certified).steps << halvings;
         const Frame frame{span / static_cast<Scalar>(steps), steps};
         again_ = start_;
@@ -227,6 +231,7 @@ bool Guarded<Stepper, System>::take_again(State& state, Scalar span, bool tried,
     for (std::size_t p = 0; p < parts_.count(); ++p) {
         if (taken_[p] == Taken::again) settle_again(p, report);
     }
+    too_stiff_ = too_stiff_ || halved;
     freeze(state);
     return true;
 }
@@ -322,9 +327,8 @@ void Guarded<Stepper, System>::close(const State& state, GuardedReport<Scalar>& 
         report.taken = taken_[p];
         report.where = parts_[p].first;
     }
-    if (report.frozen == 0) return;
-    report.status = Status::frozen;
-    report.force = force_name();
+    if (report.frozen > 0) report.status = Status::frozen;
+    if (report.frozen > 0 || too_stiff_) report.force = force_name();
 }
 
 /// What set the forces from outside; null without them.
