@@ -121,7 +121,9 @@ public:
         const Real owed =
             report.slack + unseen + (report.taken >= taut::Taken::again ? rounded_ : 0);
         owing_ = std::max(0.0, report.balance);
-        const bool owes = report.balance > owed + grain + 2e-12L * end.kinetic;
+        // What forces given as code change in steps that are taken again is owed, too.
+        const bool stands = !by_code || report.taken < taut::Taken::again;
+        const bool owes = stands && report.balance > owed + grain + 2e-12L * end.kinetic;
         const bool kept = !(over_ > grain) && !owes;
         // Forces given as code hold back up to σ.
         allowed_ = std::min(allowed_, end.energy + end.kinetic / 10 + (by_code ? report.slack : 0));

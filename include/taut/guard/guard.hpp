@@ -36,9 +36,9 @@ namespace taut {
 ///     E_n ≤ E_m + 0.1 K_m + σ_m + Σ W + d_n,   d_n ≤ ρ_n + σ_n where the trial stands,
 ///
 /// with ρ what rounding may hide, and σ, 0 without forces given as code, what these hold back of
-/// their work within a step. A frame that is taken again raises d by rounding alone. No frame is
-/// refused as long as states, forces and velocities of pins are finite and no law exceeds its
-/// stiffness_bound; the report names a spring that does.
+/// their work within a step. A frame that is taken again raises d by rounding, and by what such
+/// forces change within its steps. No frame is refused as long as states, forces and velocities of
+/// pins are finite and no law exceeds its stiffness_bound; the report names a spring that does.
 ///
 /// W of forces given as code is by the trapezoid of every step. A step does not follow them where
 /// their change times half of the way is more than a quarter of the part's kinetic energy in it: a

@@ -258,6 +258,7 @@ void Guarded<Stepper, System>::settle_again(std::size_t part, GuardedReport<Scal
         const double held = work_[part].swing;
         own.balance = std::max({own.balance + rise, std::min(own.balance, 0.0) - held,
                                 -0.1 * end_[part].kinetic - held});
+        slack_[part] += held;
     }
     if (own.skip > 0) {
         --own.skip;
