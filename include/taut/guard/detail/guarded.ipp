@@ -93,9 +93,10 @@ bool Guarded<Stepper, System>::run(State& state, Frame frame, Kind kind, By& by,
         if constexpr (responds) {
             touched_ = state;
             respond(state);
-            if (!detail::fits(state, system_->size()) || !state.finite()) {
+            const bool fits = detail::fits(state, system_->size());
+            if (!fits || !state.finite()) {
                 blamed_ = "respond";
-                where_ = detail::fits(state, system_->size()) ? state.first_not_finite() : -1;
+                where_ = fits ? state.first_not_finite() : -1;
                 return false;
             }
             for (Index i = 0; i < system_->size(); ++i) {
@@ -199,9 +200,8 @@ bool Guarded<Stepper, System>::take_again(State& state, Scalar span, bool tried,
         report.where = stepped.where;
         return bool(stepped);
     };
-    bool halved = false;
     for (int halvings = 0; halvings <= most_halvings; ++halvings) {
-        halved = halvings > 0;
+        too_stiff_ = too_stiff_ || halvings > 0;
         const Index steps = cut(span, proved_limit_->certified).steps << halvings;
         const Frame frame{span / static_cast<Scalar>(steps), steps};
         again_ = start_;
@@ -229,7 +229,6 @@ bool Guarded<Stepper, System>::take_again(State& state, Scalar span, bool tried,
     for (std::size_t p = 0; p < parts_.count(); ++p) {
         if (taken_[p] == Taken::again) settle_again(p, report);
     }
-    too_stiff_ = too_stiff_ || halved;
     freeze(state);
     return true;
 }
@@ -249,11 +248,9 @@ void Guarded<Stepper, System>::settle_again(std::size_t part, GuardedReport<Scal
     booked_[part] = work_[part].booked;
     if (!end_[part].finite() || !resolved(part)) taken_[part] = Taken::frozen;
     const double rise = end_[part].total - begin_[part].total - booked_[part];
-    // [T42] has the work of forces as they were at the start of each step.
-    if (taken_[part] == Taken::again && rise + work_[part].turn > slack_[part]) {
-        report.spring = strongest_spring(part);
-    }
     if (taken_[part] == Taken::again) {
+        // [T42] has the work of forces as they were at the start of each step.
+        if (rise + work_[part].turn > slack_[part]) report.spring = strongest_spring(part);
         // What it lost pays what it owes, and earns nothing but what code forces hold back.
         const double held = work_[part].swing;
         own.balance = std::max({own.balance + rise, std::min(own.balance, 0.0) - held,

@@ -16,7 +16,6 @@ template <class Stepper>
 using method_of = decltype(Stepper::method);
 template <class Stepper>
 using constraint_forces_of = decltype(std::declval<const Stepper&>().constraint_forces());
-
 template <class Stepper>
 using added_kinetic_of = decltype(std::declval<const Stepper&>().added_kinetic(
     std::declval<const typename Stepper::State&>()));

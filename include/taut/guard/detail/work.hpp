@@ -59,13 +59,11 @@ public:
 
     /// A state between two steps, or at either end of all.
     void see(const State& state) {
-        add_pins([&](Index i) { return state.x.col(i); }, [&](Index i) { return state.v.col(i); });
-        if (code_) add_code(state, nullptr);
-        ++seen_;
+        see([&](Index i) { return state.x.col(i); }, [&](Index i) { return state.v.col(i); }, state,
+            nullptr);
     }
     void see(const Places& x, const Places& v, Scalar time, const State* state,
              const Force* force) override {
-        add_pins(x, v);
         if (code_ && !state) {
             own_.x.resize(int(System::Dim), system_->size());
             own_.v.resize(int(System::Dim), system_->size());
@@ -75,8 +73,7 @@ public:
                 own_.v.col(i) = v(i);
             }
         }
-        if (code_) add_code(state ? *state : own_, force);
-        ++seen_;
+        see(x, v, state ? *state : own_, force);
     }
     /// Forces that held from the last state to this one, N, Dim × n or fewer columns.
     void add_held(const Force& held, const State& state) {
@@ -125,6 +122,12 @@ private:
         double given;    // the power of its damper on the free particle, W
     };
 
+    template <class X, class V>
+    void see(const X& x, const V& v, const State& state, const Force* force) {
+        add_pins(x, v);
+        if (code_) add_code(state, force);
+        ++seen_;
+    }
     void add(Index part, double work) {
         if (part >= 0) works_[static_cast<std::size_t>(part)].booked += work;
     }
