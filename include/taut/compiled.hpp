@@ -44,12 +44,92 @@
     KIND class ConjugateGradient<SCALAR, 2>; \
     KIND class ConjugateGradient<SCALAR, 3>;
 
-#define TAUT_COMPILED_PENCILS(KIND)                                            \
-    KIND class SpringPencil<1>;                                                \
-    KIND class SpringPencil<2>;                                                \
-    KIND class SpringPencil<3>;                                                \
-    KIND RitzPair largest_ritz_pair<double>(const Pencil&, const Combination&, \
-                                            const LanczosOptions&, const Eigen::VectorXd&);
+// What all systems of a dimension share.
+#define TAUT_COMPILED_SPACE(KIND, SCALAR, DIM)                                \
+    KIND struct State<SCALAR, DIM>;                                           \
+    KIND struct ExternalForces<SCALAR, DIM>;                                  \
+    KIND class TangentMatrix<SCALAR, DIM>;                                    \
+    KIND SparseMatrix<SCALAR> BlockPattern::zero<SCALAR, DIM>() const;        \
+    KIND class integrator_detail::StepLoop<State<SCALAR, DIM>>;               \
+    KIND Report integrator_detail::StepLoop<State<SCALAR, DIM>>::check_state( \
+        Index, const State<SCALAR, DIM>&, SCALAR);
+
+// What the explicit steps of all laws share.
+#define TAUT_COMPILED_SWEEP(KIND, SCALAR)                        \
+    TAUT_COMPILED_SPACE(KIND, SCALAR, 1)                         \
+    TAUT_COMPILED_SPACE(KIND, SCALAR, 2)                         \
+    TAUT_COMPILED_SPACE(KIND, SCALAR, 3)                         \
+    namespace integrator_detail::sweep {                         \
+    KIND struct Planner<SCALAR>;                                 \
+    KIND class ColumnTable<SCALAR>;                              \
+    KIND class Layout<SCALAR>;                                   \
+    KIND class StateMemory<SCALAR>;                              \
+    KIND class PlaceUpdate<SCALAR>;                              \
+    TAUT_COMPILED_SWEEP_BY(KIND, SCALAR, KickAndDrift)           \
+    TAUT_COMPILED_SWEEP_BY(KIND, SCALAR, DriftAndKick)           \
+    TAUT_COMPILED_SWEEP_BY(KIND, SCALAR, VerletUpdate<1, false>) \
+    TAUT_COMPILED_SWEEP_BY(KIND, SCALAR, VerletUpdate<2, false>) \
+    TAUT_COMPILED_SWEEP_BY(KIND, SCALAR, VerletUpdate<1, true>)  \
+    TAUT_COMPILED_SWEEP_BY(KIND, SCALAR, VerletUpdate<0, true>)  \
+    TAUT_COMPILED_SWEEP_IN(KIND, SCALAR, 1)                      \
+    TAUT_COMPILED_SWEEP_IN(KIND, SCALAR, 2)                      \
+    TAUT_COMPILED_SWEEP_IN(KIND, SCALAR, 3)                      \
+    }
+
+#define TAUT_COMPILED_SWEEP_BY(KIND, SCALAR, ...)                           \
+    KIND void PlaceUpdate<SCALAR>::move<__VA_ARGS__>(const Layout<SCALAR>&, \
+                                                     const TilePlaces<SCALAR>&, SCALAR) const;
+
+#define TAUT_COMPILED_SWEEP_IN(KIND, SCALAR, DIM)                                               \
+    KIND class Outside<SCALAR, DIM>;                                                            \
+    KIND class Steps<SCALAR, DIM>;                                                              \
+    KIND void Steps<SCALAR, DIM>::load(const Surroundings<SCALAR, DIM>&, const Layout<SCALAR>&, \
+                                       bool, const State<SCALAR, DIM>&, SCALAR,                 \
+                                       const ReadAnywhere&);                                    \
+    KIND bool Steps<SCALAR, DIM>::run(const Forces&, State<SCALAR, DIM>&, SCALAR, Index, int,   \
+                                      Move);                                                    \
+    KIND bool Steps<SCALAR, DIM>::run_verlet(const Forces&, State<SCALAR, DIM>&, SCALAR, Index, \
+                                             int, bool);                                        \
+    TAUT_COMPILED_SWEEP_BATCHES(KIND, SCALAR, DIM, false)                                       \
+    TAUT_COMPILED_SWEEP_BATCHES(KIND, SCALAR, DIM, true)
+
+#define TAUT_COMPILED_SWEEP_BATCHES(KIND, SCALAR, DIM, BOTH)         \
+    TAUT_COMPILED_SWEEP_BATCH(KIND, SCALAR, DIM, false, false, BOTH) \
+    TAUT_COMPILED_SWEEP_BATCH(KIND, SCALAR, DIM, true, false, BOTH)  \
+    TAUT_COMPILED_SWEEP_BATCH(KIND, SCALAR, DIM, true, true, BOTH)
+
+#define TAUT_COMPILED_SWEEP_BATCH(KIND, SCALAR, DIM, VELOCITIES, RAYLEIGH, BOTH) \
+    KIND void add_batch<SCALAR, DIM, VELOCITIES, RAYLEIGH, BOTH>(                \
+        const PlannedBatches&, const Batch&, const TileView<SCALAR>&,            \
+        void (*)(void*, Chunk<SCALAR>&, int), void*);
+
+// The explicit steps of one law's springs; a law that pushes has steps ahead of its own.
+#define TAUT_COMPILED_LAW(KIND, SCALAR, DIM, LAW) \
+    KIND class LawPlan<SCALAR, DIM, LAW>;         \
+    KIND void LawPlan<SCALAR, DIM, LAW>::add_forces<false>(const TileView<SCALAR>&) const;
+
+#define TAUT_COMPILED_PUSHING_LAW(KIND, SCALAR, DIM, LAW) \
+    TAUT_COMPILED_LAW(KIND, SCALAR, DIM, LAW)             \
+    KIND void LawPlan<SCALAR, DIM, LAW>::add_forces<true>(const TileView<SCALAR>&) const;
+
+#define TAUT_COMPILED_LAWS(KIND, SCALAR)                 \
+    namespace integrator_detail::sweep {                 \
+    TAUT_COMPILED_LAW(KIND, SCALAR, 2, TensionOnly)      \
+    TAUT_COMPILED_LAW(KIND, SCALAR, 3, TensionOnly)      \
+    TAUT_COMPILED_PUSHING_LAW(KIND, SCALAR, 1, Hookean)  \
+    TAUT_COMPILED_PUSHING_LAW(KIND, SCALAR, 2, Hookean)  \
+    TAUT_COMPILED_PUSHING_LAW(KIND, SCALAR, 3, Hookean)  \
+    TAUT_COMPILED_PUSHING_LAW(KIND, SCALAR, 2, Buckling) \
+    TAUT_COMPILED_PUSHING_LAW(KIND, SCALAR, 3, Buckling) \
+    }
+
+#define TAUT_COMPILED_PENCILS(KIND)                                                         \
+    KIND class SpringPencil<1>;                                                             \
+    KIND class SpringPencil<2>;                                                             \
+    KIND class SpringPencil<3>;                                                             \
+    KIND RitzPair largest_ritz_pair<double>(const Pencil&, const Combination&,              \
+                                            const LanczosOptions&, const Eigen::VectorXd&); \
+    KIND RitzPair leading_pair<double>(const Pencil&, const Combination&, const Eigen::VectorXd&);
 
 #define TAUT_COMPILED_STEPPER(KIND, ...) \
     KIND class __VA_ARGS__;              \
@@ -70,29 +150,26 @@
     KIND void Stability<SCALAR>::update(const SpringSystem<__VA_ARGS__>&,                       \
                                         const State<SCALAR, DIM>&);                             \
     KIND StepLimit<SCALAR> any_pose_limit(const SpringSystem<__VA_ARGS__>&);                    \
-    KIND StepLimit<SCALAR> energy_limit(const SpringSystem<__VA_ARGS__>&);
-
-#define TAUT_COMPILED_EXPLICIT(KIND, SCALAR, DIM, ...)                      \
-    TAUT_COMPILED_STEPPER(KIND, SymplecticEuler<SpringSystem<__VA_ARGS__>>) \
-    TAUT_COMPILED_STEPPER(KIND, ExplicitEuler<SpringSystem<__VA_ARGS__>>)   \
-    TAUT_COMPILED_STEPPER(KIND, VelocityVerlet<SpringSystem<__VA_ARGS__>>)  \
-    TAUT_COMPILED_STEPPER(KIND, EnergyStableEuler<SpringSystem<__VA_ARGS__>>)
-
-#define TAUT_COMPILED_IMPLICIT(KIND, SCALAR, DIM, ...) \
+    KIND StepLimit<SCALAR> energy_limit(const SpringSystem<__VA_ARGS__>&);                      \
+    KIND class integrator_detail::ExplicitSteps<SpringSystem<__VA_ARGS__>>;                     \
+    TAUT_COMPILED_STEPPER(KIND, SymplecticEuler<SpringSystem<__VA_ARGS__>>)                     \
+    TAUT_COMPILED_STEPPER(KIND, ExplicitEuler<SpringSystem<__VA_ARGS__>>)                       \
+    TAUT_COMPILED_STEPPER(KIND, VelocityVerlet<SpringSystem<__VA_ARGS__>>)                      \
+    TAUT_COMPILED_STEPPER(KIND, EnergyStableEuler<SpringSystem<__VA_ARGS__>>)                   \
     TAUT_COMPILED_STEPPER(KIND, ImplicitEuler<SpringSystem<__VA_ARGS__>>)
 
-#define TAUT_COMPILED_EACH_LAW(PART, KIND, SCALAR, DIM) \
-    PART(KIND, SCALAR, DIM, SCALAR, DIM)                \
-    PART(KIND, SCALAR, DIM, SCALAR, DIM, TensionOnly)   \
-    PART(KIND, SCALAR, DIM, SCALAR, DIM, Hookean, Buckling)
+#define TAUT_COMPILED_EACH_LAW(KIND, SCALAR, DIM)                     \
+    TAUT_COMPILED_SYSTEM(KIND, SCALAR, DIM, SCALAR, DIM)              \
+    TAUT_COMPILED_SYSTEM(KIND, SCALAR, DIM, SCALAR, DIM, TensionOnly) \
+    TAUT_COMPILED_SYSTEM(KIND, SCALAR, DIM, SCALAR, DIM, Hookean, Buckling)
 
-#define TAUT_COMPILED_EACH_SYSTEM(PART, KIND)     \
-    PART(KIND, float, 1, float, 1)                \
-    PART(KIND, double, 1, double, 1)              \
-    TAUT_COMPILED_EACH_LAW(PART, KIND, float, 2)  \
-    TAUT_COMPILED_EACH_LAW(PART, KIND, float, 3)  \
-    TAUT_COMPILED_EACH_LAW(PART, KIND, double, 2) \
-    TAUT_COMPILED_EACH_LAW(PART, KIND, double, 3)
+#define TAUT_COMPILED_EACH_SYSTEM(KIND)              \
+    TAUT_COMPILED_SYSTEM(KIND, float, 1, float, 1)   \
+    TAUT_COMPILED_SYSTEM(KIND, double, 1, double, 1) \
+    TAUT_COMPILED_EACH_LAW(KIND, float, 2)           \
+    TAUT_COMPILED_EACH_LAW(KIND, float, 3)           \
+    TAUT_COMPILED_EACH_LAW(KIND, double, 2)          \
+    TAUT_COMPILED_EACH_LAW(KIND, double, 3)
 
 namespace taut {
 namespace detail {
@@ -113,11 +190,13 @@ namespace {
 TAUT_COMPILED_PENCILS(extern template)
 TAUT_COMPILED_SOLVERS(extern template, float)
 TAUT_COMPILED_SOLVERS(extern template, double)
+TAUT_COMPILED_SWEEP(extern template, float)
+TAUT_COMPILED_SWEEP(extern template, double)
+TAUT_COMPILED_LAWS(extern template, float)
+TAUT_COMPILED_LAWS(extern template, double)
 TAUT_COMPILED_ANALYSIS(extern template, float)
 TAUT_COMPILED_ANALYSIS(extern template, double)
-TAUT_COMPILED_EACH_SYSTEM(TAUT_COMPILED_SYSTEM, extern template)
-TAUT_COMPILED_EACH_SYSTEM(TAUT_COMPILED_EXPLICIT, extern template)
-TAUT_COMPILED_EACH_SYSTEM(TAUT_COMPILED_IMPLICIT, extern template)
+TAUT_COMPILED_EACH_SYSTEM(extern template)
 #endif
 
 }  // namespace taut

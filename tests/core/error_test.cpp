@@ -24,6 +24,8 @@ TEST_CASE("error: numbers in messages keep nine digits, and NaN and infinity hav
                   {"nan"}) == "");
     CHECK(missing(message_of([] { taut::fail(std::numeric_limits<long long>::min()); }),
                   {"-9223372036854775808"}) == "");
+    CHECK(missing(message_of([] { taut::fail(std::numeric_limits<unsigned long long>::max()); }),
+                  {"18446744073709551615"}) == "");
 }
 
 TEMPLATE_TEST_CASE(

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include <taut/integrator/sweep/cache_order.hpp>
+#include <taut/integrator/sweep/planner.hpp>
 
 #include <algorithm>
 #include <numeric>
@@ -20,26 +20,33 @@ TEST_CASE("cache_order: the order of a shuffled grid is a permutation that bring
     for (std::size_t i = name.size() - 1; i > 0; --i) {
         std::swap(name[i], name[static_cast<std::size_t>(random.below(static_cast<Index>(i) + 1))]);
     }
-    std::vector<taut::integrator_detail::sweep::Edge> edges;
+    std::vector<int> a, b;
+    const auto join = [&](int i, int j) {
+        a.push_back(name[i]);
+        b.push_back(name[j]);
+    };
     for (int r = 0; r < side; ++r) {
         for (int c = 0; c < side; ++c) {
-            if (c + 1 < side) edges.emplace_back(name[r * side + c], name[r * side + c + 1]);
-            if (r + 1 < side) edges.emplace_back(name[r * side + c], name[(r + 1) * side + c]);
+            if (c + 1 < side) join(r * side + c, r * side + c + 1);
+            if (r + 1 < side) join(r * side + c, (r + 1) * side + c);
         }
     }
-    const auto order = taut::integrator_detail::sweep::cache_order(side * side, edges);
+    const auto order = taut::integrator_detail::sweep::cache_order(side * side, {{a, b}});
     auto sorted = order;
     std::sort(sorted.begin(), sorted.end());
     for (int i = 0; i < side * side; ++i) REQUIRE(sorted[i] == i);
     std::vector<int> place(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = static_cast<int>(i);
     int farthest = 0;
-    for (const auto& [a, b] : edges) farthest = std::max(farthest, std::abs(place[a] - place[b]));
+    for (std::size_t s = 0; s < a.size(); ++s) {
+        farthest = std::max(farthest, std::abs(place[a[s]] - place[b[s]]));
+    }
     CHECK(farthest <= 2 * side);
 }
 
 TEST_CASE("cache_order: particles without springs keep a place of their own", "[integrator]") {
-    const auto order = taut::integrator_detail::sweep::cache_order(5, {{1, 3}});
+    const std::vector<int> a{1}, b{3};
+    const auto order = taut::integrator_detail::sweep::cache_order(5, {{a, b}});
     auto sorted = order;
     std::sort(sorted.begin(), sorted.end());
     CHECK(sorted == std::vector<int>{0, 1, 2, 3, 4});

@@ -4,6 +4,7 @@
 #include <taut/scene/cloth.hpp>
 
 #include <algorithm>
+#include <tuple>
 #include <vector>
 
 #include "../support/catch.hpp"
@@ -20,9 +21,12 @@ template <class System>
 double check_sorted(const System& system) {
     double in_runs = 0;
     system.for_each_set([&](const auto& set) {
-        const sweep::SortedSprings sorted(set, [](int i) { return i; });
-        std::vector<int> found(static_cast<std::size_t>(set.size()), 0);
-        const auto check = [&](const sweep::PlacedSpring& spring) {
+        const sweep::SortedSprings sorted({set.a, set.b});
+        const auto& all = sorted.all();
+        REQUIRE(all.size() == set.a.size());
+        std::vector<int> found(all.size(), 0);
+        const auto check = [&](int which) {
+            const auto& spring = all[static_cast<std::size_t>(which)];
             const auto s = static_cast<std::size_t>(spring.index);
             ++found[s];
             CHECK(spring.a < spring.b);
@@ -30,15 +34,21 @@ double check_sorted(const System& system) {
         };
         for (const auto& run : sorted.runs()) {
             CHECK(run.end - run.begin >= sweep::shortest_run);
-            in_runs += static_cast<double>(run.end - run.begin);
-            for (auto at = run.begin; at != run.end; ++at) {
-                check(*at);
-                CHECK(at->offset() == run.front().offset());
-                if (at != run.begin) CHECK((at - 1)->a < at->a);
+            in_runs += run.end - run.begin;
+            for (int at = run.begin; at < run.end; ++at) {
+                check(at);
+                CHECK(all[at].offset() == all[run.begin].offset());
+                if (at != run.begin) CHECK(all[at - 1].a < all[at].a);
             }
         }
-        for (const auto& spring : sorted.scattered()) check(spring);
+        for (const int spring : sorted.scattered()) check(spring);
         CHECK(found == std::vector<int>(found.size(), 1));
+        const auto key = [](const auto& spring) {
+            return std::tuple(spring.offset(), spring.a, spring.index);
+        };
+        CHECK(std::is_sorted(all.begin(), all.end(),
+                             [&](const auto& s, const auto& t) { return key(s) < key(t); }));
+        CHECK(std::is_sorted(sorted.scattered().begin(), sorted.scattered().end()));
     });
     return in_runs / static_cast<double>(system.spring_count());
 }

@@ -3,6 +3,7 @@
 #include <taut/integrator/sweep/stars.hpp>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -18,13 +19,12 @@ namespace sweep = taut::integrator_detail::sweep;
 
 std::vector<sweep::PlacedSpring> random_springs(Random& random, int places, int springs,
                                                 int reach) {
-    std::vector<sweep::PlacedSpring> result;
+    std::vector<int> a, b;
     for (int s = 0; s < springs; ++s) {
-        const auto a = static_cast<int>(random.below(places - 1));
-        const int b = std::min(places - 1, a + 1 + static_cast<int>(random.below(reach)));
-        result.push_back({a, b, s});
+        a.push_back(static_cast<int>(random.below(places - 1)));
+        b.push_back(std::min(places - 1, a.back() + 1 + static_cast<int>(random.below(reach))));
     }
-    return result;
+    return sweep::SortedSprings({a, b}).all();
 }
 
 }  // namespace
@@ -35,12 +35,14 @@ TEST_CASE("stars: each spring has one of its ends for its hub", "[integrator]") 
         const auto springs = random_springs(random, 5000, 9001, reach);
         const auto by_hub = sweep::choose_hubs(springs, 5000);
         REQUIRE(by_hub.size() == springs.size());
-        std::set<int> seen;
+        std::map<int, std::pair<int, int>> ends;
+        for (const auto& spring : springs) ends[spring.index] = {spring.a, spring.b};
         for (const auto& spring : by_hub) {
-            const auto& placed = springs[static_cast<std::size_t>(spring.index)];
-            CHECK(std::minmax(spring.hub, spring.tip) == std::minmax(placed.a, placed.b));
-            CHECK(seen.insert(spring.index).second);
+            const std::pair<int, int> found = std::minmax(spring.hub, spring.tip);
+            CHECK(found == ends[spring.index]);
+            ends.erase(spring.index);
         }
+        CHECK(ends.empty());
         CHECK(std::is_sorted(by_hub.begin(), by_hub.end(), [](const auto& s, const auto& t) {
             return std::pair(s.hub, s.tip) < std::pair(t.hub, t.tip);
         }));

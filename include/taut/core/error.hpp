@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <initializer_list>
 #include <limits>
 #include <string>
 #include <type_traits>
@@ -14,29 +15,48 @@
 namespace taut {
 namespace detail {
 
-inline std::string text(const char* words) { return words; }
-inline std::string text(const std::string& words) { return words; }
-
-template <class Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>
-std::string text(Number number) {
-    if constexpr (std::is_integral_v<Number>) {
-        return std::to_string(number);
-    } else {
-        char buffer[32];
-        std::snprintf(buffer, sizeof buffer, "%.9g", static_cast<double>(number));
-        return buffer;
+/// A part of a message: words, which must outlive it, or a number.
+class Part {
+public:
+    Part(const char* words) : words_(words) {}
+    Part(const std::string& words) : words_(words.c_str()) {}
+    template <class Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>
+    Part(Number number) {
+        if constexpr (std::is_floating_point_v<Number>) {
+            write("%.9g", static_cast<double>(number));
+        } else if constexpr (std::is_signed_v<Number>) {
+            write("%lld", static_cast<long long>(number));
+        } else {
+            write("%llu", static_cast<unsigned long long>(number));
+        }
     }
+    const char* text() const { return words_ ? words_ : number_; }
+
+private:
+    template <class Number>
+    void write(const char* format, Number number) {
+        std::snprintf(number_, sizeof number_, format, number);
+    }
+
+    const char* words_ = nullptr;
+    char number_[32];
+};
+
+inline std::string text(const Part& part) { return part.text(); }
+
+[[noreturn]] inline void fail_with(std::initializer_list<Part> parts) {
+    std::string message = "taut::";
+    for (const Part& part : parts) message += part.text();
+    TAUT_FAIL(message.c_str());
+    std::abort();  // reached only when a user's TAUT_FAIL returns
 }
 
 }  // namespace detail
 
 /// Reports wrong input: joins the parts to one sentence and hands it to TAUT_FAIL. Never returns.
 template <class... Parts>
-[[noreturn]] void fail(const Parts&... parts) {
-    std::string message = "taut::";
-    ((message += detail::text(parts)), ...);
-    TAUT_FAIL(message.c_str());
-    std::abort();  // reached only when a user's TAUT_FAIL returns
+[[noreturn]] void fail(Parts... parts) {  // by value, so that words of any length are one type
+    detail::fail_with({detail::Part(parts)...});
 }
 
 /// Fails unless `value` is finite and ≥ 0; the message names function, argument and value.

@@ -41,7 +41,7 @@ public:
     template <class AnyState>
     Report step(AnyState& state, Scalar h, Index count = 1);
     /// For the guard, which books the work of a SpringSystem's steps.
-    void watch(integrator_detail::sweep::StepWatch<System>* by) { steps_.watch(by); }
+    void watch(integrator_detail::sweep::StepWatch<Scalar, System::Dim>* by) { steps_.watch(by); }
 
 private:
     const System* system_;

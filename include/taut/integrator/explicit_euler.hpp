@@ -33,14 +33,6 @@ public:
     Report step(AnyState& state, Scalar h, Index count = 1);
 
 private:
-    struct Update {
-        template <class X, class V, class A, class Step>
-        EIGEN_ALWAYS_INLINE void operator()(X&& x, V&& v, const A& a, const Step& h) const {
-            x += h * v;
-            v += h * a;
-        }
-    };
-
     const System* system_;
     integrator_detail::ExplicitSteps<System> steps_;
 };
@@ -48,7 +40,7 @@ private:
 template <class System>
 template <class AnyState>
 Report ExplicitEuler<System>::step(AnyState& state, Scalar h, Index count) {
-    return steps_.run(*system_, state, h, count, Update{});
+    return steps_.run(*system_, state, h, count, integrator_detail::DriftAndKick{});
 }
 
 }  // namespace taut

@@ -22,6 +22,15 @@ struct KickAndDrift {
     }
 };
 
+/// x⁺ = x + h v, then v⁺ = v + h a.
+struct DriftAndKick {
+    template <class X, class V, class A, class Step>
+    EIGEN_ALWAYS_INLINE void operator()(X&& x, V&& v, const A& a, const Step& h) const {
+        x += h * v;
+        v += h * a;
+    }
+};
+
 /// Steps of an explicit method: of a SpringSystem by a sweep, of other systems by System::force.
 template <class System>
 class ExplicitSteps {
@@ -29,13 +38,15 @@ public:
     using Scalar = typename System::Scalar;
     using State = typename System::State;
 
-    explicit ExplicitSteps(const ExplicitOptions& options) : options_(options) {
-        if (options.threads < 1)
-            fail("ExplicitOptions: threads is ", options.threads, "; it must be >= 1");
-    }
+    explicit ExplicitSteps(const ExplicitOptions& options);
+    ExplicitSteps(const ExplicitSteps&) = default;
+    ExplicitSteps(ExplicitSteps&&) = default;
+    ExplicitSteps& operator=(const ExplicitSteps&) = default;
+    ExplicitSteps& operator=(ExplicitSteps&&) = default;
+    ~ExplicitSteps();
 
     /// Steps of a SpringSystem by its sweep are shown to that; null ends it.
-    void watch(sweep::StepWatch<System>* by) { sweep_.watch(by); }
+    void watch(sweep::StepWatch<Scalar, System::Dim>* by) { sweep_.watch(by); }
     /// Steps of a method that needs one acceleration.
     /// @param update  update(x, v, a, h): x and v, of one step, by the acceleration a = M⁻¹f(x, v);
     ///                arrays or registers
@@ -123,6 +134,15 @@ private:
     StepLoop<State> loop_;
     decltype(State::x) f_;  // force, Dim × n, N
 };
+
+template <class System>
+ExplicitSteps<System>::ExplicitSteps(const ExplicitOptions& options) : options_(options) {
+    if (options.threads < 1)
+        fail("ExplicitOptions: threads is ", options.threads, "; it must be >= 1");
+}
+
+template <class System>
+ExplicitSteps<System>::~ExplicitSteps() = default;  // compiled once
 
 }  // namespace integrator_detail
 }  // namespace taut

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 
 #include "../../core/concepts.hpp"
 #include "../../core/detail/fits.hpp"
@@ -21,11 +22,11 @@ public:
     template <class System, class AnyState>
     static Report check(const System& system, const AnyState& state, Scalar h) {
         static_assert((model_detail::require_state<State, AnyState>(), true));
-        if (!(h > 0) || !std::isfinite(h)) return {Status::invalid_step};
-        if (!detail::fits(state, system.size())) return {Status::invalid_state};
-        if (!state.finite()) return {Status::invalid_state, 0, 0, state.first_not_finite()};
-        return {};
+        return check_state(system.size(), state, h);
     }
+    /// @param size  the number of particles
+    template <class AnyState>
+    static Report check_state(Index size, const AnyState& state, Scalar h);
 
     /// @param state    the State, or a StateView, whose steps are taken on a copy
     /// @param advance  Report advance(State&): one step in place, its time excepted
@@ -33,38 +34,57 @@ public:
     Report run(const System& system, AnyState& state, Scalar h, Index count, Advance&& advance) {
         Report report = check(system, state, h);
         if (!report) return report;
+        const Step step{&advance, [](void* by, State& own) -> Report {
+                            return (*static_cast<std::remove_reference_t<Advance>*>(by))(own);
+                        }};
         if constexpr (model_detail::is_state_view_v<AnyState>) {
             state.copy_to(copy_);
             report = check(system, copy_, h);  // a double may be too large for a float
-            if (report) report = take(copy_, h, count, advance);
+            if (report) report = take(copy_, h, count, step);
             if (report) state.copy_from(copy_);
         } else {
             copy_ = state;
-            report = take(state, h, count, advance);
+            report = take(state, h, count, step);
             if (!report) state = copy_;
         }
         return report;
     }
 
 private:
-    template <class Advance>
-    static Report take(State& state, Scalar h, Index count, Advance& advance) {
-        Report report;
-        while (report && report.iterations < count) {
-            const int steps = report.iterations;
-            const Scalar time = state.time;
-            report = advance(state);
-            if (report && !state.finite()) {
-                report.status = Status::diverged;
-                report.where = state.first_not_finite();
-            }
-            report.iterations = steps + (report ? 1 : 0);
-            state.time = time + h;
-        }
-        return report;
-    }
+    /// By whatever function: what is around it is compiled once for all.
+    struct Step {
+        void* by;
+        Report (*take)(void* by, State& state);
+    };
+    static Report take(State& state, Scalar h, Index count, const Step& step);
 
     State copy_;  // the state at the start of the call; of a view, the one that is stepped
 };
+
+template <class State>
+template <class AnyState>
+Report StepLoop<State>::check_state(Index size, const AnyState& state, Scalar h) {
+    if (!(h > 0) || !std::isfinite(h)) return {Status::invalid_step};
+    if (!detail::fits(state, size)) return {Status::invalid_state};
+    if (!state.finite()) return {Status::invalid_state, 0, 0, state.first_not_finite()};
+    return {};
+}
+
+template <class State>
+Report StepLoop<State>::take(State& state, Scalar h, Index count, const Step& step) {
+    Report report;
+    while (report && report.iterations < count) {
+        const int steps = report.iterations;
+        const Scalar time = state.time;
+        report = step.take(step.by, state);
+        if (report && !state.finite()) {
+            report.status = Status::diverged;
+            report.where = state.first_not_finite();
+        }
+        report.iterations = steps + (report ? 1 : 0);
+        state.time = time + h;
+    }
+    return report;
+}
 
 }  // namespace taut::integrator_detail

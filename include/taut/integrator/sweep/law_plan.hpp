@@ -2,55 +2,261 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "batch_plan.hpp"
-#include "run_plan.hpp"
+#include <algorithm>
+#include <array>
+#include <vector>
+
 #include "star_plan.hpp"
 
 namespace taut::integrator_detail::sweep {
+
+/// Springs of a batch that are computed together: all that is known of them stays in the first
+/// cache. Coefficients of their pulls overwrite the products that they are made of.
+template <class Scalar>
+struct Chunk {
+    static constexpr int most = 64;
+    static_assert(most % max_width == 0);
+
+    alignas(64) Scalar l2[most] = {};
+    alignas(64) Scalar dx_dv[most] = {};
+    alignas(64) Scalar old_l2[most] = {};
+};
+
+/// Adds the forces of a batch: the same for all laws but for coefficients.
+/// @tparam Both  whether a spring takes its positions ahead and as they are [T42]
+/// @param pull   pull(springs, chunk, count): coefficients of the next springs of the batch
+template <class Scalar, int Dim, bool Velocities, bool Rayleigh, bool Both>
+void add_batch(const PlannedBatches& plan, const Batch& batch, const TileView<Scalar>& view,
+               void (*pull)(void* springs, Chunk<Scalar>& chunk, int count), void* springs) {
+    // One vector, in memory as registers like it.
+    using Vector = Eigen::Array<Scalar, Dim == 3 ? 4 : Dim, 1>;
+    constexpr int most = Chunk<Scalar>::most;
+    alignas(64) Vector x[most_gathered];
+    alignas(64) Vector here[Both ? most_gathered : 1];
+    alignas(64) Vector v[Velocities ? most_gathered : 1];
+    alignas(64) Vector f[most_gathered];
+    const int* places = plan.gathered.data() + batch.first_gathered;
+    for (int g = 0; g < batch.gathered; ++g) {
+        x[g].setZero();
+        f[g].setZero();
+        for (int d = 0; d < Dim; ++d) x[g][d] = view.x[d][places[g]];
+        if constexpr (Both) {
+            here[g].setZero();
+            for (int d = 0; d < Dim; ++d) here[g][d] = view.at[d][places[g]];
+        }
+        if constexpr (Velocities) {
+            v[g].setZero();
+            for (int d = 0; d < Dim; ++d) v[g][d] = view.v[d][places[g]];
+        }
+    }
+    alignas(64) Vector dx[most];
+    alignas(64) Vector old_dx[Both ? most : 1];
+    alignas(64) Vector dv[Velocities ? most : 1];
+    Chunk<Scalar> chunk;
+    for (int done = 0; done < batch.springs; done += most) {
+        const auto* ends = plan.ends.data() + batch.first_spring + done;
+        const int count = std::min(most, batch.springs - done);
+        for (int s = 0; s < count; ++s) {
+            dx[s] = x[ends[s].b] - x[ends[s].a];
+            chunk.l2[s] = dx[s].square().sum();
+            if constexpr (Both) {
+                old_dx[s] = here[ends[s].b] - here[ends[s].a];
+                chunk.old_l2[s] = old_dx[s].square().sum();
+            }
+            if constexpr (Velocities) {
+                dv[s] = v[ends[s].b] - v[ends[s].a];
+                chunk.dx_dv[s] = (dx[s] * dv[s]).sum();
+            }
+        }
+        pull(springs, chunk, count);
+        for (int s = 0; s < count; ++s) {
+            Vector force = chunk.l2[s] * dx[s];
+            if constexpr (Both) force -= chunk.old_l2[s] * old_dx[s];
+            if constexpr (Rayleigh) force += chunk.dx_dv[s] * dv[s];
+            f[ends[s].a] += force;
+            f[ends[s].b] -= force;
+        }
+    }
+    for (int g = 0; g < batch.gathered; ++g) {
+        const int i = places[g] - view.begin;
+        if (i < 0 || i >= view.size) continue;  // another block sees to it
+        for (int d = 0; d < Dim; ++d) view.force_a[d][i] += f[g][d];
+    }
+}
 
 /// The springs of one law: runs, and batches of those that fit none; or all of them in stars.
 template <class Scalar, int Dim, class Law>
 class LawPlan {
 public:
-    LawPlan() = default;
-    LawPlan(const SpringSet<Scalar, Law>& set, const SortedSprings& springs, const Blocks& blocks,
-            bool stars)
-        : damped_(!set.damping.empty()) {
-        if (stars) {
-            stars_ = {set, springs.all(), blocks};
-        } else {
-            runs_ = {set, springs.runs(), blocks, table_};
-            batches_ = {set, springs.scattered(), blocks, table_};
-            table_.finish();
-        }
-    }
-
+    /// In place of the last springs.
+    void renew(const SpringSet<Scalar, Law>& set, const SortedSprings& springs,
+               const Blocks& blocks, bool stars);
     /// Whether a spring has a damper of its own.
     bool damped() const { return damped_; }
     /// Adds the forces of the tile's springs on the places of its block.
-    /// @tparam Ahead  whether springs that push do so along the old direction [T42]
-    template <bool Rayleigh, bool Ahead>
-    void add_forces(const TileView<Scalar>& view, bool stars) const {
-        constexpr bool both = Ahead && !Law::convex;
-        damped_ ? add_forces<true, Rayleigh, both>(view, stars)
-                : add_forces<false, Rayleigh, both>(view, stars);
-    }
+    /// @tparam Both  whether a spring takes its positions ahead and as they are [T42]
+    template <bool Both>
+    void add_forces(const TileView<Scalar>& view) const;
 
 private:
-    template <bool Dampers, bool Rayleigh, bool Both>
-    void add_forces(const TileView<Scalar>& view, bool stars) const {
-        if constexpr (Dim > 1) {
-            if (stars) return stars_.template add_forces<Dampers, Rayleigh, Both>(view);
-        }
-        runs_.template add_forces<Dampers, Rayleigh, Both>(table_, view);
-        batches_.template add_forces<Dampers, Rayleigh, Both>(table_, view);
-    }
+    using Register = VectorRegister<Scalar>;
+    using Reader = SpringReader<Scalar, Law, Register>;
+    using Vector = std::array<Register, Dim>;
 
-    SpringTable<Scalar, Law> table_;  // of runs and batches
-    RunPlan<Scalar, Dim, Law> runs_;
-    BatchPlan<Scalar, Dim, Law> batches_;
+    static EIGEN_ALWAYS_INLINE Register dot(const Vector& a, const Vector& b) {
+        Register sum = a[0] * b[0];
+        if constexpr (Dim > 1) sum += a[1] * b[1];
+        if constexpr (Dim > 2) sum += a[2] * b[2];
+        return sum;
+    }
+    template <bool Dampers, bool Rayleigh, bool Both>
+    void add(const TileView<Scalar>& view) const;
+    template <bool Dampers, bool Rayleigh, bool Both>
+    void add_segment(const TileView<Scalar>& view, const Segment& segment) const;
+    /// What a batch asks for coefficients.
+    struct BatchSprings {
+        Reader reader;
+        Scalar alpha;
+    };
+    template <bool Dampers, bool Rayleigh, bool Both>
+    static void pull(void* springs, Chunk<Scalar>& chunk, int count);
+
+    SpringTable<Scalar, Law> table_;  // of runs, then of batches
+    PlannedRuns runs_;
+    PlannedBatches batches_;
     StarPlan<Scalar, Law> stars_;
     bool damped_ = false;
+    bool in_stars_ = false;
 };
+
+template <class Scalar, int Dim, class Law>
+void LawPlan<Scalar, Dim, Law>::renew(const SpringSet<Scalar, Law>& set,
+                                      const SortedSprings& springs, const Blocks& blocks,
+                                      bool stars) {
+    *this = {};
+    damped_ = !set.damping.empty();
+    in_stars_ = stars;
+    if (stars) {
+        stars_ = {set, springs, blocks};
+        return;
+    }
+    std::vector<int> index;
+    runs_ = Planner<Scalar>::runs(springs, blocks, index);
+    batches_ = Planner<Scalar>::batches(springs, blocks, index);
+    int first = 0;
+    const auto add = [&](int count) {
+        table_.add(set, index, first, first + count);
+        first += count;
+    };
+    for (const auto& run : runs_.runs) add(run.count);
+    for (const auto& batch : batches_.batches) add(batch.springs);
+    table_.finish();
+}
+
+template <class Scalar, int Dim, class Law>
+template <bool Both>
+void LawPlan<Scalar, Dim, Law>::add_forces(const TileView<Scalar>& view) const {
+    if (view.alpha > 0) {
+        damped_ ? add<true, true, Both>(view) : add<false, true, Both>(view);
+    } else {
+        damped_ ? add<true, false, Both>(view) : add<false, false, Both>(view);
+    }
+}
+
+template <class Scalar, int Dim, class Law>
+template <bool Dampers, bool Rayleigh, bool Both>
+void LawPlan<Scalar, Dim, Law>::add(const TileView<Scalar>& view) const {
+    if constexpr (Dim > 1) {
+        if (in_stars_) return stars_.template add_forces<Dampers, Rayleigh, Both>(view);
+    }
+    const auto begin = [&](const auto& ends) { return view.tile == 0 ? 0 : ends[view.tile - 1]; };
+    const int last_segment = runs_.segment_end[view.tile];
+    for (int s = begin(runs_.segment_end); s < last_segment; ++s) {
+        add_segment<Dampers, Rayleigh, Both>(view, runs_.segments[s]);
+    }
+    const int runs = static_cast<int>(runs_.runs.size());
+    const int last_batch = batches_.batch_end[view.tile];
+    for (int b = begin(batches_.batch_end); b < last_batch; ++b) {
+        BatchSprings springs{{table_, runs + b, 0}, view.alpha};
+        add_batch<Scalar, Dim, Dampers || Rayleigh, Rayleigh, Both>(
+            batches_, batches_.batches[b], view, pull<Dampers, Rayleigh, Both>, &springs);
+    }
+}
+
+template <class Scalar, int Dim, class Law>
+template <bool Dampers, bool Rayleigh, bool Both>
+void LawPlan<Scalar, Dim, Law>::add_segment(const TileView<Scalar>& view,
+                                            const Segment& segment) const {
+    const auto& run = runs_.runs[segment.run];
+    const int first_a = segment.first_a;
+    const int first_b = first_a + run.offset;
+    const Planes<const Scalar> x_a = view.x.at(first_a);
+    const Planes<const Scalar> x_b = view.x.at(first_b);
+    [[maybe_unused]] const Planes<const Scalar> here_a = view.at.at(first_a);
+    [[maybe_unused]] const Planes<const Scalar> here_b = view.at.at(first_b);
+    const Planes<const Scalar> v_a = view.v.at(first_a);
+    const Planes<const Scalar> v_b = view.v.at(first_b);
+    const Planes<Scalar> force_a =
+        segment.writes_a ? view.force_a.at(first_a - view.begin) : view.discard;
+    const Planes<Scalar> force_b =
+        segment.writes_b ? view.force_b.at(first_b - view.begin) : view.discard;
+    Reader springs(table_, segment.run, static_cast<std::size_t>(first_a - run.first_a));
+    for (int i = 0; i < segment.count; i += Register::width, springs.next()) {
+        Vector dx, dv;
+        [[maybe_unused]] Vector here;
+        for_each_axis<Dim>([&](int d) {
+            dx[d] = Register::load(x_b[d] + i) - Register::load(x_a[d] + i);
+            if constexpr (Dampers || Rayleigh) {
+                dv[d] = Register::load(v_b[d] + i) - Register::load(v_a[d] + i);
+            }
+            if constexpr (Both) {
+                here[d] = Register::load(here_b[d] + i) - Register::load(here_a[d] + i);
+            }
+        });
+        Register dx_dv(Scalar(0));
+        if constexpr (Dampers || Rayleigh) dx_dv = dot(dx, dv);
+        const auto pull = [&] {
+            if constexpr (Both) {
+                return springs.template pull_ahead<Dampers, Rayleigh>(view.alpha, dot(dx, dx),
+                                                                      dx_dv, dot(here, here));
+            } else {
+                return springs.template pull<Dampers, Rayleigh>(view.alpha, dot(dx, dx), dx_dv);
+            }
+        }();
+        for_each_axis<Dim>([&](int d) {
+            Register force = pull.of_dx * dx[d];
+            if constexpr (Both) force -= pull.of_here * here[d];
+            if constexpr (Rayleigh) force += pull.of_dv * dv[d];
+            Scalar* on_a = force_a[d] + i;
+            Scalar* on_b = force_b[d] + i;
+            (Register::load(on_a) + force).store(on_a);
+            (Register::load(on_b) - force).store(on_b);
+        });
+    }
+}
+
+template <class Scalar, int Dim, class Law>
+template <bool Dampers, bool Rayleigh, bool Both>
+void LawPlan<Scalar, Dim, Law>::pull(void* of, Chunk<Scalar>& chunk, int count) {
+    auto& all = *static_cast<BatchSprings*>(of);
+    BatchSprings springs = all;  // a copy is in registers
+    for (int s = 0; s < count; s += Register::width, springs.reader.next()) {
+        const Register square = Register::load(chunk.l2 + s);
+        const Register product = Register::load(chunk.dx_dv + s);
+        const auto keep = [&](const auto& pull) {
+            pull.of_dx.store(chunk.l2 + s);
+            pull.of_dv.store(chunk.dx_dv + s);
+        };
+        if constexpr (Both) {
+            const auto pull = springs.reader.template pull_ahead<Dampers, Rayleigh>(
+                springs.alpha, square, product, Register::load(chunk.old_l2 + s));
+            keep(pull);
+            pull.of_here.store(chunk.old_l2 + s);
+        } else {
+            keep(springs.reader.template pull<Dampers, Rayleigh>(springs.alpha, square, product));
+        }
+    }
+    all = springs;
+}
 
 }  // namespace taut::integrator_detail::sweep

@@ -4,49 +4,47 @@
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
 
-#include "register.hpp"
-#include "state_planes.hpp"
+#include "layout.hpp"
 
 namespace taut::integrator_detail::sweep {
 
+/// The scalars first … first + count − 1 of planes, the places of a tile, and the forces on them.
+template <class Scalar>
+struct TilePlaces {
+    const StatePlanes<Scalar>& planes;
+    Index first;
+    Index count;
+    Planes<Scalar> force_a;  // N
+    Planes<Scalar> force_b;  // N
+};
+
 /// Moves places by the forces on them: what a step does beside springs.
-template <class Scalar, int Dim>
+template <class Scalar>
 class PlaceUpdate {
 public:
     /// Brings all members up to date.
-    /// @param ahead  s, by which springs see x ahead
-    template <class System, class Plan>
-    void load(const System& system, const Plan& plan, Scalar ahead) {
-        gravity_ = system.gravity();
-        for (int i = 0; i < max_width; ++i) {
-            gravity_of_points_[i] = i % 4 < Dim ? gravity_[i % 4] : Scalar(0);
-        }
-        drag_ = static_cast<Scalar>(system.rayleigh().mass_proportional);
-        ahead_ = ahead;
-        const Index size = plan.size() * plan.grain();
-        inverse_mass_.resize(plan.stride());
-        inverse_mass_.tail(plan.stride() - size).setZero();
-        plan.to_plane(system.inverse_mass(), inverse_mass_.data());
-        pins_ = (inverse_mass_.head(size).array() == Scalar(0)).any();
-    }
-    bool has_pins() const { return pins_; }
-    bool has_drag() const { return drag_ > 0; }
-
+    /// @param gravity, inverse_mass  the system's   @param drag  d0 of Rayleigh damping, 1/s
+    /// @param ahead                  s, by which springs see x ahead
+    void load(const Layout<Scalar>& layout, const Scalar* gravity, int dim, Scalar drag,
+              const Scalar* inverse_mass, Scalar ahead);
     /// Forces beside those of springs, N; empty planes for none.
     void set_external(const Planes<Scalar>& force) { external_ = force; }
 
-    /// The scalars first, first + 1, … of planes by the forces on them, which are cleared.
-    /// @param update  update(x, v, a, h) of registers, see Sweep::run
-    template <bool Pins, bool Drag, bool Stars, class Update>
-    void move(const StatePlanes<Scalar>& planes, Index first, Index count, Scalar h,
-              const Planes<Scalar>& force_a, const Planes<Scalar>& force_b,
-              const Update& update) const;
+    /// A step of h, s, of the places of a tile by the forces on them, which are cleared.
+    /// @tparam Update  update(x, v, a, h) of registers: x, v, of one coordinate, by the
+    /// acceleration
+    template <class Update>
+    void move(const Layout<Scalar>& layout, const TilePlaces<Scalar>& tile, Scalar h) const;
 
 private:
     using Register = VectorRegister<Scalar>;
 
-    Eigen::Matrix<Scalar, Dim, 1> gravity_;            // m/s²
+    template <bool Pins, bool Drag, bool Stars, class Update>
+    void move(const TilePlaces<Scalar>& tile, int planes, Scalar h) const;
+
+    std::array<Scalar, 4> gravity_{};                  // m/s²
     std::array<Scalar, max_width> gravity_of_points_;  // x y z 0 x y z 0 …
     Planes<Scalar> external_;                          // N
     VectorX<Scalar> inverse_mass_;                     // a plane, 1/kg, 0 if pinned
@@ -55,35 +53,69 @@ private:
     bool pins_ = false;
 };
 
-template <class Scalar, int Dim>
+template <class Scalar>
+void PlaceUpdate<Scalar>::load(const Layout<Scalar>& layout, const Scalar* gravity, int dim,
+                               Scalar drag, const Scalar* inverse_mass, Scalar ahead) {
+    gravity_.fill(0);
+    std::copy_n(gravity, dim, gravity_.begin());
+    for (int i = 0; i < max_width; ++i) gravity_of_points_[i] = gravity_[i % 4];
+    drag_ = drag;
+    ahead_ = ahead;
+    const Index size = layout.size() * layout.grain();
+    inverse_mass_.resize(layout.stride());
+    inverse_mass_.tail(layout.stride() - size).setZero();
+    layout.to_plane(inverse_mass, inverse_mass_.data());
+    pins_ = std::find(inverse_mass, inverse_mass + layout.size(), Scalar(0)) !=
+            inverse_mass + layout.size();
+}
+
+template <class Scalar>
+template <class Update>
+void PlaceUpdate<Scalar>::move(const Layout<Scalar>& layout, const TilePlaces<Scalar>& tile,
+                               Scalar h) const {
+    const int planes = layout.planes();
+    const auto move = [&](auto pins, auto drag) {
+        constexpr bool Pins = decltype(pins)::value;
+        constexpr bool Drag = decltype(drag)::value;
+        if (layout.has_stars()) return this->template move<Pins, Drag, true, Update>(tile, 1, h);
+        this->template move<Pins, Drag, false, Update>(tile, planes, h);
+    };
+    constexpr std::true_type yes;
+    constexpr std::false_type no;
+    if (drag_ > 0) {
+        pins_ ? move(yes, yes) : move(no, yes);
+    } else {
+        pins_ ? move(yes, no) : move(no, no);
+    }
+}
+
+template <class Scalar>
 template <bool Pins, bool Drag, bool Stars, class Update>
-void PlaceUpdate<Scalar, Dim>::move(const StatePlanes<Scalar>& planes, Index first, Index count,
-                                    Scalar h, const Planes<Scalar>& force_a,
-                                    [[maybe_unused]] const Planes<Scalar>& force_b,
-                                    const Update& update) const {
+void PlaceUpdate<Scalar>::move(const TilePlaces<Scalar>& tile, int planes, Scalar h) const {
     // The axis of a lane is the same in each of so many registers in turn.
     constexpr int turns = Stars ? std::max(1, 4 / Register::width) : 1;
+    const Index count = tile.count;  // a store through a register may be one to the tile
     const Register step(h);
     const Register zero(Scalar(0));
     const Register ahead(ahead_);
     const bool looks_ahead = ahead_ > 0;
     [[maybe_unused]] const Register d0(drag_);
-    for (int d = 0; d < (Stars ? 1 : Dim); ++d) {
+    for (int d = 0; d < planes; ++d) {
         std::array<Register, turns> gravity;
         for (int turn = 0; turn < turns; ++turn) {
             gravity[turn] = Stars
                                 ? Register::load(gravity_of_points_.data() + turn * Register::width)
                                 : Register(gravity_[d]);
         }
-        const Scalar* inverse_masses = inverse_mass_.data() + first;
-        const Scalar* xs = planes.x[d] + first;
-        const Scalar* vs = planes.v[d] + first;
-        Scalar* new_xs = planes.new_x[d] + first;
-        Scalar* new_vs = planes.new_v[d] + first;
-        Scalar* new_spring_xs = planes.new_spring_x[d] + first;
-        const Scalar* external = external_.first ? external_[d] + first : nullptr;
-        Scalar* forces_a = force_a[d];
-        [[maybe_unused]] Scalar* forces_b = force_b[d];
+        const Scalar* inverse_masses = inverse_mass_.data() + tile.first;
+        const Scalar* xs = tile.planes.x[d] + tile.first;
+        const Scalar* vs = tile.planes.v[d] + tile.first;
+        Scalar* new_xs = tile.planes.new_x[d] + tile.first;
+        Scalar* new_vs = tile.planes.new_v[d] + tile.first;
+        Scalar* new_spring_xs = tile.planes.new_spring_x[d] + tile.first;
+        const Scalar* external = external_.first ? external_[d] + tile.first : nullptr;
+        Scalar* forces_a = tile.force_a[d];
+        [[maybe_unused]] Scalar* forces_b = tile.force_b[d];
         const auto move_register = [&](Index i, const Register& g) {
             const Register inverse_mass = Register::load(inverse_masses + i);
             Register x = Register::load(xs + i);
@@ -98,7 +130,7 @@ void PlaceUpdate<Scalar, Dim>::move(const StatePlanes<Scalar>& planes, Index fir
                 zero.store(forces_b + i);
             }
             if (external) f += Register::load(external + i);
-            update(x, v, free_fall + inverse_mass * f, step);
+            Update()(x, v, free_fall + inverse_mass * f, step);
             x.store(new_xs + i);
             v.store(new_vs + i);
             if (looks_ahead) (x + ahead * v).store(new_spring_xs + i);

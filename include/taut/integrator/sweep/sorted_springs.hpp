@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "register.hpp"
@@ -12,6 +13,25 @@ namespace taut::integrator_detail::sweep {
 
 /// Fewer springs of one offset are not worth a run.
 inline constexpr int shortest_run = 16;
+
+/// The numbers 0 … count − 1.
+inline std::vector<int> numbers(std::size_t count) {
+    std::vector<int> result(count);
+    for (std::size_t i = 0; i < count; ++i) result[i] = static_cast<int>(i);
+    return result;
+}
+
+/// Sorts items by key[item] ≥ 0; those of one key stay in their order.
+inline void sort_by(const std::vector<int>& key, std::vector<int>& items) {
+    int most = -1;
+    for (const int item : items) most = std::max(most, key[item]);
+    std::vector<int> next(static_cast<std::size_t>(most) + 2, 0);
+    for (const int item : items) ++next[key[item] + 1];
+    for (int i = 0; i <= most; ++i) next[i + 1] += next[i];
+    std::vector<int> sorted(items.size());
+    for (const int item : items) sorted[next[key[item]]++] = item;
+    items = std::move(sorted);
+}
 
 /// A spring by the places of its ends, a < b, and its index in the set.
 struct PlacedSpring {
@@ -22,74 +42,70 @@ struct PlacedSpring {
     int offset() const { return b - a; }
 };
 
-/// Springs by a key in 0 … keys − 1; those of one key stay in their order.
-/// @param key_of  key_of(spring)
-template <class KeyOf>
-std::vector<PlacedSpring> counting_sort(const std::vector<PlacedSpring>& springs, int keys,
-                                        const KeyOf& key_of) {
-    std::vector<std::size_t> next(static_cast<std::size_t>(keys) + 1, 0);
-    for (const auto& spring : springs) ++next[static_cast<std::size_t>(key_of(spring)) + 1];
-    for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
-    std::vector<PlacedSpring> sorted(springs.size());
-    for (const auto& spring : springs) {
-        sorted[next[static_cast<std::size_t>(key_of(spring))]++] = spring;
-    }
-    return sorted;
-}
+/// Stands for a spring's index: a gap, with parameters of a neighbour that a law can take.
+inline int gap(int neighbour) { return -1 - neighbour; }
+
+/// The ends of one law's springs, particles.
+struct SpringEnds {
+    const std::vector<int>& a;
+    const std::vector<int>& b;
+};
 
 /// The springs of a set sorted into runs, and the scattered ones that fit none.
 class SortedSprings {
 public:
-    /// Springs of one offset and ascending a, among the sorted ones.
+    /// Springs of one offset and ascending a: which of all.
     struct Run {
-        std::vector<PlacedSpring>::const_iterator begin, end;
-        const PlacedSpring& front() const { return *begin; }
-        const PlacedSpring& back() const { return *(end - 1); }
+        int begin, end;
     };
 
-    /// @param place_of  place_of(i): the place of particle i
-    template <class Set, class PlaceOf>
-    SortedSprings(const Set& set, const PlaceOf& place_of) {
-        springs_.reserve(set.a.size());
-        int places = 0;
-        for (std::size_t s = 0; s < set.a.size(); ++s) {
-            const int a = place_of(set.a[s]);
-            const int b = place_of(set.b[s]);
-            springs_.push_back({std::min(a, b), std::max(a, b), static_cast<int>(s)});
-            places = std::max(places, springs_.back().b + 1);
+    /// @param place  of each particle; empty: particle i at place i
+    explicit SortedSprings(const SpringEnds& ends, const std::vector<int>& place = {}) {
+        const std::size_t count = ends.a.size();
+        std::vector<int> a(count), offset(count);
+        for (std::size_t s = 0; s < count; ++s) {
+            const int p = place.empty() ? ends.a[s] : place[ends.a[s]];
+            const int q = place.empty() ? ends.b[s] : place[ends.b[s]];
+            a[s] = std::min(p, q);
+            offset[s] = std::max(p, q) - a[s];
         }
-        springs_ = counting_sort(springs_, places, [](const auto& spring) { return spring.a; });
-        springs_ = counting_sort(springs_, places, [](const auto& s) { return s.offset(); });
-        for (Run run{springs_.cbegin(), {}}; run.begin != springs_.cend(); run.begin = run.end) {
-            run.end = run.begin + 1;
-            while (run.end != springs_.cend() && goes_on(run.back(), *run.end)) ++run.end;
-            const auto count = run.end - run.begin;
-            if (count >= shortest_run && 2 * count > run.back().a - run.front().a) {
-                runs_.push_back(run);
-            } else {
-                scattered_.insert(scattered_.end(), run.begin, run.end);
-            }
-        }
+        std::vector<int> order = numbers(count);
+        sort_by(a, order);
+        sort_by(offset, order);
+        springs_.reserve(count);
+        for (const int s : order) springs_.push_back({a[s], a[s] + offset[s], s});
+        find_runs();
     }
-    // A copy's runs would be among the springs of the original.
-    SortedSprings(const SortedSprings&) = delete;
-    SortedSprings(SortedSprings&&) = default;
-    SortedSprings& operator=(SortedSprings&&) = default;
 
-    /// By offset, then by a.
+    /// By offset, then by a, then by index.
     const std::vector<PlacedSpring>& all() const { return springs_; }
     const std::vector<Run>& runs() const { return runs_; }
-    const std::vector<PlacedSpring>& scattered() const { return scattered_; }
+    /// Which of all, in their order.
+    const std::vector<int>& scattered() const { return scattered_; }
 
 private:
     /// A run goes on over a short gap, such as that between the rows of a grid.
     static bool goes_on(const PlacedSpring& last, const PlacedSpring& next) {
         return next.offset() == last.offset() && next.a > last.a && next.a <= last.a + max_width;
     }
+    void find_runs() {
+        const int count = static_cast<int>(springs_.size());
+        for (Run run{0, 0}; run.begin < count; run.begin = run.end) {
+            run.end = run.begin + 1;
+            while (run.end < count && goes_on(springs_[run.end - 1], springs_[run.end])) ++run.end;
+            const int length = run.end - run.begin;
+            const int places = springs_[run.end - 1].a - springs_[run.begin].a;
+            if (length >= shortest_run && 2 * length > places) {
+                runs_.push_back(run);
+            } else {
+                for (int s = run.begin; s < run.end; ++s) scattered_.push_back(s);
+            }
+        }
+    }
 
     std::vector<PlacedSpring> springs_;
     std::vector<Run> runs_;
-    std::vector<PlacedSpring> scattered_;
+    std::vector<int> scattered_;
 };
 
 }  // namespace taut::integrator_detail::sweep

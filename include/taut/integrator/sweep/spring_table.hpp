@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "../../model/spring_set.hpp"
-#include "register.hpp"
+#include "sorted_springs.hpp"
 
 namespace taut {
 
@@ -38,22 +38,133 @@ template <class Law>
 inline constexpr bool is_vectorizable_v<Law, std::void_t<decltype(Law::vectorizable)>> =
     Law::vectorizable;
 
-/// Rest lengths, dampings and parameters of one law's springs, in the order in which a sweep reads
-/// them: a column for each quantity of each run and each batch, or of all stars.
-template <class Scalar, class Law_, class Register = VectorRegister<Scalar>>
-class SpringTable {
-    using Law = Law_;
-    using Parameters = typename Law::template Parameters<Scalar>;
-    static constexpr bool vectorizable = is_vectorizable_v<Law>;
-    static constexpr std::size_t fields = vectorizable ? sizeof(Parameters) / sizeof(Scalar) : 0;
-    static_assert(!vectorizable || (std::is_trivially_copyable_v<Parameters> &&
-                                    sizeof(Parameters) == fields * sizeof(Scalar)),
-                  "taut::SpringSystem: the Parameters of a vectorizable law hold Scalars only");
-
+/// Numbers of springs, in the order in which a sweep reads them: a column for each quantity of each
+/// run and each batch, or of all stars.
+template <class Scalar>
+class ColumnTable {
+public:
     struct Column {
         std::size_t first = 0;
         std::size_t stride = 0;  // 0: one value for all
     };
+    const Scalar* numbers() const { return numbers_.data(); }
+    /// Those from the first of an addition on.
+    const Column* columns(int first) const { return columns_.data() + first; }
+
+protected:
+    /// Adds a column of springs and gaps.
+    /// @param values  of the set's spring 0, `apart` bytes from those of the next; null for none
+    /// @param gaps    whether a gap has −1 in place of its neighbour's
+    void add_column(const void* values, std::size_t apart, const std::vector<int>& index, int first,
+                    int end, bool gaps);
+    /// Lets the last springs be read a whole register at a time.
+    void finish() {
+        numbers_.resize(numbers_.size() + max_width, Scalar(0));
+        numbers_.shrink_to_fit();
+    }
+
+private:
+    std::vector<Scalar, Eigen::aligned_allocator<Scalar>> numbers_;  // columns one after another
+    std::vector<Column> columns_;
+    std::size_t shared_ = std::size_t(-1);  // the last column of one value, or none
+};
+
+template <class Scalar>
+void ColumnTable<Scalar>::add_column(const void* values, std::size_t apart,
+                                     const std::vector<int>& index, int first, int end, bool gaps) {
+    const auto count = static_cast<std::size_t>(end - first);
+    columns_.push_back({});
+    if (!values || count == 0) return;
+    const std::size_t size = numbers_.size();
+    // Aligned like the planes, a register never lies across two cache lines.
+    const std::size_t begin = (size + max_width - 1) / max_width * max_width;
+    numbers_.resize(begin + count, Scalar(0));
+    Scalar* column = numbers_.data() + begin;
+    bool same = true;
+    for (std::size_t i = 0; i < count; ++i) {
+        const int at = index[static_cast<std::size_t>(first) + i];
+        const int spring = at < 0 ? gap(at) : at;
+        std::memcpy(column + i,
+                    static_cast<const char*>(values) + apart * static_cast<std::size_t>(spring),
+                    sizeof(Scalar));
+        if (gaps && at < 0) column[i] = Scalar(-1);
+        same = same && column[i] == column[0];
+    }
+    if (!same) {
+        columns_.back() = {begin, 1};
+        return;
+    }
+    const Scalar value = column[0];
+    if (shared_ < size && numbers_[shared_] == value) {
+        numbers_.resize(size);
+    } else {
+        numbers_.resize(begin);
+        numbers_.resize(begin + max_width, value);
+        shared_ = begin;
+    }
+    columns_.back() = {shared_, 0};
+}
+
+template <class Scalar, class Law, class Register>
+class SpringReader;
+
+/// Rest lengths, dampings and parameters of one law's springs.
+template <class Scalar, class Law>
+class SpringTable : public ColumnTable<Scalar> {
+public:
+    using Parameters = typename Law::template Parameters<Scalar>;
+    static constexpr bool vectorizable = is_vectorizable_v<Law>;
+    static constexpr int fields =
+        vectorizable ? static_cast<int>(sizeof(Parameters) / sizeof(Scalar)) : 0;
+    static_assert(!vectorizable || (std::is_trivially_copyable_v<Parameters> &&
+                                    sizeof(Parameters) == fields * sizeof(Scalar)),
+                  "taut::SpringSystem: the Parameters of a vectorizable law hold Scalars only");
+
+    /// Adds springs and gaps of `set`: those of index from `first` to before `end`. Call finish()
+    /// after the last addition. A SpringReader knows them by the number of additions before.
+    void add(const SpringSet<Scalar, Law>& set, const std::vector<int>& index, int first, int end) {
+        const auto* damping = set.damping.empty() ? nullptr : set.damping.data();
+        this->add_column(set.rest_length.data(), sizeof(Scalar), index, first, end, true);
+        this->add_column(damping, sizeof(Scalar), index, first, end, false);
+        if constexpr (vectorizable) {
+            const char* bytes = reinterpret_cast<const char*>(set.parameters.data());
+            for (int f = 0; f < fields; ++f) {
+                this->add_column(bytes + f * sizeof(Scalar), sizeof(Parameters), index, first, end,
+                                 false);
+            }
+        } else {
+            first_parameters_.push_back(parameters_.size());
+            for (int i = first; i < end; ++i) {
+                const int at = index[i];
+                parameters_.push_back(set.parameters[at < 0 ? gap(at) : at]);
+            }
+        }
+    }
+    /// Lets the last springs be read a whole register at a time.
+    void finish() {
+        ColumnTable<Scalar>::finish();
+        if (!parameters_.empty()) {
+            parameters_.resize(parameters_.size() + max_width, Parameters(parameters_.back()));
+        }
+        parameters_.shrink_to_fit();
+    }
+
+private:
+    template <class, class, class>
+    friend class SpringReader;
+
+    // Of a law that is not vectorizable.
+    std::vector<Parameters> parameters_;
+    std::vector<std::size_t> first_parameters_;  // of each addition
+};
+
+/// Goes forward through springs of a table, as many at a time as a register has lanes.
+template <class Scalar, class Law_, class Register>
+class SpringReader {
+    using Table = SpringTable<Scalar, Law_>;
+    using Parameters = typename Table::Parameters;
+    static constexpr bool vectorizable = Table::vectorizable;
+    static constexpr int fields = Table::fields;
     struct ColumnReader {
         const Scalar* at;
         std::size_t step;
@@ -62,164 +173,69 @@ class SpringTable {
     };
 
 public:
-    /// Where a run, a batch or a plan of stars has its springs.
-    struct Columns {
-        Column rest_length;
-        Column damping;
-        Column parameters;                 // of a law that is not vectorizable
-        std::array<Column, fields> field;  // of one that is: each Scalar of its parameters
-    };
+    using Law = Law_;
 
-    /// Stands for a spring's index: a gap, with parameters of a neighbour that a law can take.
-    static int gap(int neighbour) { return -1 - neighbour; }
-
-    /// Adds springs and gaps of `set`, by their indices. Call finish() after the last addition.
-    Columns add(const SpringSet<Scalar, Law>& set, const std::vector<int>& index) {
-        const auto spring = [&](std::size_t i) { return index[i] < 0 ? gap(index[i]) : index[i]; };
-        Columns columns;
-        if (index.empty()) return columns;
-        columns.rest_length = add_column(index.size(), [&](std::size_t i) {
-            return index[i] < 0 ? Scalar(-1) : set.rest_length[index[i]];
-        });
-        if (!set.damping.empty()) {
-            columns.damping =
-                add_column(index.size(), [&](std::size_t i) { return set.damping[spring(i)]; });
+    /// At spring i of those that `table` took by its addition `number`, counted from 0.
+    SpringReader(const Table& table, int number, std::size_t i) {
+        const auto* column = table.columns(number * (2 + fields));
+        const auto reader = [&](int c) -> ColumnReader {
+            return {table.numbers() + column[c].first + column[c].stride * i,
+                    column[c].stride * Register::width};
+        };
+        rest_length_ = reader(0);
+        damping_ = reader(1);
+        for (int f = 0; f < fields; ++f) field_[f] = reader(2 + f);
+        if constexpr (!vectorizable) {
+            parameters_ = table.parameters_.data() + table.first_parameters_[number] + i;
         }
-        if constexpr (vectorizable) {
-            for (std::size_t f = 0; f < fields; ++f) {
-                columns.field[f] = add_column(index.size(), [&](std::size_t i) {
-                    std::array<Scalar, fields> values;
-                    std::memcpy(values.data(), &set.parameters[spring(i)], sizeof values);
-                    return values[f];
-                });
-            }
-        } else {
-            columns.parameters = {parameters_.size(), 1};
-            for (std::size_t i = 0; i < index.size(); ++i) {
-                parameters_.push_back(set.parameters[spring(i)]);
-            }
-        }
-        return columns;
     }
-    /// Lets the last springs be read a whole register at a time.
-    void finish() {
-        numbers_.resize(numbers_.size() + max_width, Scalar(0));
-        if (!parameters_.empty()) {
-            parameters_.resize(parameters_.size() + max_width, Parameters(parameters_.back()));
-        }
-        numbers_.shrink_to_fit();
-        parameters_.shrink_to_fit();
+    EIGEN_ALWAYS_INLINE void next() {
+        rest_length_.next();
+        damping_.next();
+        for (auto& field : field_) field.next();
+        if constexpr (!vectorizable) parameters_ += Register::width;
     }
-
-    /// Goes forward through the springs of some columns, as many at a time as a register has
-    /// lanes.
-    class Reader {
-    public:
-        using Law = Law_;
-
-        /// At spring i of those columns.
-        Reader(const SpringTable& table, const Columns& columns, std::size_t i)
-            : rest_length_(table.reader(columns.rest_length, i)),
-              damping_(table.reader(columns.damping, i)) {
-            if constexpr (!vectorizable) {
-                parameters_ = table.parameters_.data() + columns.parameters.first + i;
-            }
-            for (std::size_t f = 0; f < fields; ++f) field_[f] = table.reader(columns.field[f], i);
+    // The springs here, as Spring has it for one.
+    EIGEN_ALWAYS_INLINE Register tension(const Register& l) const {
+        return evaluate([](const auto&... of) { return Law::tension(of...); }, l);
+    }
+    EIGEN_ALWAYS_INLINE Register tension_slope(const Register& l) const {
+        return evaluate([](const auto&... of) { return Law::tension_slope(of...); }, l);
+    }
+    EIGEN_ALWAYS_INLINE Register stiffness_bound() const {
+        return evaluate([](const auto&... of) { return Law::stiffness_bound(of...); });
+    }
+    EIGEN_ALWAYS_INLINE Register axial_damping() const { return damping_.load(); }
+    /// Lane by lane: no law's energy need take a register.
+    Register energy(const Register& l) const {
+        const Numbers L(max(rest_length_.load(), Register(Scalar(0)))), length(l);
+        std::array<Scalar, Register::width> result;
+        for (std::size_t lane = 0; lane < result.size(); ++lane) {
+            result[lane] = Law::energy(parameters_of(lane), L.values[lane], length.values[lane]);
         }
-        EIGEN_ALWAYS_INLINE void next() {
-            rest_length_.next();
-            damping_.next();
-            for (auto& field : field_) field.next();
-            if constexpr (!vectorizable) parameters_ += Register::width;
-        }
-        // The springs here, as Spring has it for one.
-        EIGEN_ALWAYS_INLINE Register tension(const Register& l) const {
-            return evaluate([](const auto&... of) { return Law::tension(of...); }, l);
-        }
-        EIGEN_ALWAYS_INLINE Register tension_slope(const Register& l) const {
-            return evaluate([](const auto&... of) { return Law::tension_slope(of...); }, l);
-        }
-        EIGEN_ALWAYS_INLINE Register stiffness_bound() const {
-            return evaluate([](const auto&... of) { return Law::stiffness_bound(of...); });
-        }
-        EIGEN_ALWAYS_INLINE Register axial_damping() const { return damping_.load(); }
-        /// Lane by lane: no law's energy need take a register.
-        Register energy(const Register& l) const {
-            const Numbers L(max(rest_length_.load(), Register(Scalar(0)))), length(l);
-            std::array<Scalar, Register::width> result;
-            for (std::size_t lane = 0; lane < result.size(); ++lane) {
-                result[lane] =
-                    Law::energy(parameters_of(lane), L.values[lane], length.values[lane]);
-            }
-            return Register::load(result.data());
-        }
-        /// The pull of the springs here, 0 in the gaps: see pull_coefficients.
-        template <bool Dampers, bool Rayleigh>
-        EIGEN_ALWAYS_INLINE Pull<Register> pull(Scalar alpha, const Register& l2,
-                                                const Register& dx_dv) const {
-            const auto pull = pull_coefficients<Dampers, Rayleigh>(*this, alpha, l2, dx_dv);
-            const Register L = rest_length_.load();
-            return {unless_negative(L, pull.of_dx),
-                    !Rayleigh ? pull.of_dv : unless_negative(L, pull.of_dv)};
-        }
-        /// The pull of the springs here one step ahead, 0 in the gaps: see pull_ahead_coefficients.
-        template <bool Dampers, bool Rayleigh>
-        EIGEN_ALWAYS_INLINE PullAhead<Register> pull_ahead(Scalar alpha, const Register& y2,
-                                                           const Register& y_dv,
-                                                           const Register& l2) const {
-            auto pull = pull_ahead_coefficients<Dampers, Rayleigh>(*this, alpha, y2, y_dv, l2);
-            const Register L = rest_length_.load();
-            pull.of_dx = unless_negative(L, pull.of_dx);
-            pull.of_here = unless_negative(L, pull.of_here);
-            if constexpr (Rayleigh) pull.of_dv = unless_negative(L, pull.of_dv);
-            return pull;
-        }
-
-    private:
-        /// function(p, L, more…) of each spring.
-        template <class Function, class... More>
-        EIGEN_ALWAYS_INLINE Register evaluate(Function function, const More&... more) const {
-            const Register L = rest_length_.load();
-            if constexpr (vectorizable) {
-                std::array<Register, fields> values;
-                for (std::size_t f = 0; f < fields; ++f) values[f] = field_[f].load();
-                typename Law::template Parameters<Register> p;
-                std::memcpy(&p, values.data(), sizeof p);
-                return function(p, L, more...);
-            } else {
-                // A gap has a length that no spring has; a law must not see it.
-                return lane_by_lane(function, Numbers(max(L, Register(Scalar(0)))),
-                                    Numbers(more)...);
-            }
-        }
-        /// Of the spring in one lane.
-        Parameters parameters_of(std::size_t lane) const {
-            if constexpr (vectorizable) {
-                std::array<Scalar, fields> values;
-                for (std::size_t f = 0; f < fields; ++f) {
-                    values[f] = Numbers(field_[f].load()).values[lane];
-                }
-                Parameters p;
-                std::memcpy(&p, values.data(), sizeof p);
-                return p;
-            } else {
-                return parameters_[lane];
-            }
-        }
-        template <class Function, class... More>
-        Register lane_by_lane(Function function, const More&... more) const {
-            std::array<Scalar, Register::width> result;
-            for (std::size_t lane = 0; lane < result.size(); ++lane) {
-                result[lane] = function(parameters_[lane], more.values[lane]...);
-            }
-            return Register::load(result.data());
-        }
-
-        ColumnReader rest_length_;
-        ColumnReader damping_;
-        std::array<ColumnReader, fields> field_;
-        const Parameters* parameters_ = nullptr;
-    };
+        return Register::load(result.data());
+    }
+    /// The pull of the springs here, 0 in the gaps: see pull_coefficients.
+    template <bool Dampers, bool Rayleigh>
+    EIGEN_ALWAYS_INLINE Pull<Register> pull(Scalar alpha, const Register& l2,
+                                            const Register& dx_dv) const {
+        const auto pull = pull_coefficients<Dampers, Rayleigh>(*this, alpha, l2, dx_dv);
+        const Register L = rest_length_.load();
+        return {unless_negative(L, pull.of_dx),
+                !Rayleigh ? pull.of_dv : unless_negative(L, pull.of_dv)};
+    }
+    /// The pull of the springs here one step ahead, 0 in the gaps: see pull_ahead_coefficients.
+    template <bool Dampers, bool Rayleigh>
+    EIGEN_ALWAYS_INLINE PullAhead<Register> pull_ahead(Scalar alpha, const Register& y2,
+                                                       const Register& y_dv,
+                                                       const Register& l2) const {
+        auto pull = pull_ahead_coefficients<Dampers, Rayleigh>(*this, alpha, y2, y_dv, l2);
+        const Register L = rest_length_.load();
+        pull.of_dx = unless_negative(L, pull.of_dx);
+        pull.of_here = unless_negative(L, pull.of_here);
+        if constexpr (Rayleigh) pull.of_dv = unless_negative(L, pull.of_dv);
+        return pull;
+    }
 
 private:
     /// The lanes of a register, for a law that takes one number at a time.
@@ -228,32 +244,48 @@ private:
         explicit Numbers(const Register& lanes) { lanes.store(values.data()); }
     };
 
-    ColumnReader reader(const Column& column, std::size_t i) const {
-        return {numbers_.data() + column.first + column.stride * i,
-                column.stride * Register::width};
-    }
-    template <class Value>
-    Column add_column(std::size_t count, Value value) {
-        bool same = true;
-        for (std::size_t i = 1; i < count && same; ++i) same = value(i) == value(0);
-        if (same && shared_ < numbers_.size() && numbers_[shared_] == value(0)) {
-            return {shared_, 0};
-        }
-        // Aligned like the planes, a register never lies across two cache lines.
-        const std::size_t first = (numbers_.size() + max_width - 1) / max_width * max_width;
-        numbers_.resize(first, Scalar(0));
-        if (same) {
-            numbers_.resize(first + max_width, value(0));
-            shared_ = first;
+    /// function(p, L, more…) of each spring.
+    template <class Function, class... More>
+    EIGEN_ALWAYS_INLINE Register evaluate(Function function, const More&... more) const {
+        const Register L = rest_length_.load();
+        if constexpr (vectorizable) {
+            std::array<Register, fields> values;
+            for (int f = 0; f < fields; ++f) values[f] = field_[f].load();
+            typename Law::template Parameters<Register> p;
+            std::memcpy(&p, values.data(), sizeof p);
+            return function(p, L, more...);
         } else {
-            for (std::size_t i = 0; i < count; ++i) numbers_.push_back(value(i));
+            // A gap has a length that no spring has; a law must not see it.
+            return lane_by_lane(function, Numbers(max(L, Register(Scalar(0)))), Numbers(more)...);
         }
-        return {first, same ? 0u : 1u};
+    }
+    /// Of the spring in one lane.
+    Parameters parameters_of(std::size_t lane) const {
+        if constexpr (vectorizable) {
+            std::array<Scalar, fields> values;
+            for (int f = 0; f < fields; ++f) {
+                values[f] = Numbers(field_[f].load()).values[lane];
+            }
+            Parameters p;
+            std::memcpy(&p, values.data(), sizeof p);
+            return p;
+        } else {
+            return parameters_[lane];
+        }
+    }
+    template <class Function, class... More>
+    Register lane_by_lane(Function function, const More&... more) const {
+        std::array<Scalar, Register::width> result;
+        for (std::size_t lane = 0; lane < result.size(); ++lane) {
+            result[lane] = function(parameters_[lane], more.values[lane]...);
+        }
+        return Register::load(result.data());
     }
 
-    std::vector<Scalar, Eigen::aligned_allocator<Scalar>> numbers_;  // columns one after another
-    std::vector<Parameters> parameters_;    // of a law that is not vectorizable
-    std::size_t shared_ = std::size_t(-1);  // the last column of one value, or none
+    ColumnReader rest_length_;
+    ColumnReader damping_;
+    std::array<ColumnReader, fields> field_;
+    const Parameters* parameters_ = nullptr;
 };
 
 }  // namespace taut::integrator_detail::sweep

@@ -10,9 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "quad.hpp"
+#include "planner.hpp"
 #include "spring_table.hpp"
-#include "stars.hpp"
 
 namespace taut::integrator_detail::sweep {
 
@@ -21,55 +20,23 @@ template <class Scalar, class Law>
 class StarPlan {
     using Set = SpringSet<Scalar, Law>;
     using Point = Quad<Scalar>;
-    /// Never wider than 32 bytes, like points: beside wider ones Intel's processors add on two
-    /// ports instead of three.
-    using Register = std::conditional_t<sizeof(Scalar) == 4 && VectorRegister<Scalar>::width >= 8,
-                                        VectorRegister<Scalar, 8>, typename Point::Part>;
-    using Table = SpringTable<Scalar, Law, Register>;
-    /// So many stars fill whole registers.
-    static constexpr int group = std::max(1, Register::width / star_size);
+    using Register = typename Planner<Scalar>::StarRegister;
+    using Table = SpringTable<Scalar, Law>;
+    using Reader = SpringReader<Scalar, Law, Register>;
+    static constexpr int group = Planner<Scalar>::group;
     /// The springs of a group, a lane each.
     using Lanes = std::array<Register, group * star_size / Register::width>;
 
 public:
     StarPlan() = default;
-    StarPlan(const Set& set, const std::vector<PlacedSpring>& springs, const Blocks& blocks);
+    StarPlan(const Set& set, const SortedSprings& springs, const Blocks& blocks);
 
     /// Adds the forces of the tile's stars; then those on its places are complete.
-    /// @tparam Both  whether a spring takes its positions ahead and as they are [T42]
+    /// @tparam Both  as of LawPlan::add_forces
     template <bool Dampers, bool Rayleigh, bool Both>
-    void add_forces(const TileView<Scalar>& view) const {
-        const auto tile = static_cast<std::size_t>(view.tile);
-        const Index first = static_cast<Index>(view.begin) * 4;
-        Group of{
-            view.x.first + first, view.at.first + first, view.v.first + first, nullptr, nullptr,
-            view.force_a.first};
-        constexpr std::make_integer_sequence<int, group> all;
-        std::size_t g = tile == 0 ? 0 : ends_[tile - 1].all;
-        typename Table::Reader springs(table_, columns_, g * group * star_size);
-        for (const std::size_t end = ends_[tile].outer; g < end; ++g) {
-            of.stars = &stars_[g * group];
-            const auto targets = within_block(of.stars, 4 * view.size);
-            of.targets = targets.data();
-            add_group<Dampers, Rayleigh, Both>(view.alpha, springs, of, all);
-        }
-        for (const std::size_t end = ends_[tile].all; g < end; ++g) {
-            of.stars = of.targets = &stars_[g * group];
-            add_group<Dampers, Rayleigh, Both>(view.alpha, springs, of, all);
-        }
-    }
+    void add_forces(const TileView<Scalar>& view) const;
 
 private:
-    /// Springs with one end in common, by where the points of their ends begin, counted from the
-    /// block's first. Where there are fewer than four, the rest are gaps from the hub to itself.
-    struct Star {
-        int hub;
-        std::array<int, star_size> tips;
-    };
-    /// Where the groups of a tile end: of outer stars, and of all.
-    struct Ends {
-        std::size_t outer, all;
-    };
     using Vectors = std::array<Point, star_size>;
     template <int... i>
     using Numbers = std::integer_sequence<int, i...>;
@@ -125,15 +92,15 @@ private:
         Scalar* forces;
     };
     template <bool Dampers, bool Rayleigh, bool Both, int... s>
-    static EIGEN_ALWAYS_INLINE void add_group(Scalar alpha, typename Table::Reader& springs,
-                                              const Group& of, Numbers<s...>);
+    static EIGEN_ALWAYS_INLINE void add_group(Scalar alpha, Reader& springs, const Group& of,
+                                              Numbers<s...>);
     /// Coefficients of the springs of a group.
     struct Pulls {
         alignas(64) std::array<Scalar, group * star_size> of_dx, of_dv, of_here;
     };
     template <bool Dampers, bool Rayleigh, bool Both>
-    static EIGEN_ALWAYS_INLINE void pull(Scalar alpha, typename Table::Reader& springs,
-                                         const Register& l2, const Register& dx_dv,
+    static EIGEN_ALWAYS_INLINE void pull(Scalar alpha, Reader& springs, const Register& l2,
+                                         const Register& dx_dv,
                                          [[maybe_unused]] const Register& old_l2, Pulls& pulls,
                                          int first) {
         const auto keep = [&](const auto& pull) {
@@ -149,9 +116,9 @@ private:
         springs.next();
     }
     template <bool Dampers, bool Rayleigh, bool Both, int... i>
-    static EIGEN_ALWAYS_INLINE void pull(Scalar alpha, typename Table::Reader& springs,
-                                         const Lanes& l2, const Lanes& dx_dv, const Lanes& old_l2,
-                                         Pulls& pulls, Numbers<i...>) {
+    static EIGEN_ALWAYS_INLINE void pull(Scalar alpha, Reader& springs, const Lanes& l2,
+                                         const Lanes& dx_dv, const Lanes& old_l2, Pulls& pulls,
+                                         Numbers<i...>) {
         (pull<Dampers, Rayleigh, Both>(alpha, springs, l2[i], dx_dv[i], old_l2[i], pulls,
                                        i * Register::width),
          ...);
@@ -173,53 +140,44 @@ private:
         return force;
     }
 
-    std::vector<Star> stars_;  // tile by tile, in groups
-    std::vector<Ends> ends_;   // of each tile
+    StarGroups plan_;
     Table table_;
-    typename Table::Columns columns_{};
 };
 
 template <class Scalar, class Law>
-StarPlan<Scalar, Law>::StarPlan(const Set& set, const std::vector<PlacedSpring>& springs,
+StarPlan<Scalar, Law>::StarPlan(const Set& set, const SortedSprings& springs,
                                 const Blocks& blocks) {
-    const auto by_hub = choose_hubs(springs, blocks.places());
-    const auto stars = plan_stars(by_hub, blocks);
     std::vector<int> index;
-    const auto append = [&](const PlannedStar& star) {
-        const auto* spring = &by_hub[static_cast<std::size_t>(star.first)];
-        const int block_begin = blocks.begin(blocks.block_of_tile(star.tile));
-        Star result;
-        result.hub = 4 * (spring->hub - block_begin);
-        for (int k = 0; k < star_size; ++k) {
-            const bool there = k < star.count;
-            result.tips[k] = there ? 4 * (spring[k].tip - block_begin) : result.hub;
-            index.push_back(there ? spring[k].index : Table::gap(spring->index));
-        }
-        stars_.push_back(result);
-    };
-    auto next = stars.cbegin();
-    const auto append_all = [&](int tile, bool outer) {
-        for (; next != stars.cend() && next->tile == tile && next->outer == outer; ++next) {
-            append(*next);
-        }
-        while (stars_.size() % group != 0) {
-            stars_.push_back({});
-            index.insert(index.end(), star_size, Table::gap(by_hub.front().index));
-        }
-        return stars_.size() / group;
-    };
-    for (int tile = 0; tile < blocks.tiles(); ++tile) {
-        const std::size_t outer = append_all(tile, true);
-        ends_.push_back({outer, append_all(tile, false)});
-    }
-    columns_ = table_.add(set, index);
+    plan_ = Planner<Scalar>::groups(springs, blocks, index);
+    table_.add(set, index, 0, static_cast<int>(index.size()));
     table_.finish();
 }
 
 template <class Scalar, class Law>
+template <bool Dampers, bool Rayleigh, bool Both>
+void StarPlan<Scalar, Law>::add_forces(const TileView<Scalar>& view) const {
+    const Index first = static_cast<Index>(view.begin) * 4;
+    Group of{view.x.first + first, view.at.first + first, view.v.first + first, nullptr, nullptr,
+             view.force_a.first};
+    constexpr std::make_integer_sequence<int, group> all;
+    int g = view.tile == 0 ? 0 : plan_.ends[view.tile - 1].all;
+    Reader springs(table_, 0, static_cast<std::size_t>(g * group * star_size));
+    const Star* stars = plan_.stars.data();
+    for (const int end = plan_.ends[view.tile].outer; g < end; ++g) {
+        of.stars = stars + g * group;
+        const auto targets = within_block(of.stars, 4 * view.size);
+        of.targets = targets.data();
+        add_group<Dampers, Rayleigh, Both>(view.alpha, springs, of, all);
+    }
+    for (const int end = plan_.ends[view.tile].all; g < end; ++g) {
+        of.stars = of.targets = stars + g * group;
+        add_group<Dampers, Rayleigh, Both>(view.alpha, springs, of, all);
+    }
+}
+
+template <class Scalar, class Law>
 template <bool Dampers, bool Rayleigh, bool Both, int... s>
-EIGEN_ALWAYS_INLINE void StarPlan<Scalar, Law>::add_group(Scalar alpha,
-                                                          typename Table::Reader& springs,
+EIGEN_ALWAYS_INLINE void StarPlan<Scalar, Law>::add_group(Scalar alpha, Reader& springs,
                                                           const Group& of, Numbers<s...>) {
     const std::array<Vectors, group> dx{differences(of.x, of.stars[s], all_tips)...};
     [[maybe_unused]] std::array<Vectors, group> dv;

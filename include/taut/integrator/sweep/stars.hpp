@@ -5,13 +5,60 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <tuple>
+#include <utility>
 #include <vector>
 
-#include "hubs.hpp"
+#include "sorted_springs.hpp"
 #include "tile.hpp"
 
 namespace taut::integrator_detail::sweep {
+
+/// A spring seen from one of its ends, the hub; the other end is its tip.
+struct HubSpring {
+    int hub;
+    int tip;
+    int index;  // in the set
+};
+
+/// A star has so many springs.
+inline constexpr int star_size = 4;
+
+/// Chooses an end of each spring for its hub so that nearly all places are the hub of a multiple of
+/// four springs: what is more than that, a place hands to the later ends of its springs.
+/// @param springs  as SortedSprings has them
+/// @returns the springs by hubs, and by tips for each hub
+inline std::vector<HubSpring> choose_hubs(const std::vector<PlacedSpring>& springs, int places) {
+    // By lower ends, and so the springs from each place by their other ends.
+    std::vector<int> a(springs.size());
+    for (std::size_t s = 0; s < springs.size(); ++s) a[s] = springs[s].a;
+    std::vector<int> later = numbers(springs.size());
+    sort_by(a, later);
+    std::vector<HubSpring> result;
+    result.reserve(springs.size());
+    std::vector<int> handed(places, -1);          // the last to each
+    std::vector<int> before(springs.size(), -1);  // the one handed there before
+    const int count = static_cast<int>(springs.size());
+    for (int p = 0, first = 0; p < places; ++p) {
+        int last = first;
+        while (last < count && springs[later[last]].a == p) ++last;
+        const std::size_t mine = result.size();
+        for (int s = handed[p]; s != -1; s = before[s]) {
+            result.push_back({p, springs[s].a, springs[s].index});
+        }
+        std::reverse(result.begin() + static_cast<std::ptrdiff_t>(mine), result.end());
+        const int own = last - first;
+        const int surplus = (own + static_cast<int>(result.size() - mine)) % star_size;
+        for (const int kept = first + (surplus <= own ? surplus : 0); first != kept; ++first) {
+            const int s = later[first];
+            before[s] = std::exchange(handed[springs[s].b], s);
+        }
+        for (; first != last; ++first) {
+            const auto& spring = springs[later[first]];
+            result.push_back({p, spring.b, spring.index});
+        }
+    }
+    return result;
+}
 
 /// Up to four springs with one hub, as one block computes them.
 struct PlannedStar {
@@ -29,13 +76,15 @@ inline std::vector<PlannedStar> plan_stars(const std::vector<HubSpring>& by_hub,
     const int springs = static_cast<int>(by_hub.size());
     const auto spring = [&](int s) { return by_hub[static_cast<std::size_t>(s)]; };
     for (int s = 0; s < springs;) {
-        std::array<int, star_size + 1> places{spring(s).hub};
+        const int hub = spring(s).hub;
+        std::array<int, star_size + 1> places{};  // ascending, like the tips of a hub
         int count = 0;
-        while (count < star_size && s + count < springs && spring(s + count).hub == places[0]) {
-            places[count + 1] = spring(s + count).tip;
-            ++count;
+        for (; count < star_size && s + count < springs && spring(s + count).hub == hub; ++count) {
+            places[count] = spring(s + count).tip;
         }
-        std::sort(places.begin(), places.begin() + count + 1);
+        int at = count;
+        for (; at > 0 && places[at - 1] > hub; --at) places[at] = places[at - 1];
+        places[at] = hub;
         const bool outer = blocks.of(places[0]) != blocks.of(places[count]);
         for (int i = 0; i <= count; ++i) {
             const int block = blocks.of(places[i]);
@@ -50,10 +99,30 @@ inline std::vector<PlannedStar> plan_stars(const std::vector<HubSpring>& by_hub,
     for (auto star = stars.rbegin(); star != stars.rend(); ++star) {
         if (!star->outer) tile = star->tile = std::min(tile, star->tile);
     }
-    std::sort(stars.begin(), stars.end(), [](const PlannedStar& s, const PlannedStar& t) {
-        return std::tuple(s.tile, !s.outer, s.first) < std::tuple(t.tile, !t.outer, t.first);
-    });
-    return stars;
+    std::vector<int> key(stars.size()), order = numbers(stars.size());
+    for (std::size_t i = 0; i < key.size(); ++i) key[i] = 2 * stars[i].tile + !stars[i].outer;
+    sort_by(key, order);
+    std::vector<PlannedStar> sorted;
+    sorted.reserve(stars.size());
+    for (const int i : order) sorted.push_back(stars[i]);
+    return sorted;
 }
+
+/// Springs with one end in common, by where the points of their ends begin, counted from the
+/// block's first. Where there are fewer than four, the rest are gaps from the hub to itself.
+struct Star {
+    int hub;
+    std::array<int, star_size> tips;
+};
+
+/// The stars of one law, tile by tile, in groups.
+struct StarGroups {
+    /// Where the groups of a tile end: of outer stars, and of all.
+    struct Ends {
+        int outer, all;
+    };
+    std::vector<Star> stars;
+    std::vector<Ends> ends;  // of each tile
+};
 
 }  // namespace taut::integrator_detail::sweep

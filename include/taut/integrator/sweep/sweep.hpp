@@ -115,11 +115,18 @@
 // of their places comes before, in the order of hubs. Registers are no wider than 32 bytes here.
 //
 //
+// 8. What is compiled once
+//
+// Plans are made of indices alone (Planner), places are the same for all laws (Layout, PlaceUpdate,
+// Steps), and a law has its table and loops (LawPlan). They meet at a tile's forces: a virtual
+// call.
+//
+//
 // Words, each for one thing
 //
 //   place         a particle's index in the planes; its index in the system, if there is no order
-//   order         the particle at each place
-//   plane         one coordinate of one vector, of all places                        planes.hpp
+//   order         the particle at each place                                        planner.hpp
+//   plane         one coordinate of one vector, of all places                          tile.hpp
 //   block         consecutive places: what a thread does at a time                     tile.hpp
 //   reach         the most blocks between places that a force ties together
 //   wave          steps that are taken block by block, not one by one                 waves.hpp
@@ -129,17 +136,17 @@
 //   offset        b - a
 //   run           springs of one offset and ascending a                      sorted_springs.hpp
 //   gap           a place between springs of a run where no spring begins; or what a star lacks
-//   segment       what one tile takes of a run                                     run_plan.hpp
+//   segment       what one tile takes of a run                                      planner.hpp
 //   star          up to four springs with one end in common                           stars.hpp
-//   hub, tip      that end, and another end of a star                                  hubs.hpp
+//   hub, tip      that end, and another end of a star                                 stars.hpp
 //   outer         of a star: in more than one block
 //   point         one vector of one place, x y z 0; with stars a plane has points
 //   outside       of a force: a module's, with a plan of its own         model/outside_force.hpp
-//   grain         scalars of a place in a plane: 1, or 4 with stars
+//   grain         scalars of a place in a plane: 1, or 4 with stars                  layout.hpp
 //   scattered     of a spring: in no run
-//   batch         scattered springs of one tile that touch few places            batch_plan.hpp
+//   batch         scattered springs of one tile that touch few places               planner.hpp
 //   gathered      of places: copied for a batch
-//   chunk         springs of a batch that are computed together
+//   chunk         springs of a batch that are computed together                   law_plan.hpp
 //   table         rest lengths, dampings and parameters of one law's springs   spring_table.hpp
 //   column        one of these quantities, of the springs of a run or a batch, or of all stars
 //   field         one Scalar of a law's parameters: a column, if the law is plain arithmetic
@@ -150,45 +157,13 @@
 //   padding       scalars beyond the last place, for whole registers
 //   dx, dv        x_b - x_a, v_b - v_a
 //   coefficients  of dx and dv in a spring's pull               model/spring_mechanics.hpp
-//   plan          what is known of the springs before a step                     force_plan.hpp
+//   plan          what is known of the springs before a step           planner.hpp, *_plan.hpp
 //   scratch       a thread's forces on one block
 //   sweep         one pass over all blocks: a step
 
-#include <algorithm>
-
-#include "force_plan.hpp"
-#include "outside.hpp"
-#include "place_update.hpp"
-#include "waves.hpp"
-
-#ifdef _OPENMP
-#include <omp.h>
-#endif
+#include "steps.hpp"
 
 namespace taut::integrator_detail::sweep {
-
-/// Sees the states between the steps of a sweep, from the first to the last.
-template <class System>
-class StepWatch {
-public:
-    /// @param x, v   by particle; velocities are those that the forces there are taken at
-    /// @param time   s
-    /// @param state  the same, and @param force  all external forces there, N; each null if unknown
-    virtual void see(const PlaceVectors<System>& x, const PlaceVectors<System>& v,
-                     typename System::Scalar time, const typename System::State* state,
-                     const typename System::Force* force) = 0;
-
-protected:
-    ~StepWatch() = default;
-};
-
-/// An update of steps whose springs take their positions ahead and as they are.
-template <class Update>
-struct WithBoth : Update {};
-template <class Update>
-inline constexpr bool is_with_both_v = false;
-template <class Update>
-inline constexpr bool is_with_both_v<WithBoth<Update>> = true;
 
 /// Explicit steps of a SpringSystem.
 template <class System>
@@ -198,193 +173,65 @@ public:
     static constexpr int Dim = System::Dim;
 
     /// From now on run, run_ahead and run_verlet show their states to that; null ends it.
-    void watch(StepWatch<System>* by) { watch_ = by; }
-    /// Takes `count` steps of h, s.
-    /// @param update  update(x, v, a, h): x, v, of one coordinate, by the acceleration a; registers
+    void watch(StepWatch<Scalar, Dim>* by) { steps_.watch(by); }
+    /// Takes `count` steps of h, s. @param update  see PlaceUpdate::move
     /// @returns whether the new state is finite; else `state` is not touched
     template <class AnyState, class Update>
     bool run(const System& system, AnyState& state, Scalar h, Index count, int threads,
-             const Update& update);
+             const Update&) {
+        load(system, state, 0, false);
+        return steps_.run(Forces<false>(plan_), state, h, count, threads, move<Update>);
+    }
     /// The same with the springs one step ahead: they pull along their new direction, push along
     /// the old one [T42].
     template <class AnyState, class Update>
     bool run_ahead(const System& system, AnyState& state, Scalar h, Index count, int threads,
-                   const Update& update);
+                   const Update&) {
+        load(system, state, h, ForcePlan<System>::pushes);
+        return steps_.run(Forces<true>(plan_), state, h, count, threads, move<Update>);
+    }
     /// Takes `count` > 0 steps of velocity Verlet.
     /// @param go_on  whether state and system are as the last call of this left them
     template <class AnyState>
     bool run_verlet(const System& system, AnyState& state, Scalar h, Index count, int threads,
-                    bool go_on);
+                    bool go_on) {
+        load(system, state, 0, false);
+        return steps_.run_verlet(Forces<false>(plan_), state, h, count, threads, go_on);
+    }
     /// Takes `count` steps of h, s: v⁺ = v + h a, x⁺ = x + h v⁺, by accelerations that are
     /// corrected all together.
     /// @tparam Ahead   whether springs pull as in run_ahead
     /// @param correct  correct(a, v): of accelerations and velocities by particle, PlaceVectors
     template <bool Ahead = false, class AnyState, class Correct>
     bool run_corrected(const System& system, AnyState& state, Scalar h, Index count, int threads,
-                       const Correct& correct);
+                       const Correct& correct) {
+        // The acceleration takes the place of the new x, which must not be that of the old one.
+        load(system, state, Ahead ? h : Scalar(0), Ahead);
+        return steps_.template run_corrected<Ahead>(Forces<Ahead>(plan_), state, h, count, threads,
+                                                    correct);
+    }
 
 private:
-    using Register = VectorRegister<Scalar>;
-    /// Not finite is noticed after so many steps; until then they cost as much as others.
-    static constexpr Index steps_between_checks = 64;
-    /// A register may begin before its block or end behind it.
-    static constexpr Index scratch_stride = most_of_block + most_of_block / 16;
+    template <bool Ahead>
+    using Forces = typename ForcePlan<System>::template Forces<Ahead>;
+    template <class Update>
+    static constexpr typename Steps<Scalar, Dim>::Move move =
+        &PlaceUpdate<Scalar>::template move<Update>;
 
     /// Brings all members up to date.
     /// @param both  whether springs that push take their positions as they are, too
     template <class AnyState>
-    void load(const System& system, const AnyState& state, Scalar ahead = 0, bool both = false);
-    /// Puts the state back after `count` steps. @param x  its positions, planes, m
-    template <class AnyState>
-    void store(const Planes<Scalar>& x, Scalar h, Index count, AnyState& state) const {
-        plan_.from_planes(x, state.x);
-        plan_.from_planes(state_.planes().v, state.v);
-        for (Index i = 0; i < count; ++i) state.time += h;
+    void load(const System& system, const AnyState& state, Scalar ahead, bool both) {
+        const bool new_plan = plan_.update(system);
+        const bool alpha = static_cast<Scalar>(system.rayleigh().stiffness_proportional) > 0;
+        steps_.load({system.gravity(), system.rayleigh(), system.inverse_mass().data(),
+                     system.external_forces()},
+                    plan_.layout(), new_plan, state, ahead,
+                    {plan_.damped() || alpha || plan_.has_outside(), plan_.has_outside() || both});
     }
-    void show(const typename System::State* state, const typename System::Force* force) {
-        if (!watch_) return;
-        if (places_.empty()) places_ = plan_.places();
-        watch_->see({plan_, places_, state_.planes().x}, {plan_, places_, state_.planes().v},
-                    outside_.time(), state, force);
-    }
-    /// @returns whether all is finite
-    template <class Update>
-    bool steps(Scalar h, Index count, int threads, const Update& update);
-    template <class Update>
-    void some_steps(Scalar h, Index count, int threads, const Update& update);
-    template <bool Pins, bool Drag, class Update>
-    void some_steps(Scalar h, Index count, int threads, const Update& update);
-    template <bool Pins, bool Drag, bool Stars, class Update>
-    void step_block(const StatePlanes<Scalar>& planes, int block, Scalar h, Scalar* scratch,
-                    const Update& update) const;
 
     ForcePlan<System> plan_;
-    StateMemory<Scalar> state_;
-    PlaceUpdate<Scalar, Dim> update_;
-    Outside<System> outside_;
-    VectorX<Scalar> scratch_;  // forces on one block for each thread, N; 0 between blocks
-    VectorX<Scalar> end_x_;    // of run_verlet, planes, m
-    std::vector<int> places_;  // of each particle, if known
-    StepWatch<System>* watch_ = nullptr;
-    VectorX<Scalar> acceleration_;  // at the end of the last run_verlet, planes, m/s²
-    Scalar alpha_ = 0;              // of Rayleigh damping, s
-    Scalar ahead_ = 0;              // s, by which springs see x ahead
+    Steps<Scalar, Dim> steps_;
 };
 
-template <class System>
-template <class AnyState>
-void Sweep<System>::load(const System& system, const AnyState& state, Scalar ahead, bool both) {
-    alpha_ = static_cast<Scalar>(system.rayleigh().stiffness_proportional);
-    ahead_ = ahead;
-    const bool new_plan = plan_.update(system);
-    if (new_plan) places_.clear();
-    // A new plan may have other places for what is discarded.
-    if (new_plan) scratch_.setZero();
-    const Index size = plan_.size() * plan_.grain();
-    state_.resize(
-        plan_.planes(), size, plan_.stride(), ahead_ > 0,
-        {plan_.damped() || alpha_ > 0 || plan_.has_outside(), plan_.has_outside() || both});
-    plan_.to_planes(state.x, state_.planes().x);
-    plan_.to_planes(state.v, state_.planes().v);
-    if (ahead_ > 0) state_.look_ahead(ahead_);
-    update_.load(system, plan_, ahead_);
-    outside_.begin(system, static_cast<Scalar>(state.time));
-}
-
-template <class System>
-template <class Update>
-bool Sweep<System>::steps(Scalar h, Index count, int threads, const Update& update) {
-    const bool asks = outside_.asks_for_state();
-    if (asks && !state_.finite()) return false;  // a finite double may be infinite as a float
-    for (Index done = 0; done < count;) {
-        const Index next = asks || watch_ ? 1 : std::min(steps_between_checks, count - done);
-        update_.set_external(outside_.at_state(plan_, state_.planes()));
-        show(outside_.state(), outside_.force());
-        some_steps(h, next, threads, update);
-        done += next;
-        const bool check = asks || done == count || done % steps_between_checks == 0;
-        if (check && !state_.finite()) return false;
-        outside_.pass(h);
-    }
-    return true;
-}
-
-template <class System>
-template <class Update>
-void Sweep<System>::some_steps(Scalar h, Index count, int threads, const Update& update) {
-    const bool pins = update_.has_pins();
-    const bool drag = update_.has_drag();
-    if (pins && drag) some_steps<true, true>(h, count, threads, update);
-    if (pins && !drag) some_steps<true, false>(h, count, threads, update);
-    if (!pins && drag) some_steps<false, true>(h, count, threads, update);
-    if (!pins && !drag) some_steps<false, false>(h, count, threads, update);
-}
-
-template <class System>
-template <bool Pins, bool Drag, class Update>
-void Sweep<System>::some_steps(Scalar h, Index count, int threads, const Update& update) {
-    const int blocks = plan_.blocks().count();
-    threads = plan_.blocks().workers(threads);
-    const Index scratch_size = 3 * Dim * scratch_stride;
-    if (scratch_.size() < threads * scratch_size) scratch_.setZero(threads * scratch_size);
-    const auto step_of = [&](int thread, Index step, int block) {
-        StatePlanes<Scalar> planes = state_.planes();
-        if (step % 2 == 1) planes.swap();
-        Scalar* scratch = scratch_.data() + thread * scratch_size;
-        if (plan_.has_stars()) {
-            if constexpr (Dim > 1) step_block<Pins, Drag, true>(planes, block, h, scratch, update);
-        } else {
-            step_block<Pins, Drag, false>(planes, block, h, scratch, update);
-        }
-    };
-    const auto work = [&](int thread, int workers, const auto& wait) {
-        const Waves waves(blocks, plan_.reach(), workers);
-        waves.run(
-            thread, count, [&](Index step, int block) { step_of(thread, step, block); }, wait);
-    };
-#ifdef _OPENMP
-    if (threads > 1) {
-#pragma omp parallel num_threads(threads)
-        work(omp_get_thread_num(), omp_get_num_threads(), [] {
-#pragma omp barrier
-        });
-    } else
-#endif
-    {
-        work(0, 1, [] {});
-    }
-    if (count % 2 == 1) state_.swap();
-}
-
-template <class System>
-template <bool Pins, bool Drag, bool Stars, class Update>
-void Sweep<System>::step_block(const StatePlanes<Scalar>& planes, int block, Scalar h,
-                               Scalar* scratch, const Update& update) const {
-    const auto vector = [&](int number) {
-        return Planes<Scalar>{scratch + number * Dim * scratch_stride + max_width, scratch_stride};
-    };
-    TileView<Scalar> view{{planes.spring_x.first, planes.spring_x.stride},
-                          {planes.v.first, planes.v.stride},
-                          {planes.x.first, planes.x.stride},
-                          alpha_,
-                          plan_.blocks().begin(block),
-                          plan_.blocks().size(),
-                          0,
-                          vector(0),
-                          vector(1),
-                          vector(2)};
-    const Index begin = view.begin;
-    const Index count = std::min<Index>(view.size, plan_.size() - begin);
-    constexpr Index grain = Stars ? 4 : 1;
-    for (Index i = 0; i < count; i += tile_size) {
-        view.tile = static_cast<int>((begin + i) / tile_size);
-        plan_.template add_forces<is_with_both_v<Update>>(view);
-        update_.template move<Pins, Drag, Stars>(
-            planes, (begin + i) * grain, std::min<Index>(tile_size, count - i) * grain, h,
-            view.force_a.at(i * grain), view.force_b.at(i * grain), update);
-    }
-}
-
 }  // namespace taut::integrator_detail::sweep
-
-#include "sweep_methods.ipp"

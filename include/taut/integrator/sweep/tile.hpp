@@ -6,9 +6,26 @@
 #include <vector>
 
 #include "../../model/damping.hpp"
-#include "planes.hpp"
+#include "../../core/types.hpp"
 
 namespace taut::integrator_detail::sweep {
+
+/// One vector a place, as Dim planes: plane d begins d·stride scalars after the first.
+template <class Scalar>
+struct Planes {
+    Scalar* first = nullptr;
+    Index stride = 0;
+    Scalar* operator[](int d) const { return first + d * stride; }
+    Planes at(Index place) const { return {first + place, stride}; }
+};
+
+/// visit(d) for each of the coordinates, unrolled whatever the compiler's flags.
+template <int Dim, class Visitor>
+EIGEN_ALWAYS_INLINE void for_each_axis(Visitor&& visit) {
+    visit(0);
+    if constexpr (Dim > 1) visit(1);
+    if constexpr (Dim > 2) visit(2);
+}
 
 /// Places of a tile: its planes of positions, velocities and forces stay in the first cache.
 inline constexpr int tile_size = 256;

@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "register.hpp"
+#include "tile.hpp"
+
+namespace taut::integrator_detail::sweep {
+
+/// Where the vectors of particles lie in planes.
+template <class Scalar>
+class Layout {
+public:
+    Layout() = default;
+    /// @param order  the particle at each place; empty: particle i at place i
+    /// @param stars  whether springs are in stars: then one plane holds points, x y z 0
+    Layout(Index size, int dim, std::vector<int> order, bool stars)
+        : order_(std::move(order)),
+          size_(size),
+          blocks_(size),
+          planes_(stars ? 1 : dim),
+          stars_(stars) {
+        // No two planes of one vector begin at the same byte of a page: a store to one would hold
+        // up loads of the other.
+        const Index page = static_cast<Index>(4096 / sizeof(Scalar));
+        stride_ = (size_ * grain() + 2 * max_width + page - 1) / page * page + page / 8;
+    }
+
+    /// n, the number of particles and of places.
+    Index size() const { return size_; }
+    const Blocks& blocks() const { return blocks_; }
+    bool has_stars() const { return stars_; }
+    /// Of one vector.
+    int planes() const { return planes_; }
+    /// Scalars of a place in a plane.
+    Index grain() const { return stars_ ? 4 : 1; }
+    /// Scalars from one plane to the next: size()·grain() and the padding.
+    Index stride() const { return stride_; }
+
+    /// Planes ← points, Dim × size(), converted where they hold another number type.
+    template <class Matrix>
+    void to_planes(const Matrix& points, const Planes<Scalar>& planes) const {
+        constexpr int Dim = Matrix::RowsAtCompileTime;
+        for_each_place([&](Index i, Index place) {
+            for (int d = 0; d < Dim; ++d) at(planes, d, place) = static_cast<Scalar>(points(d, i));
+            for (int d = Dim; d < 4 && stars_; ++d) at(planes, d, place) = 0;
+        });
+    }
+    /// Points ← planes.
+    template <class Matrix>
+    void from_planes(const Planes<Scalar>& planes, Matrix& points) const {
+        for_each_place([&](Index i, Index place) {
+            for (int d = 0; d < Matrix::RowsAtCompileTime; ++d) {
+                points(d, i) = static_cast<typename Matrix::Scalar>(at(planes, d, place));
+            }
+        });
+    }
+
+    /// Plane ← values, one a particle; with stars, one for each scalar of its point.
+    void to_plane(const Scalar* values, Scalar* plane) const {
+        for_each_place([&](Index i, Index place) {
+            std::fill_n(plane + grain() * place, grain(), values[i]);
+        });
+    }
+
+    /// Of each particle.
+    std::vector<int> places() const {
+        std::vector<int> result(static_cast<std::size_t>(size_));
+        for_each_place([&](Index i, Index place) { result[i] = static_cast<int>(place); });
+        return result;
+    }
+    /// The scalar of one axis at a place of planes.
+    Scalar& at(const Planes<Scalar>& planes, int d, Index place) const {
+        return planes.first[d * (stars_ ? 1 : planes.stride) + place * grain()];
+    }
+
+private:
+    template <class Visitor>
+    void for_each_place(Visitor&& visit) const {
+        if (order_.empty()) {
+            for (Index i = 0; i < size_; ++i) visit(i, i);
+        } else {
+            for (Index place = 0; place < size_; ++place) visit(order_[place], place);
+        }
+    }
+
+    std::vector<int> order_;
+    Index size_ = 0;
+    Blocks blocks_;
+    Index stride_ = 0;
+    int planes_ = 0;
+    bool stars_ = false;
+};
+
+/// The vectors of planes by particle.
+template <class Scalar, int Dim>
+class PlaceVectors {
+public:
+    using Vector = Eigen::Matrix<Scalar, Dim, 1>;
+
+    PlaceVectors(const Layout<Scalar>& layout, const std::vector<int>& places,
+                 const Planes<Scalar>& planes)
+        : layout_(layout), places_(places), planes_(planes) {}
+
+    Vector operator()(Index i) const {
+        Vector vector;
+        for (int d = 0; d < Dim; ++d) vector[d] = layout_.at(planes_, d, places_[i]);
+        return vector;
+    }
+    void set(Index i, const Vector& vector) const {
+        for (int d = 0; d < Dim; ++d) layout_.at(planes_, d, places_[i]) = vector[d];
+    }
+
+private:
+    const Layout<Scalar>& layout_;
+    const std::vector<int>& places_;
+    Planes<Scalar> planes_;
+};
+
+/// The planes of a state between two steps. What springs read of any place has a copy for the old
+/// step and one for the new; the rest is stepped where it is.
+template <class Scalar>
+struct StatePlanes {
+    Planes<Scalar> x, new_x;                // m; the same memory where springs look ahead and
+                                            // nothing else reads another place's x
+    Planes<Scalar> spring_x, new_spring_x;  // m, where springs take the particles to be: x, or
+                                            // x + ahead·v
+    Planes<Scalar> v, new_v;  // m/s; the same memory where nothing reads another place's v
+
+    void swap() {
+        std::swap(x, new_x);
+        std::swap(spring_x, new_spring_x);
+        std::swap(v, new_v);
+    }
+};
+
+/// What a step reads of any place, beside the positions that springs see.
+struct ReadAnywhere {
+    bool velocities;  // by damped springs, or an outside force
+    bool positions;   // by an outside force
+};
+
+/// The memory of StatePlanes.
+template <class Scalar>
+class StateMemory {
+public:
+    /// Makes room for vectors of so many planes, `size` scalars in each, `stride` apart.
+    /// @param looks_ahead  whether springs look ahead
+    void resize(int planes, Index size, Index stride, bool looks_ahead, const ReadAnywhere& read) {
+        planes_of_vector_ = planes;
+        size_ = size;
+        stride_ = stride;
+        Index vectors = 3;
+        const Index old_x = looks_ahead ? vectors++ : 0;
+        const Index new_x = !looks_ahead ? 1 : read.positions ? vectors++ : old_x;
+        const Index new_v = read.velocities ? vectors++ : 2;
+        memory_.resize(vectors * planes * stride);
+        // The padding takes part in the steps: from rest.
+        const Index padding = stride - size;
+        for (Index end = stride; end <= memory_.size(); end += stride) {
+            memory_.segment(end - padding, padding).setZero();
+        }
+        planes_ = {vector(old_x), vector(new_x), vector(0), vector(1), vector(2), vector(new_v)};
+    }
+    /// Sets spring_x to x + ahead·v, with `ahead` in s.
+    void look_ahead(Scalar ahead) {
+        whole(planes_.spring_x) = whole(planes_.x) + ahead * whole(planes_.v);
+    }
+    /// A vector's planes one after another, padding included.
+    Eigen::Map<VectorX<Scalar>> whole(const Planes<Scalar>& of) const {
+        return {of.first, planes_of_vector_ * stride_};
+    }
+    bool finite() const {
+        // x − x is 0, or NaN where x is not finite; and so is the sum.
+        const auto all = [&](const Planes<Scalar>& of) {
+            Scalar sum = 0;
+            for (int d = 0; d < planes_of_vector_; ++d) {
+                const Eigen::Map<const VectorX<Scalar>> plane(of[d], size_);
+                sum += (plane - plane).sum();
+            }
+            return sum == Scalar(0);
+        };
+        return all(planes_.x) && all(planes_.v);
+    }
+
+    const StatePlanes<Scalar>& planes() const { return planes_; }
+    void swap() { planes_.swap(); }
+
+private:
+    Planes<Scalar> vector(Index number) {
+        return {memory_.data() + number * planes_of_vector_ * stride_, stride_};
+    }
+
+    int planes_of_vector_ = 0;
+    Index size_ = 0;
+    Index stride_ = 0;
+    VectorX<Scalar> memory_;
+    StatePlanes<Scalar> planes_;
+};
+
+}  // namespace taut::integrator_detail::sweep
