@@ -191,7 +191,9 @@ TEST_CASE("ends: explicit Euler at a kink holds on the slack side, too", "[extre
             const double k = scene.rounded(log_uniform(random, 1, 1e4));
             const double c = scene.rounded(std::sqrt(k) * log_uniform(random, 0.1, 10));
             scene.add_spring({0, 1, k, 1, c, LawOf::tension_only});
-            const double d0 = scene.rounded(repeat % 2 == 0 ? 0 : random.uniform(0, 1));
+            // Without drag a string stretched by an ulp swings sideways: no step is stable.
+            const bool drag = kind.dim > 1 || repeat % 2 == 1;
+            const double d0 = drag ? random.uniform(kind.dim > 1 ? 0.5 : 0, 1) : 0;
             scene.set_rayleigh(d0, 0);
             auto state = scene.initial_state();
             const double end = repeat % 3 == 0 ? 0 : 2;
@@ -210,7 +212,7 @@ TEST_CASE("ends: explicit Euler at a kink holds on the slack side, too", "[extre
                 CHECK(static_cast<Real>(limit.certified) <= truth);
                 CHECK(static_cast<Real>(limit.refuted) >= truth);
                 // Without drag the bound alone cannot tell D − hK⁺ ⪰ 0 from its rounding.
-                if ((tightness > 0 && kind.dim == 1) || repeat % 2 == 1) CHECK(limit.certified > 0);
+                if (tightness > 0 || drag) CHECK(limit.certified > 0);
             }
         }
     }
