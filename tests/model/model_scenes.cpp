@@ -34,8 +34,8 @@ std::vector<Kind> linearized_kinds() {
     return {{false, 1, Laws::any}, {true, 2, Laws::hookean}, {false, 3, Laws::any}};
 }
 
-Linearized linearized(const Scene& scene, const AnyState& any) {
-    Linearized result;
+Linearization linearization(const Scene& scene, const AnyState& any) {
+    Linearization result;
     visit_system<Plain<float, 2>, AnyLaw<double, 1>, AnyLaw<double, 3>>(
         scene, [&](const auto& system) {
             using System = std::decay_t<decltype(system)>;

@@ -14,12 +14,12 @@ std::vector<Kind> tangent_kinds();
 std::vector<Kind> linearized_kinds();
 
 /// taut::linearize, of linearized_kinds() alone.
-struct Linearized {
+struct Linearization {
     Eigen::VectorXd mass, load;
     Eigen::MatrixXd K, D;
     Index entries;  ///< that K and D store
 };
-Linearized linearized(const Scene& scene, const AnyState& state);
+Linearization linearization(const Scene& scene, const AnyState& state);
 
 /// TangentMatrix::assemble of each sum, all into one matrix.
 std::vector<Eigen::MatrixXd> assembled(const Scene& scene, const AnyState& state,

@@ -102,7 +102,7 @@ TEST_CASE("tangent: assemble is the sum of dense M, K, K+ and D, and clears what
 TEST_CASE("tangent: linearize has those matrices, the masses, and the force without velocity",
           "[model]") {
     for_each_pose(5, linearized_kinds(), [](const Scene& scene, const AnyState& state) {
-        const auto linear = linearized(scene, state);
+        const auto linear = linearization(scene, state);
         const auto KD = assembled(scene, state, {K, D, M});
         CHECK((linear.K == KD[0]));
         CHECK((linear.D == KD[1]));
@@ -120,7 +120,7 @@ TEST_CASE("tangent: bad input: what linearize cannot take is named", "[model][ba
         auto scene = random_scene(random, kind);
         const auto start = scene.initial_state();
         const auto says = [&](const AnyState& state, const char* problem, const char* where) {
-            const auto message = message_of([&] { (void)linearized(scene, state); });
+            const auto message = message_of([&] { (void)linearization(scene, state); });
             CHECK(missing(message, {"linearize", problem, where}) == "");
         };
         for (Eigen::MatrixXd AnyState::*part : {&AnyState::x, &AnyState::v}) {
