@@ -144,13 +144,16 @@ TEST_CASE("buckling: just past each crossing the slope is that of the curve whic
             const double beyond = beam + (beam < line ? -1e-9 : 1e-9) * L;
             const double before = line + (beam < line ? 1e-9 : -1e-9) * L;
             CHECK(Buckling::tension_slope(p, L, before) == p.onset);
+            const auto [least, most] =
+                Buckling::slope_range(p, L, std::min(before, furthest), std::max(before, furthest));
+            const double slope = Buckling::tension_slope(p, L, beyond);
+            CHECK((slope >= least * (1 - 1e-6) && slope <= most * (1 + 1e-6)));
             // The beam's own slope, from both sides of a point on it in long double.
             const auto q = p.cast<Long>();
             const Long step = 1e-10L * L;
             const Long rise = Buckling::tension(q, Long(L), Long(beyond) + step) -
                               Buckling::tension(q, Long(L), Long(beyond) - step);
-            CHECK_THAT(Buckling::tension_slope(p, L, beyond),
-                       WithinRel(static_cast<double>(rise / (2 * step)), 1e-5));
+            CHECK_THAT(slope, WithinRel(static_cast<double>(rise / (2 * step)), 1e-5));
         }
     }
     CHECK(crossings >= 250);
