@@ -208,6 +208,12 @@ TEST_CASE("conjugate_gradient: a wrong setting and a matrix without blocks are r
               .empty());
     CHECK_FALSE(
         message_of([&] { solver.analyzePattern(taut::SparseMatrix<double>(4, 4)); }).empty());
+    taut::SparseMatrix<double> shifted(6, 6);  // column 1 has other rows than column 0
+    for (int j = 0; j < 6; ++j) {
+        for (int i = 0; i < 3; ++i) shifted.insert((j == 1 ? 3 : j / 3 * 3) + i, j) = 1;
+    }
+    shifted.makeCompressed();
+    CHECK(missing(message_of([&] { solver.analyzePattern(shifted); }), {"column 1"}) == "");
 }
 
 }  // namespace taut_test::conjugate_gradient_test
