@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include <taut/integrator/symplectic_euler.hpp>
 #include <taut/model/spring_system.hpp>
+#include <taut/scene/cloth.hpp>
 #include <taut/wind/wind.hpp>
 
 #include <Eigen/Geometry>
