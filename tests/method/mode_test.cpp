@@ -265,7 +265,8 @@ TEST_CASE("mode: a buckled mode is limited by the step alone", "[method]") {
     }
 }
 
-TEST_CASE("mode: velocity Verlet shares everything with symplectic Euler", "[method]") {
+TEST_CASE("mode: velocity Verlet and buckled energy-stable modes are those of symplectic Euler",
+          "[method]") {
     Random random(505);
     for (int repeat = 0; repeat < 100; ++repeat) {
         const double k = random.uniform(-10, 100), d = random.uniform(0, 20);
@@ -276,6 +277,9 @@ TEST_CASE("mode: velocity Verlet shares everything with symplectic Euler", "[met
               taut::spectral_radius(Method::symplectic_euler, k, d, h));
         CHECK((taut::multipliers(Method::velocity_verlet, k, d, h) ==
                taut::multipliers(Method::symplectic_euler, k, d, h)));
+        // Energy-stable Euler damps by the stiffness of what is not buckled, h k.
+        CHECK((taut::multipliers(Method::energy_stable_euler, k, d, h) ==
+               taut::multipliers(Method::symplectic_euler, k, d + h * std::max(0.0, k), h)));
     }
 }
 

@@ -16,7 +16,7 @@ using taut::Hookean;
 
 namespace {
 
-using System = taut::SpringSystem<double, 2, Hookean, TensionOnly>;
+using System = Mixed<double, 2>;
 using Row = std::tuple<int, int, double, double, double>;  // a, b, L, k, damping
 
 template <class Law>
@@ -44,11 +44,11 @@ TEST_CASE("spring edits: a removed spring leaves its index to the last one of it
         auto system = drawn(3, dampers);
         const auto others = rows<Hookean>(system);
         for (const Index s : {Index(4), Index(12), Index(0)}) {  // 12: by then the last one
-            auto expected = rows<TensionOnly>(system);
+            auto expected = rows<Buckling>(system);
             expected[s] = expected.back();
             expected.pop_back();
-            system.remove_spring<TensionOnly>(s);
-            CHECK(rows<TensionOnly>(system) == expected);
+            system.remove_spring<Buckling>(s);
+            CHECK(rows<Buckling>(system) == expected);
         }
         CHECK(rows<Hookean>(system) == others);
     }
@@ -86,20 +86,15 @@ TEST_CASE("spring edits: the force is that of a system built so", "[model]") {
     Random random(5);
     auto system = drawn(6, true);
     system.remove_spring<Hookean>(2);
-    system.remove_springs<TensionOnly>([](Index s) { return s % 4 == 0; });
+    system.remove_springs<Buckling>([](Index s) { return s % 4 == 0; });
     system.set_stiffness(1, 7.5);
-    system.set_parameters<TensionOnly>(3, {0.25});
+    system.set_parameters<Buckling>(3, {0.25, 0.5, 0.125});
     System built;
     const auto start = system.initial_state();
     for (Index i = 0; i < system.size(); ++i) built.add_particle(start.x.col(i), system.mass(i));
-    for (const auto& [a, b, L, k, c] : rows<Hookean>(system)) {
-        built.add_spring(taut::Spring<double, Hookean>{a, b, {k}, L, c});
-    }
-    for (const auto& [a, b, L, k, c] : rows<TensionOnly>(system)) {
-        built.add_spring(taut::Spring<double, TensionOnly>{a, b, {k}, L, c});
-    }
+    system.visit_springs([&](const auto& spring) { built.add_spring(spring); });
     CHECK(std::get<3>(rows<Hookean>(system)[1]) == 7.5);
-    CHECK(std::get<3>(rows<TensionOnly>(system)[3]) == 0.25);
+    CHECK(std::get<3>(rows<Buckling>(system)[3]) == 0.25);
     built.set_gravity(system.gravity());
     const auto state = random_state(random, system);
     System::Force f, expected;
@@ -123,8 +118,8 @@ TEST_CASE("spring edits: each voids a limit, and the new one is that of the new 
     };
     CHECK(revised([&] { system.set_stiffness(0, 1e6); }) < 0.5);
     CHECK(revised([&] { system.remove_spring<Hookean>(0); }) > 2);
-    CHECK(revised([&] { system.set_parameters<TensionOnly>(5, {2e6}); }) < 0.5);
-    CHECK(revised([&] { system.remove_springs<TensionOnly>([](Index s) { return s == 5; }); }) > 2);
+    CHECK(revised([&] { system.set_parameters<Buckling>(5, {2e6, 0, 0}); }) < 0.5);
+    CHECK(revised([&] { system.remove_springs<Buckling>([](Index s) { return s == 5; }); }) > 2);
     CHECK(revised([&] { system.pin(5); }) >= 1);
     CHECK(revised([&] { system.unpin(5); }) <= 1);
 }
@@ -134,7 +129,7 @@ TEST_CASE("spring edits: what changes parameters alone leaves the topology", "[m
     const auto topology = system.topology_revision();
     system.set_stiffness(0, 3);
     CHECK(system.topology_revision() == topology);
-    system.remove_spring<TensionOnly>(0);
+    system.remove_spring<Buckling>(0);
     CHECK(system.topology_revision() > topology);
 }
 
@@ -148,7 +143,7 @@ TEST_CASE("spring edits: wrong ones name index and value, and change nothing", "
         CHECK(system.revision() == revision);
     };
     says([&] { system.remove_spring(14); }, {"remove_spring", "s is 14", "14 springs"});
-    says([&] { system.remove_spring<TensionOnly>(-1); }, {"remove_spring", "s is -1"});
+    says([&] { system.remove_spring<Buckling>(-1); }, {"remove_spring", "s is -1"});
     says([&] { system.set_stiffness(99, 1); }, {"set_parameters", "s is 99", "14 springs"});
     says([&] { system.set_stiffness(2, -1); }, {"set_parameters(2)", "stiffness is -1", ">= 0"});
     says([&] { system.set_stiffness(2, std::numeric_limits<double>::quiet_NaN()); },

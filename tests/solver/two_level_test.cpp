@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include <Eigen/SparseCholesky>
 #include <limits>
 #include <taut/model/tangent_matrix.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/solver/conjugate_gradient.hpp>
 
 #include "../support/catch.hpp"
-#include "../support/random_system.hpp"
+#include "../support/decompositions.hpp"
 #include "../support/tolerance.hpp"
+#include "step_matrices.hpp"
 
 namespace taut_test::two_level_test {
 
@@ -21,24 +21,6 @@ using taut::solver_detail::BlockMatrix;
 
 namespace {
 
-template <class System>
-auto step_matrix(const System& system, const typename System::State& state, double h) {
-    const taut::TangentMatrix<typename System::Scalar, System::Dim> tangent(system);
-    auto A = tangent.zero();
-    tangent.assemble(system, state.x, taut::matrices::M + h * h * taut::matrices::K_plus, A);
-    return A;
-}
-
-/// Of a random scene in a crumpled pose.
-template <class Scalar, int Dim>
-SparseMatrix<Scalar> draw_matrix(Random& random, Index particles, Index springs, double h) {
-    RandomOptions options;
-    options.particles = particles;
-    options.springs = springs;
-    const auto system = random_system<Scalar, Dim>(random, options);
-    return step_matrix(system, random_state(random, system), h);
-}
-
 template <class Scalar, int Dim>
 BlockMatrix<Scalar, Dim> blocks_of(const SparseMatrix<Scalar>& A) {
     BlockMatrix<Scalar, Dim> blocks;
@@ -47,48 +29,44 @@ BlockMatrix<Scalar, Dim> blocks_of(const SparseMatrix<Scalar>& A) {
     return blocks;
 }
 
-/// Columns that move one group along one axis.
-template <class Scalar, int Dim>
-Eigen::MatrixXd columns_of(const Aggregates& groups) {
-    Eigen::MatrixXd Z =
-        Eigen::MatrixXd::Zero(Dim * static_cast<Index>(groups.of.size()), Dim * groups.count);
-    for (std::size_t i = 0; i < groups.of.size(); ++i) {
-        Z.block<Dim, Dim>(Dim * static_cast<Index>(i), Dim * groups.of[i]).setIdentity();
-    }
-    return Z;
-}
-
-template <class Scalar, int Dim>
-void check_formula(Random& random) {
-    const auto A = draw_matrix<Scalar, Dim>(random, 70, 80, 0.3);
-    const auto blocks = blocks_of<Scalar, Dim>(A);
+struct Applied {
     Aggregates groups;
-    groups.build(blocks, 25);
-    REQUIRE(groups.count > 1);
+    Eigen::VectorXd z;
+};
+template <class Scalar, int Dim>
+Applied apply(const SparseMatrix<double>& A, const Eigen::VectorXd& r) {
+    const auto blocks = blocks_of<Scalar, Dim>(A.cast<Scalar>());
+    Applied applied;
+    applied.groups.build(blocks, 25);
     TwoLevel<Scalar, Dim> preconditioner;
     preconditioner.analyze(blocks);
     REQUIRE(preconditioner.factorize(blocks));
-    const VectorX<Scalar> r = random.points<Scalar, 1>(A.rows(), -1, 1).transpose();
     VectorX<Scalar> z(A.rows());
-    preconditioner.apply(blocks, r, z);
-
-    const Eigen::MatrixXd dense = Eigen::MatrixXd(A.template cast<double>());
-    const Eigen::VectorXd rd = r.template cast<double>();
-    const Eigen::MatrixXd Z = columns_of<Scalar, Dim>(groups);
-    const Eigen::MatrixXd coarse = Z.transpose() * dense * Z;
-    Eigen::VectorXd expected = Z * coarse.llt().solve(Z.transpose() * rd);
-    for (Index i = 0; i < A.rows(); i += Dim) {
-        expected.segment<Dim>(i) += dense.block<Dim, Dim>(i, i).inverse() * rd.segment<Dim>(i);
-    }
-    CHECK(distance(z, expected) <= 1e3 * Tolerance<Scalar>::epsilon * largest(expected));
+    preconditioner.apply(blocks, r.cast<Scalar>(), z);
+    applied.z = z.template cast<double>();
+    return applied;
 }
 
-template <class Scalar>
-VectorX<Scalar> solution(const SparseMatrix<Scalar>& A, const VectorX<Scalar>& b) {
-    const Eigen::SimplicialLLT<SparseMatrix<long double>> llt(A.template cast<long double>());
-    REQUIRE(llt.info() == Eigen::Success);
-    const VectorX<long double> x = llt.solve(b.template cast<long double>());
-    return x.template cast<Scalar>();
+void check_formula(Random& random, bool single, int dim) {
+    CAPTURE(single, dim);
+    SparseMatrix<double> A = random_step_matrix(random, dim, 70, 80, 0.3);
+    if (single) A = A.cast<float>().cast<double>().eval();
+    const Eigen::VectorXd r = random.points<double, 1>(A.rows(), -1, 1).transpose();
+    const auto [groups, z] = single     ? apply<float, 3>(A, r)
+                             : dim == 1 ? apply<double, 1>(A, r)
+                             : dim == 2 ? apply<double, 2>(A, r)
+                                        : apply<double, 3>(A, r);
+    REQUIRE(groups.count > 1);
+    // Columns that move one group along one axis.
+    Eigen::MatrixXd Z = Eigen::MatrixXd::Zero(A.rows(), dim * groups.count);
+    for (Index i = 0; i < A.rows(); ++i)
+        Z(i, dim * groups.of[static_cast<std::size_t>(i / dim)] + i % dim) = 1;
+    const Eigen::MatrixXd dense(A);
+    Eigen::VectorXd expected = Z * dense_solve(Z.transpose() * dense * Z, Z.transpose() * r);
+    for (Index i = 0; i < A.rows(); i += dim)
+        expected.segment(i, dim) += dense_solve(dense.block(i, i, dim, dim), r.segment(i, dim));
+    const double epsilon = single ? Tolerance<float>::epsilon : Tolerance<double>::epsilon;
+    CHECK(distance(z, expected) <= 1e3 * epsilon * largest(expected));
 }
 
 /// What conjugate gradients with the diagonal blocks alone need until ‖b - A x‖ ≤ tolerance·‖b‖.
@@ -135,7 +113,7 @@ TEST_CASE("two_level: groups are connected, and small only where nothing adjoins
         INFO("seed " << seed);
         Random random(seed);
         const Index springs = 20 + 20 * static_cast<Index>(seed);
-        const auto A = blocks_of<double, 2>(draw_matrix<double, 2>(random, 200, springs, 0.1));
+        const auto A = blocks_of<double, 2>(random_step_matrix(random, 2, 200, springs, 0.1));
         const std::size_t size = 5 + random.below(30);
         Aggregates groups;
         groups.build(A, size);
@@ -187,10 +165,8 @@ TEST_CASE("two_level: z is the sum of both corrections", "[solver]") {
     for (std::uint32_t seed = 1; seed <= 5; ++seed) {
         INFO("seed " << seed);
         Random random(seed);
-        check_formula<double, 1>(random);
-        check_formula<double, 2>(random);
-        check_formula<double, 3>(random);
-        check_formula<float, 3>(random);
+        for (int dim = 1; dim <= 3; ++dim) check_formula(random, false, dim);
+        check_formula(random, true, 3);
     }
 }
 
@@ -199,7 +175,10 @@ TEST_CASE("two_level: iterations hardly grow with a stiff cloth, and block Jacob
     Index last = 0;
     for (const Index n : {18, 28}) {
         const auto cloth = taut::hanging_cloth<double>({n, n});
-        const auto A = step_matrix(cloth, cloth.initial_state(), 0.1);
+        const taut::TangentMatrix<double, 3> tangent(cloth);
+        auto A = tangent.zero();
+        tangent.assemble(cloth, cloth.initial_state().x,
+                         taut::matrices::M + 0.01 * taut::matrices::K_plus, A);
         Random random(1);
         const VectorX<double> b = random.points<double, 1>(A.rows(), -1, 1).transpose();
         ConjugateGradient<double, 3> solver;
@@ -234,7 +213,8 @@ TEST_CASE("two_level: solutions are a direct solver's down to the tolerance, ove
         REQUIRE(solver.info() == Eigen::Success);
         const VectorX<double> x = solver.solve(b);
         CHECK(solver.info() == Eigen::Success);
-        const VectorX<double> expected = solution(A, b);
+        const VectorX<double> expected =
+            solve(Eigen::MatrixXd(A).cast<Real>(), b.cast<Real>()).cast<double>();
         // What b - A x itself cannot tell from zero.
         const double rounding =
             Tolerance<double>::epsilon * (A.cwiseAbs() * expected.cwiseAbs()).norm();
@@ -286,7 +266,7 @@ TEST_CASE("two_level: no success is reported of what is not a number", "[solver]
         for (std::uint32_t seed = 1; seed <= 10; ++seed) {
             INFO("seed " << seed << ", " << bad);
             Random random(seed);
-            SparseMatrix<double> A = draw_matrix<double, 3>(random, 60, 100, 0.3);
+            SparseMatrix<double> A = random_step_matrix(random, 3, 60, 100, 0.3);
             VectorX<double> b = random.points<double, 1>(A.rows(), -1, 1).transpose();
             ConjugateGradient<double, 3> solver;
             solver.analyzePattern(A);

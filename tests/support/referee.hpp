@@ -10,6 +10,7 @@
 
 #include "decompositions.hpp"
 #include "random.hpp"
+#include "scene.hpp"
 
 // The referee of the stability tests: matrices and multipliers in long double, written from the
 // theory's equations with nothing of the library's analysis in them.
@@ -77,6 +78,11 @@ Exact exact_matrices(const System& system, const Pose& pose) {
     return e;
 }
 
+/// Of a scene in pose x.
+Exact exact_matrices(const Scene& scene, const Eigen::MatrixXd& x);
+/// M, L_k as K and K⁺, and L_c with Rayleigh damping as D [T23], [T42]: one row a free particle.
+Exact exact_laplacians(const Scene& scene);
+
 /// Of bare matrices: K⁺ = K.
 template <class Scalar>
 Exact exact_matrices(const taut::LinearSystem<Scalar>& system) {
@@ -130,6 +136,9 @@ private:
     Real least_ = 0;
     bool buckled_ = false;
 };
+
+/// λ_min of 4M − 2hD − h²K as M⁻¹ of it, over the size of its terms.
+Real definite_margin(const Exact& e, double h);
 
 /// The smallest h at which 4M − 2hD − sign·h²K loses definiteness, with 1/h = s: the largest real s
 /// of 4s²M − 2sD − sign·K [T19]; infinity if there is none.

@@ -51,6 +51,7 @@ std::pair<Triangles, int> opened(const std::vector<sweep::TrianglePair>& pairs) 
     for (const auto& [corner] : pairs) {
         const auto& [a, b, c, d] = corner;
         CHECK(b <= c);
+        CHECK(a != d);  // a triangle twice is no pair
         triangles.push_back({a, b, c});
         if (d == b) {
             ++alone;

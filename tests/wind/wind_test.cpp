@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include <taut/integrator/symplectic_euler.hpp>
 #include <taut/model/spring_system.hpp>
+#include <taut/scene/cloth.hpp>
 #include <taut/wind/wind.hpp>
 
 #include <Eigen/Geometry>
@@ -9,6 +11,7 @@
 #include <vector>
 
 #include "../support/catch.hpp"
+#include "../support/plain_steps.hpp"
 #include "../support/random_system.hpp"
 
 namespace taut_test::wind_test {
@@ -192,6 +195,29 @@ TEST_CASE("external forces add up, and each change is one of the force alone", "
     System::Force turned;
     system.force(plate.state, turned);
     CHECK(turned != all);
+}
+
+TEST_CASE("wind: a step sweeps the triangles as force() adds them", "[wind]") {
+    for (const Index side : {3, 6, 24}) {
+        Random random(68);
+        CAPTURE(side);
+        auto cloth = taut::hanging_cloth<double>({side, side});
+        taut::Wind<double> wind;
+        wind.velocity = random.vector<double, 3>(-5, 5);
+        wind.density = 1.3;
+        wind.drag = 1.2;
+        wind.lift = 0.7;
+        for (const auto& triangle : taut::cloth_triangles({side, side}))
+            wind.triangles.push_back(triangle);
+        taut::set_wind(cloth, wind);
+        auto state = random_state(random, cloth);
+        auto expected = state;
+        plain_steps<taut::Method::symplectic_euler>(cloth, expected, 1e-3, 2);
+        taut::SymplecticEuler stepper(cloth);
+        REQUIRE(stepper.step(state, 1e-3, 2));
+        CHECK((state.v - expected.v).cwiseAbs().maxCoeff() <=
+              1e-11 * expected.v.cwiseAbs().maxCoeff());
+    }
 }
 
 }  // namespace taut_test::wind_test
