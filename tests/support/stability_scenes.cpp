@@ -241,4 +241,16 @@ Eigen::MatrixXd with_spectrum(Random& random, const Eigen::VectorXd& spectrum) {
     return 0.5 * (A + A.transpose());
 }
 
+Eigen::MatrixXd random_graph(Random& random, Index n, Index degree) {
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
+    for (Index e = 0; e < n * degree / 2; ++e) {
+        const Index i = random.below(n);
+        const Index j = (i + 1 + random.below(n - 1)) % n;
+        A(i, j) = A(j, i) = random.uniform(-1, 1);
+    }
+    A.diagonal() = 1.05 * A.cwiseAbs().rowwise().sum();
+    A.diagonal().array() += 0.1;
+    return A;
+}
+
 }  // namespace taut_test

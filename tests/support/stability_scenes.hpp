@@ -57,6 +57,8 @@ RealVector exact_eigenvalues(const Exact& e, const taut::Combination& c);
 Eigen::VectorXd random_vector(Random& random, Index n);
 /// A random symmetric matrix with the given eigenvalues.
 Eigen::MatrixXd with_spectrum(Random& random, const Eigen::VectorXd& spectrum);
+/// Random entries with about `degree` neighbours each, diagonally dominant by a little.
+Eigen::MatrixXd random_graph(Random& random, Index n, Index degree);
 
 template <class Scalar = double, class Dense>
 Eigen::SparseMatrix<Scalar> sparse(const Dense& A) {
