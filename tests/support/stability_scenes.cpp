@@ -95,20 +95,6 @@ std::vector<Posed> posed_scenes(bool single) {
     return all;
 }
 
-struct Damping {
-    const char* text;
-    double dampers, d0, alpha;  ///< in units of the scene's frequencies
-};
-constexpr Damping dampings[] = {{"no damping", 0, 0, 0},
-                                {"d0", 0, 0.25, 0},
-                                {"strong d0", 0, 6, 0},
-                                {"alpha", 0, 0, 0.1},
-                                {"strong alpha", 0, 0, 5},
-                                {"d0 and alpha", 0, 0.2, 0.3},
-                                {"dampers", 0.2, 0, 0},
-                                {"dampers and d0", 0.5, 0.3, 0},
-                                {"dampers, d0 and alpha", 2, 0.1, 0.2}};
-
 }  // namespace
 
 Scene chain_scene(bool single, int dim, const taut::ChainOptions& options) {
