@@ -137,6 +137,14 @@ TEST_CASE("spring_pencil: assembly_error and quadratic errors cover a long doubl
         CHECK(largest_row(dense(w.pencil.assemble(c)) - exact, s) <=
               static_cast<Real>(w.pencil.assembly_error(c, s)));
 
+        // Compressed a million times, a spring is far stiffer across than its bound.
+        const auto pressed = with_springs(w.scene, [](AnySpring& t) { t.rest_length *= 1e6; });
+        const auto state = pressed.initial_state();
+        const Analysis analysis(pressed, state);
+        const RealMatrix of_pressed = exact_sum(exact_matrices(pressed, state.x), c);
+        CHECK(largest_row(dense(analysis.pencil().assemble(c)) - of_pressed, s) <=
+              static_cast<Real>(analysis.pencil().assembly_error(c, s)));
+
         const Eigen::VectorXd u = s.cwiseProduct(random_vector(w.random, w.pencil.size()));
         const auto q = w.pencil.quadratic(c, u);
         const RealVector v = u.cast<Real>();
@@ -277,8 +285,58 @@ TEST_CASE("spring_pencil: a slight compression is no semi-definite stiffness", "
                 CHECK_THAT(limit.growth_rate,
                            WithinRel(std::sqrt(share * k / m), kind.single ? 0.1 : 1e-3));
             }
+            // What is semi-definite but for rounding is covered by compression().
+            const auto slight = squeezed(4 * kind.epsilon());
+            const auto state = slight.initial_state();
+            CHECK(Analysis(slight, state).pencil().compression() >=
+                  -exact_eigenvalues(exact_matrices(slight, state.x), matrices::K)[0]);
             if (!kind.single) CHECK(semidefinite(squeezed(0)));
         }
+    }
+}
+
+TEST_CASE("spring_pencil: rounding of a particle of many springs counts, whichever end it is",
+          "[stability]") {
+    for (const bool first : {false, true}) {
+        Random random(108);
+        for (int repeat = 0; repeat < 10; ++repeat) {
+            INFO("star " << repeat << " of seed 108, particle 0 is end " << (first ? 'a' : 'b'));
+            Scene star({false, 1, Laws::hookean});
+            star.add_particle(Eigen::VectorXd::Zero(1), 1);
+            for (Index i = 1; i <= 10'000; ++i) {
+                star.add_particle(Eigen::VectorXd::Ones(1), 1);
+                star.pin(i);
+                const double k = 1 + random.uniform(0, 1) * random.uniform(0, 1) / 3;
+                star.add_spring({first ? 0 : i, first ? i : 0, k, 1});
+            }
+            const Analysis analysis(star, star.initial_state());
+            const auto& pencil = analysis.pencil();
+            const Real exact = exact_matrices(star, star.initial_state().x).K(0, 0);
+            const Real assembled = pencil.assemble(matrices::K).coeff(0, 0);
+            CHECK(std::abs(assembled - exact) <=
+                  pencil.assembly_error(matrices::K, Eigen::VectorXd::Ones(1)));
+            CHECK(pencil.upper_bound(matrices::K_plus) >= exact);
+        }
+    }
+}
+
+TEST_CASE("spring_pencil: at a kink of a law the bounds hold on both sides", "[stability]") {
+    for (const Kind& kind : kinds_of(Laws::strings)) {
+        INFO(kind);
+        Scene scene(kind);
+        scene.add_particle(Eigen::VectorXd::Zero(kind.dim), 1);
+        scene.add_particle(Eigen::VectorXd::Unit(kind.dim, 0), 2);
+        AnySpring string{0, 1, 50, 1};
+        string.law = LawOf::tension_only;
+        scene.add_spring(string);
+        scene.pin(0);
+        const Analysis analysis(scene, scene.initial_state());
+        CHECK(analysis.pencil().upper_bound(matrices::K_plus) >= 25);
+        CHECK(analysis.pencil().upper_bound(matrices::K) >= 25);
+        CHECK(analysis.pencil().upper_bound(-matrices::K) >= 0);
+        for (const double tightness : {0.0, 1e-6})
+            CHECK(analysis.max_step(taut::Method::symplectic_euler, tightness).certified <= 0.4);
+        CHECK_FALSE(analysis.proves(taut::Method::symplectic_euler, 0.41));
     }
 }
 
