@@ -297,26 +297,23 @@ TEST_CASE("spring_pencil: a slight compression is no semi-definite stiffness", "
 
 TEST_CASE("spring_pencil: rounding of a particle of many springs counts, whichever end it is",
           "[stability]") {
+    // Each of these is nothing beside the first; together they are not.
     for (const bool first : {false, true}) {
-        Random random(108);
-        for (int repeat = 0; repeat < 10; ++repeat) {
-            INFO("star " << repeat << " of seed 108, particle 0 is end " << (first ? 'a' : 'b'));
-            Scene star({false, 1, Laws::hookean});
-            star.add_particle(Eigen::VectorXd::Zero(1), 1);
-            for (Index i = 1; i <= 10'000; ++i) {
-                star.add_particle(Eigen::VectorXd::Ones(1), 1);
-                star.pin(i);
-                const double k = 1 + random.uniform(0, 1) * random.uniform(0, 1) / 3;
-                star.add_spring({first ? 0 : i, first ? i : 0, k, 1});
-            }
-            const Analysis analysis(star, star.initial_state());
-            const auto& pencil = analysis.pencil();
-            const Real exact = exact_matrices(star, star.initial_state().x).K(0, 0);
-            const Real assembled = pencil.assemble(matrices::K).coeff(0, 0);
-            CHECK(std::abs(assembled - exact) <=
-                  pencil.assembly_error(matrices::K, Eigen::VectorXd::Ones(1)));
-            CHECK(pencil.upper_bound(matrices::K_plus) >= exact);
+        INFO("particle 0 is end " << (first ? 'a' : 'b'));
+        Scene star({false, 1, Laws::hookean});
+        star.add_particle(Eigen::VectorXd::Zero(1), 1);
+        for (Index i = 1; i <= 4000; ++i) {
+            star.add_particle(Eigen::VectorXd::Ones(1), 1);
+            star.pin(i);
+            star.add_spring({first ? 0 : i, first ? i : 0, i == 1 ? 1 : 0.99 * 0x1p-54, 1});
         }
+        const Analysis analysis(star, star.initial_state());
+        const auto& pencil = analysis.pencil();
+        const Real exact = exact_matrices(star, star.initial_state().x).K(0, 0);
+        const Real assembled = pencil.assemble(matrices::K).coeff(0, 0);
+        CHECK(std::abs(assembled - exact) <=
+              pencil.assembly_error(matrices::K, Eigen::VectorXd::Ones(1)));
+        CHECK(pencil.upper_bound(matrices::K_plus) >= exact);
     }
 }
 
