@@ -1,12 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include <taut/stability/lanczos.hpp>
-#include <taut/own_matrices/matrix_pencil.hpp>
-#include <taut/stability/spring_pencil.hpp>
-
 #include "../support/catch.hpp"
+#include "../support/stability_scenes.hpp"
 #include "../support/tolerance.hpp"
-#include "wild_system.hpp"
 
 namespace taut_test::lanczos_test {
 
@@ -15,14 +11,14 @@ namespace matrices = taut::matrices;
 using taut::Combination;
 using taut::LanczosOptions;
 using taut::largest_ritz_pair;
-using taut::MatrixPencil;
+using MatrixPencil = taut::MatrixPencil<double>;
 
 namespace {
 
 constexpr double rounding = 100 * Tolerance<double>::rounding;
 
 /// M⁻¹K with the given eigenvalues, M random.
-MatrixPencil<double> with_modes(Random& random, const Eigen::VectorXd& k) {
+MatrixPencil with_modes(Random& random, const Eigen::VectorXd& k) {
     Eigen::VectorXd mass(k.size());
     for (Index i = 0; i < k.size(); ++i) mass[i] = log_uniform(random, 0.1, 10);
     const Eigen::VectorXd root = mass.cwiseSqrt();
@@ -31,7 +27,7 @@ MatrixPencil<double> with_modes(Random& random, const Eigen::VectorXd& k) {
     return MatrixPencil(taut::LinearSystem<double>(mass, {}, sparse(symmetric)));
 }
 
-MatrixPencil<double> diagonal(const Eigen::VectorXd& k) {
+MatrixPencil diagonal(const Eigen::VectorXd& k) {
     const Eigen::MatrixXd K = k.asDiagonal();
     return MatrixPencil(taut::LinearSystem<double>(Eigen::VectorXd::Ones(k.size()), {}, sparse(K)));
 }
@@ -243,11 +239,13 @@ TEST_CASE("lanczos: one unknown, zero matrices, repeated and isolated eigenvalue
 TEST_CASE("lanczos: springs over many decades, never above the truth", "[stability]") {
     Random random(803);
     for (int repeat = 0; repeat < 300; ++repeat) {
-        const auto system = wild_system<double, 2>(random);
-        const auto x = system.initial_state().x;
-        const auto pencil = taut::SpringPencil<2>::at_pose(system, x);
+        INFO("system " << repeat << " of seed 803");
+        const auto scene = wild_scene(random, {false, 1 + repeat % 3, Laws::hookean});
+        const auto state = scene.initial_state();
+        const Analysis analysis(scene, state);
+        const auto& pencil = analysis.pencil();
         const auto c = wild_combination(random);
-        const RealVector all = exact_eigenvalues(exact_matrices(system, x), c);
+        const RealVector all = exact_eigenvalues(exact_matrices(scene, state.x), c);
         LanczosOptions whole;
         whole.basis = 24;
         const auto pair = largest_ritz_pair(pencil, c, whole);

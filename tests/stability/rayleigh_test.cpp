@@ -74,7 +74,7 @@ void for_each_problem(std::uint32_t seed, int count, Visit&& visit) {
 
 TEST_CASE("rayleigh: every edge of the window, from both sides", "[stability]") {
     int lower = 0, upper_at_max = 0, upper_at_min = 0, clipped = 0, symplectic = 0;
-    for_each_problem(600, 6000, [&](const Problem& p) {
+    for_each_problem(600, 3000, [&](const Problem& p) {
         for (const Method method : explicit_methods) {
             const auto window = rayleigh_window(method, p.h, p.d0, p.k_min, p.k_max);
             if (window.empty != EmptyWindow::none) continue;
@@ -128,33 +128,10 @@ TEST_CASE("rayleigh: every edge of the window, from both sides", "[stability]") 
     CHECK(symplectic > 100);
 }
 
-TEST_CASE("rayleigh: the edges are those of the theory", "[stability]") {
-    constexpr double rounding = Tolerance<double>::rounding;
-    const double h = 0.1, k = 64;  // 2/√k = 0.25
-    // d0 = 0: (h, h/2 + 2/(h k_max)) [T14], [T15].
-    auto window = rayleigh_window(Method::explicit_euler, h, 0, 1, k);
-    CHECK_THAT(window.lower, WithinRel(0.1, rounding));
-    CHECK_THAT(window.upper, WithinRel(0.05 + 2 / 6.4, rounding));
-    // d0 < 2/h: h − d0/k_max, and k_max decides above.
-    window = rayleigh_window(Method::explicit_euler, h, 3.2, 1, k);
-    CHECK_THAT(window.lower, WithinRel(0.1 - 0.05, rounding));
-    CHECK_THAT(window.upper, WithinRel(0.05 + 16.8 / 64, rounding));
-    // d0 > 2/h: k_min decides above.
-    window = rayleigh_window(Method::explicit_euler, h, 20.5, 32, k);
-    CHECK(window.lower == 0);
-    CHECK_THAT(window.upper, WithinRel(0.05 - 0.5 / 32, rounding));
-    CHECK(window.includes_zero);
-    // α ≥ 0 is the fourth edge; [T16].
-    window = rayleigh_window(Method::symplectic_euler, h, 3.2, 1, k);
-    CHECK(window.lower == 0);
-    CHECK_THAT(window.upper, WithinRel((4 - 0.64 - 0.64) / (2 * 6.4), rounding));
-    CHECK(window.includes_zero);
-}
-
 TEST_CASE("rayleigh: an empty window has no stable alpha, and its reason is the true one",
           "[stability]") {
     int step = 0, mass = 0;
-    for_each_problem(601, 6000, [&](const Problem& p) {
+    for_each_problem(601, 2000, [&](const Problem& p) {
         for (const Method method : explicit_methods) {
             const auto window = rayleigh_window(method, p.h, p.d0, p.k_min, p.k_max);
             if (window.empty == EmptyWindow::none) continue;
@@ -163,8 +140,8 @@ TEST_CASE("rayleigh: an empty window has no stable alpha, and its reason is the 
             CHECK_FALSE(window.contains(0));
             CHECK_FALSE(window.contains(p.h));
             CHECK_FALSE(window.includes_zero);
-            for (int i = 0; i <= 400; ++i) {
-                const double alpha = i == 0 ? 0 : p.h * std::exp2((i - 300) / 20.0);
+            for (int i = 0; i <= 200; ++i) {
+                const double alpha = i == 0 ? 0 : p.h * std::exp2((i - 150) / 10.0);
                 CHECK_FALSE(margin(method, p.h, p.d0, alpha, p.k_min, p.k_max) > 1e-12L);
             }
             // A smaller step, or less of d0, is the cure that the reason names.
@@ -189,7 +166,10 @@ TEST_CASE("rayleigh: an empty window has no stable alpha, and its reason is the 
     CHECK(std::string(describe(EmptyWindow::overflow)).size() > 10);
 }
 
-TEST_CASE("rayleigh: zero modes and the implicit method", "[stability]") {
+TEST_CASE("rayleigh: zero modes, the very edge, and the implicit method", "[stability]") {
+    // At d0 = h k_max the stiffest mode has |μ| = 1 without α.
+    CHECK_FALSE(rayleigh_window(Method::explicit_euler, 0.5, 2, 1, 4).includes_zero);
+    CHECK(rayleigh_window(Method::explicit_euler, 0.5, 2.5, 1, 4).includes_zero);
     // k_min = 0: nothing but h·d0 < 2 from the zero mode.
     for (const Method method : explicit_methods) {
         CHECK(rayleigh_window(method, 0.1, 19.9, 0, 1).empty == EmptyWindow::none);
@@ -283,7 +263,7 @@ TEST_CASE("rayleigh: whatever a window contains is stable, to the last bit of it
     constexpr Real noise = 16 * real_epsilon;
     Random random(604);
     int windows = 0;
-    for (int repeat = 0; repeat < 20000; ++repeat) {
+    for (int repeat = 0; repeat < 10000; ++repeat) {
         Problem p{};
         p.k_max = log_uniform(random, 1e-3, 1e6);
         const Index kind = random.below(4);
@@ -309,7 +289,7 @@ TEST_CASE("rayleigh: whatever a window contains is stable, to the last bit of it
             }
         }
     }
-    CHECK(windows > 20000);
+    CHECK(windows > 10000);
 }
 
 TEST_CASE("rayleigh: wrong input is refused", "[stability]") {

@@ -2,7 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <taut/scene/with_law.hpp>
+
+#include "../support/scene_on.hpp"
 #include "../support/stability_scenes.hpp"
+
+// The scenes of the stability tests as systems, for tests that name one.
 
 namespace taut_test {
 
@@ -26,6 +31,44 @@ taut::SpringSystem<Scalar, Dim> wild_system(Random& random, const WildOptions& o
     }
     system.set_rayleigh({scene.mass_proportional(), scene.stiffness_proportional()});
     return system;
+}
+
+/// visit(text, system, state) for the scenes of stability_cases.
+template <class Scalar, class Visit>
+void for_each_scene(Visit&& visit) {
+    for (const auto& c : stability_cases(std::is_same_v<Scalar, float>, false)) {
+        visit_system<Plain<Scalar, 1>, Plain<Scalar, 2>, Plain<Scalar, 3>>(
+            c.scene, [&](const auto& system) {
+                using State = typename std::decay_t<decltype(system)>::State;
+                visit(c.text, system, from_any<State>(c.state));
+            });
+    }
+}
+
+/// visit(text, damped system); `omega` is the scale of its frequencies.
+template <class System, class Visit>
+void for_each_damping(const System& system, double omega, Visit&& visit) {
+    for (const auto& [text, dampers, d0, alpha] : dampings) {
+        auto damped = taut::with_springs<System>(system, [&](System& copy, auto spring, Index) {
+            spring.damping = static_cast<typename System::Scalar>(
+                dampers / omega * static_cast<double>(spring.parameters.stiffness));
+            copy.add_spring(spring);
+        });
+        damped.set_rayleigh({d0 * omega, alpha / omega});
+        visit(std::string(text), damped);
+    }
+}
+
+/// As that of a Scene.
+template <class System>
+typename System::State deformed(const System& system, double factor, double noise,
+                                std::uint32_t seed) {
+    using Scalar = typename System::Scalar;
+    Random random(seed);
+    auto state = system.initial_state();
+    state.x *= static_cast<Scalar>(factor);
+    state.x += random.points<Scalar, System::Dim>(system.size(), -noise, noise);
+    return state;
 }
 
 }  // namespace taut_test

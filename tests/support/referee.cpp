@@ -77,7 +77,8 @@ Exact exact_matrices(const Scene& scene, const Eigen::MatrixXd& x) {
               {dx, law.bound, l == 0 ? 0 : law.slope,
                l == 0 || scene.dim() == 1 ? 0 : law.tension / l, s.damping});
     }
-    e.add_rayleigh(scene.mass_proportional(), scene.stiffness_proportional());
+    e.add_rayleigh(scene.rounded(scene.mass_proportional()),
+                   scene.rounded(scene.stiffness_proportional()));
     return e;
 }
 
@@ -88,7 +89,8 @@ Exact exact_laplacians(const Scene& scene) {
         const Real bound = law_at(s, s.rest_length).bound;
         e.add(place[s.a], place[s.b], {RealVector::Ones(1), bound, bound, 0, s.damping});
     }
-    e.add_rayleigh(scene.mass_proportional(), scene.stiffness_proportional());
+    e.add_rayleigh(scene.rounded(scene.mass_proportional()),
+                   scene.rounded(scene.stiffness_proportional()));
     return e;
 }
 

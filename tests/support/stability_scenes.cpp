@@ -95,20 +95,6 @@ std::vector<Posed> posed_scenes(bool single) {
     return all;
 }
 
-struct Damping {
-    const char* text;
-    double dampers, d0, alpha;  ///< in units of the scene's frequencies
-};
-constexpr Damping dampings[] = {{"no damping", 0, 0, 0},
-                                {"d0", 0, 0.25, 0},
-                                {"strong d0", 0, 6, 0},
-                                {"alpha", 0, 0, 0.1},
-                                {"strong alpha", 0, 0, 5},
-                                {"d0 and alpha", 0, 0.2, 0.3},
-                                {"dampers", 0.2, 0, 0},
-                                {"dampers and d0", 0.5, 0.3, 0},
-                                {"dampers, d0 and alpha", 2, 0.1, 0.2}};
-
 }  // namespace
 
 Scene chain_scene(bool single, int dim, const taut::ChainOptions& options) {
@@ -239,6 +225,18 @@ Eigen::MatrixXd with_spectrum(Random& random, const Eigen::VectorXd& spectrum) {
     const Eigen::MatrixXd Q = orthogonal(G).cast<double>();
     const Eigen::MatrixXd A = Q * spectrum.asDiagonal() * Q.transpose();
     return 0.5 * (A + A.transpose());
+}
+
+Eigen::MatrixXd random_graph(Random& random, Index n, Index degree) {
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
+    for (Index e = 0; e < n * degree / 2; ++e) {
+        const Index i = random.below(n);
+        const Index j = (i + 1 + random.below(n - 1)) % n;
+        A(i, j) = A(j, i) = random.uniform(-1, 1);
+    }
+    A.diagonal() = 1.05 * A.cwiseAbs().rowwise().sum();
+    A.diagonal().array() += 0.1;
+    return A;
 }
 
 }  // namespace taut_test

@@ -35,6 +35,21 @@ struct StabilityCase {
 /// Scenes of all dimensions, undamped; or with every damping.
 std::vector<StabilityCase> stability_cases(bool single, bool with_damping);
 
+/// Kinds of damping; parts in units of the scene's frequencies.
+struct Damping {
+    const char* text;
+    double dampers, d0, alpha;
+};
+inline constexpr Damping dampings[] = {{"no damping", 0, 0, 0},
+                                       {"d0", 0, 0.25, 0},
+                                       {"strong d0", 0, 6, 0},
+                                       {"alpha", 0, 0, 0.1},
+                                       {"strong alpha", 0, 0, 5},
+                                       {"d0 and alpha", 0, 0.2, 0.3},
+                                       {"dampers", 0.2, 0, 0},
+                                       {"dampers and d0", 0.5, 0.3, 0},
+                                       {"dampers, d0 and alpha", 2, 0.1, 0.2}};
+
 struct WildOptions {
     Index most_particles = 6;
     double decades = 3;   ///< masses and stiffnesses spread over twice as many
@@ -57,6 +72,8 @@ RealVector exact_eigenvalues(const Exact& e, const taut::Combination& c);
 Eigen::VectorXd random_vector(Random& random, Index n);
 /// A random symmetric matrix with the given eigenvalues.
 Eigen::MatrixXd with_spectrum(Random& random, const Eigen::VectorXd& spectrum);
+/// Random entries with about `degree` neighbours each, diagonally dominant by a little.
+Eigen::MatrixXd random_graph(Random& random, Index n, Index degree);
 
 template <class Scalar = double, class Dense>
 Eigen::SparseMatrix<Scalar> sparse(const Dense& A) {
