@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <taut/method/method.hpp>
+#include <taut/stability/pencil.hpp>
+#include <taut/stability/step_limit.hpp>
+
+#include "../support/referee.hpp"
+#include "../support/scene.hpp"
+
+// What the library makes of matrices and of linearised scenes, compiled once.
+
+namespace taut_test::own_matrices {
+
+enum class Digits { of_float, of_double, of_long_double };
+
+/// M, D, K and load, rounded to `digits`.
+struct Matrices {
+    RealVector mass;
+    RealMatrix D;  ///< 0 × 0: none
+    RealMatrix K;
+    RealVector load;
+    Digits digits = Digits::of_double;
+
+    Matrices(const RealVector& mass, const RealMatrix& D, const RealMatrix& K,
+             Digits digits = Digits::of_double, const RealVector& load = {});
+    Exact exact() const { return {mass, K, K, D.size() > 0 ? D : RealMatrix(0 * K)}; }
+};
+
+/// A LinearSystem or GeneralLinearSystem.
+class AnyLinear {
+public:
+    virtual ~AnyLinear() = default;
+    virtual Eigen::MatrixXd stiffness() const = 0;
+    virtual Eigen::MatrixXd damping() const = 0;
+    virtual Eigen::VectorXd load() const = 0;
+    virtual Eigen::VectorXd inverse_mass() const = 0;
+    virtual std::uint64_t revision() const = 0;
+    virtual AnyState initial_state() const = 0;
+    virtual Eigen::VectorXd force(const AnyState& u) const = 0;
+    virtual double energy(const AnyState& u) const = 0;
+    virtual AnyState to_free(const AnyState& state) const = 0;
+    virtual void from_free(const AnyState& u, AnyState& state) const = 0;
+};
+/// Of float or double.
+std::unique_ptr<AnyLinear> linear_system(const Matrices& matrices);
+std::unique_ptr<AnyLinear> general_system(const Matrices& matrices);
+/// Of a plain scene.
+std::unique_ptr<AnyLinear> linearized(const Scene& scene, const AnyState& pose);
+
+using AnyPencil = std::shared_ptr<const taut::ScenePencil>;
+AnyPencil pencil_of(const Matrices& matrices);
+taut::StepLimit<double> limit_of(const Matrices& matrices, taut::Method method, double tightness);
+
+}  // namespace taut_test::own_matrices
