@@ -28,18 +28,13 @@ public:
     using Scalar = typename System::Scalar;
     using State = typename System::State;
 
-    explicit LinearOn(System system) : system_(std::move(system)) {}
-    Eigen::MatrixXd stiffness() const override {
-        return Eigen::MatrixXd(system_.stiffness().template cast<double>());
+    explicit LinearOn(System system) : system_(std::move(system)) {
+        stiffness = system_.stiffness().toDense().template cast<double>();
+        damping = system_.damping().toDense().template cast<double>();
+        load = system_.load().template cast<double>();
+        inverse_mass = system_.inverse_mass().template cast<double>();
+        revision = system_.revision();
     }
-    Eigen::MatrixXd damping() const override {
-        return Eigen::MatrixXd(system_.damping().template cast<double>());
-    }
-    Eigen::VectorXd load() const override { return system_.load().template cast<double>(); }
-    Eigen::VectorXd inverse_mass() const override {
-        return system_.inverse_mass().template cast<double>();
-    }
-    std::uint64_t revision() const override { return system_.revision(); }
     AnyState initial_state() const override { return to_any(system_.initial_state()); }
     Eigen::VectorXd force(const AnyState& u) const override {
         taut::Points<Scalar, 1> f;

@@ -34,16 +34,15 @@ struct Matrices {
 class AnyLinear {
 public:
     virtual ~AnyLinear() = default;
-    virtual Eigen::MatrixXd stiffness() const = 0;
-    virtual Eigen::MatrixXd damping() const = 0;
-    virtual Eigen::VectorXd load() const = 0;
-    virtual Eigen::VectorXd inverse_mass() const = 0;
-    virtual std::uint64_t revision() const = 0;
     virtual AnyState initial_state() const = 0;
     virtual Eigen::VectorXd force(const AnyState& u) const = 0;
     virtual double energy(const AnyState& u) const = 0;
     virtual AnyState to_free(const AnyState& state) const = 0;
     virtual void from_free(const AnyState& u, AnyState& state) const = 0;
+
+    Eigen::MatrixXd stiffness, damping;
+    Eigen::VectorXd load, inverse_mass;
+    std::uint64_t revision = 0;
 };
 /// Of float or double.
 std::unique_ptr<AnyLinear> linear_system(const Matrices& matrices);

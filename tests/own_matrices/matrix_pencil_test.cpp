@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include "../support/catch.hpp"
+#include "../support/stability_scenes.hpp"
 #include "matrices.hpp"
 
 namespace taut_test::own_matrices {
@@ -10,25 +11,6 @@ namespace matrices = taut::matrices;
 using taut::Combination;
 
 namespace {
-
-double over_decades(Random& random, double decades) {
-    return log_uniform(random, std::pow(10.0, -decades), std::pow(10.0, decades));
-}
-
-/// Weights of M, K and D of either sign, some of them zero.
-Combination wild_combination(Random& random) {
-    const auto weight = [&] {
-        return random.below(4) == 0 ? 0 : (random.below(2) == 0 ? 1 : -1) * over_decades(random, 2);
-    };
-    const double mass = weight(), stiffness = weight(), damping = weight();
-    return mass * matrices::M + damping * matrices::D +
-           stiffness * (random.below(2) == 0 ? matrices::K_plus : matrices::K);
-}
-
-/// Eigenvalues of M⁻¹S, ascending.
-RealVector exact_eigenvalues(const Matrices& m, const Combination& c) {
-    return eigenvalues(m.exact().scaled(c.mass(), c.stiffness() + c.projected(), c.damping(), 0));
-}
 
 /// Sparse, symmetric, entries of both signs over decades.
 RealMatrix wild_matrix(Random& random, Index n) {
@@ -47,15 +29,6 @@ Matrices wild_matrices(Random& random, Digits digits = Digits::of_double) {
     return {mass, random.below(3) > 0 ? wild_matrix(random, n) : RealMatrix(0 * K), K, digits};
 }
 
-/// A random symmetric matrix with this spectrum, but for rounding.
-RealMatrix with_spectrum(Random& random, const RealVector& spectrum) {
-    const RealMatrix Q =
-        orthogonal(random_points(random, static_cast<int>(spectrum.size()), spectrum.size(), -1, 1)
-                       .cast<Real>());
-    const RealMatrix A = Q * spectrum.asDiagonal() * Q.transpose();
-    return (A + A.transpose()) / 2;
-}
-
 RealVector log_uniforms(Random& random, Index n, double low, double high) {
     RealVector v(n);
     for (Index i = 0; i < n; ++i) v[i] = log_uniform(random, low, high);
@@ -72,7 +45,7 @@ TEST_CASE("matrix_pencil: upper_bound is never below the largest eigenvalue", "[
             const auto pencil = pencil_of(system);
             for (int other = 0; other < 3; ++other) {
                 const Combination c = other == 0 ? matrices::K_plus : wild_combination(random);
-                const RealVector all = exact_eigenvalues(system, c);
+                const RealVector all = exact_eigenvalues(system.exact(), c);
                 const Real noise = 64 * real_epsilon * all.cwiseAbs().maxCoeff();
                 CAPTURE(static_cast<int>(digits), repeat, c.mass(), c.stiffness() + c.projected(),
                         c.damping());
@@ -124,7 +97,8 @@ TEST_CASE("matrix_pencil: the bound is sharp where no sign cancels", "[own_matri
         const Matrices m(log_uniforms(random, n, 0.3, 3), {}, A);
         CHECK_THAT(
             pencil_of(m)->upper_bound(matrices::K_plus),
-            WithinRel(static_cast<double>(exact_eigenvalues(m, matrices::K_plus)[n - 1]), 1e-6));
+            WithinRel(static_cast<double>(exact_eigenvalues(m.exact(), matrices::K_plus)[n - 1]),
+                      1e-6));
     }
     RealMatrix row = 2 * RealMatrix::Identity(6, 6);
     row.diagonal(1).setConstant(-1);
@@ -140,9 +114,8 @@ TEST_CASE("matrix_pencil: multiply, quadratic, assemble and their errors", "[own
         const auto pencil = pencil_of(m);
         const Combination c = wild_combination(random);
         const Real on_K = c.stiffness() + c.projected();
-        RealMatrix exact = on_K * m.K + c.damping() * m.D;
+        const RealMatrix exact = exact_sum(m.exact(), c);
         RealMatrix sizes = std::abs(on_K) * m.K.cwiseAbs() + std::abs(c.damping()) * m.D.cwiseAbs();
-        exact.diagonal() += c.mass() * m.mass;
         sizes.diagonal() += std::abs(c.mass()) * m.mass;
         INFO("repeat " << repeat);
 
@@ -153,8 +126,8 @@ TEST_CASE("matrix_pencil: multiply, quadratic, assemble and their errors", "[own
         const RealMatrix E = (S.cast<Real>() - exact).cwiseAbs();
         CHECK(s.cwiseProduct(E * s).maxCoeff() <= pencil->assembly_error(c, s.cast<double>()));
 
-        const Eigen::VectorXd u = s.cast<double>().cwiseProduct(
-            random_vector(random, static_cast<int>(pencil->size()), -1, 1));
+        const Eigen::VectorXd u =
+            s.cast<double>().cwiseProduct(random_vector(random, pencil->size()));
         const RealVector v = u.cast<Real>(), magnitude = sizes * v.cwiseAbs();
         const auto q = pencil->quadratic(c, u);
         CHECK(std::abs(v.dot(exact * v) - q.value) <=
@@ -175,7 +148,10 @@ TEST_CASE("matrix_pencil: what is called semi-definite or Rayleigh is so", "[own
         const double hair = (random.below(2) == 0 ? 1 : -1) * log_uniform(random, 1e-17, 1e-3);
         if (repeat % 2 == 0) k[0] = hair;
         if (repeat % 3 == 0) d[0] = hair;
-        const RealMatrix D = with_spectrum(random, d), K = with_spectrum(random, k);
+        const auto with = [&](const RealVector& spectrum) -> RealMatrix {
+            return with_spectrum(random, spectrum.cast<double>()).cast<Real>();
+        };
+        const RealMatrix D = with(d), K = with(k);
         const Matrices m(log_uniforms(random, n, 0.1, 10), D, K);
         const auto pencil = pencil_of(m);
         INFO("repeat " << repeat);
@@ -279,7 +255,7 @@ TEST_CASE("matrix_pencil: scaled() and shares", "[own_matrices]") {
         check(matrices::K_plus, stiffness * m.K);
         check(matrices::D, (pencil->is_rayleigh() ? mass : 1) * m.D);
 
-        const auto u = random_vector(random, static_cast<int>(pencil->size()), -1, 1);
+        const auto u = random_vector(random, pencil->size());
         CHECK(pencil->spring_shares(u).empty());
         double sum = 0;
         for (const auto& share : pencil->particle_shares(u)) sum += share.share;
