@@ -78,188 +78,177 @@ Eigen::MatrixXd distances(const Scene& scene) {
     return length;
 }
 
+template <class Trial>
+void for_each_trial(std::uint32_t seed, int trials, Trial&& try_one) {
+    for (const Kind& kind : kinds) {
+        Random random(seed);
+        for (int trial = 0; trial < trials; ++trial) {
+            CAPTURE(kind, trial);
+            try_one(random, kind, trial);
+        }
+    }
+}
+
 }  // namespace
 
 TEST_CASE("coarsen: seeds are the farthest along the springs, clusters the nearest to them",
           "[resolution]") {
-    for (const Kind& kind : kinds) {
-        Random random(3);
+    for_each_trial(3, 20, [](Random& random, const Kind& kind, int) {
         const double tolerance = kind.single ? 1e-5 : 1e-12;
-        for (int trial = 0; trial < 20; ++trial) {
-            CAPTURE(kind, trial);
-            const Index n = 5 + random.below(30), pins = 1 + random.below(3);
-            const Scene scene = random_network(random, kind, n, pins);
-            const auto length = distances(scene);
-            const auto coarse = coarsen(scene, 3 + random.below(n - 3));
-            Eigen::VectorXd nearest = Eigen::VectorXd::Constant(n, infinity);
-            for (std::size_t s = 0; s < coarse.seeds.size(); ++s) {
-                const bool pinned = static_cast<Index>(s) < pins;
-                CHECK(coarse.system.is_pinned(static_cast<Index>(s)) == pinned);
-                if (!pinned) CHECK(nearest[coarse.seeds[s]] >= nearest.maxCoeff() - tolerance);
-                nearest = nearest.cwiseMin(length.col(coarse.seeds[s]));
-            }
-            for (Index i = 0; i < n; ++i)
-                CHECK(length(i, coarse.seeds[coarse.cluster[i]]) <= nearest[i] + tolerance);
+        const Index n = 5 + random.below(30), pins = 1 + random.below(3);
+        const Scene scene = random_network(random, kind, n, pins);
+        const auto length = distances(scene);
+        const auto coarse = coarsen(scene, 3 + random.below(n - 3));
+        Eigen::VectorXd nearest = Eigen::VectorXd::Constant(n, infinity);
+        for (std::size_t s = 0; s < coarse.seeds.size(); ++s) {
+            const bool pinned = static_cast<Index>(s) < pins;
+            CHECK(coarse.system.is_pinned(static_cast<Index>(s)) == pinned);
+            if (!pinned) CHECK(nearest[coarse.seeds[s]] >= nearest.maxCoeff() - tolerance);
+            nearest = nearest.cwiseMin(length.col(coarse.seeds[s]));
         }
-    }
+        for (Index i = 0; i < n; ++i)
+            CHECK(length(i, coarse.seeds[coarse.cluster[i]]) <= nearest[i] + tolerance);
+    });
 }
 
 TEST_CASE("coarsen: mass, momentum, constant forces and factors are kept", "[resolution]") {
-    for (const Kind& kind : kinds) {
-        Random random(5);
-        for (int trial = 0; trial < 10; ++trial) {
-            CAPTURE(kind, trial);
-            const Index n = 10 + random.below(50);
-            Scene scene = random_network(random, kind, n, trial % 3);
-            scene.set_gravity(random_vector(random, kind.dim, -10, 10));
-            scene.set_rayleigh(0.3, 2e-3);
-            for (int f = 0; f < 5; ++f)
-                scene.set_constant_force(random.below(n), random_vector(random, kind.dim, -1, 1));
-            const auto coarse = coarsen(scene, 4 + random.below(n - 4));
-            auto state = scene.initial_state();
-            state.v = random_points(random, kind.dim, n, -1, 1);
-            state.time = 0.5;
-            const auto reduced = coarse.restricted(state);
-            Eigen::VectorXd momentum = Eigen::VectorXd::Zero(kind.dim);
-            double mass = 0;
-            for (Index i = 0; i < n; ++i) {
-                mass += scene.mass(i);
-                if (!coarse.system.is_pinned(coarse.cluster[i]))
-                    momentum += scene.mass(i) * state.v.col(i);
-            }
-            for (Index c = 0; c < coarse.system.size(); ++c) {
-                mass -= coarse.system.mass(c);
-                CHECK(reduced.x.col(c) == state.x.col(coarse.seeds[c]));
-                if (coarse.system.is_pinned(c)) {
-                    CHECK(reduced.v.col(c) == state.v.col(coarse.seeds[c]));
-                } else {
-                    momentum -= coarse.system.mass(c) * reduced.v.col(c);
-                }
-            }
-            const double tolerance = static_cast<double>(n) * kind.rounding();
-            CHECK(std::abs(mass) < tolerance);
-            CHECK(momentum.norm() < tolerance);
-            CHECK(reduced.time == state.time);
-            CHECK(coarse.system.gravity() == scene.gravity());
-            CHECK(coarse.system.stiffness_proportional() == 2e-3);
-            CHECK(coarse.system.mass_proportional() == 0.3);
-            // Springs pull both ends alike: what is left of all forces is gravity and the constant.
-            const Eigen::MatrixXd force = scene.force(scene.initial_state());
-            const Eigen::MatrixXd carried = coarse.system.force(coarse.system.initial_state());
-            CHECK((force.rowwise().sum() - carried.rowwise().sum()).norm() <
-                  tolerance * std::max({1.0, largest(force), largest(carried)}));
+    for_each_trial(5, 10, [](Random& random, const Kind& kind, int trial) {
+        const Index n = 10 + random.below(50);
+        Scene scene = random_network(random, kind, n, trial % 3);
+        scene.set_gravity(random_vector(random, kind.dim, -10, 10));
+        scene.set_rayleigh(0.3, 2e-3);
+        for (int f = 0; f < 5; ++f)
+            scene.set_constant_force(random.below(n), random_vector(random, kind.dim, -1, 1));
+        const auto coarse = coarsen(scene, 4 + random.below(n - 4));
+        auto state = scene.initial_state();
+        state.v = random_points(random, kind.dim, n, -1, 1);
+        state.time = 0.5;
+        const auto reduced = coarse.restricted(state);
+        Eigen::VectorXd momentum = Eigen::VectorXd::Zero(kind.dim);
+        double mass = 0;
+        for (Index i = 0; i < n; ++i) {
+            mass += scene.mass(i);
+            if (!coarse.system.is_pinned(coarse.cluster[i]))
+                momentum += scene.mass(i) * state.v.col(i);
         }
-    }
+        for (Index c = 0; c < coarse.system.size(); ++c) {
+            mass -= coarse.system.mass(c);
+            CHECK(reduced.x.col(c) == state.x.col(coarse.seeds[c]));
+            if (coarse.system.is_pinned(c)) {
+                CHECK(reduced.v.col(c) == state.v.col(coarse.seeds[c]));
+            } else {
+                momentum -= coarse.system.mass(c) * reduced.v.col(c);
+            }
+        }
+        const double tolerance = static_cast<double>(n) * kind.rounding();
+        CHECK(std::abs(mass) < tolerance);
+        CHECK(momentum.norm() < tolerance);
+        CHECK(reduced.time == state.time);
+        CHECK(coarse.system.gravity() == scene.gravity());
+        CHECK(coarse.system.stiffness_proportional() == 2e-3);
+        CHECK(coarse.system.mass_proportional() == 0.3);
+        // Springs pull both ends alike: what is left of all forces is gravity and the constant.
+        const Eigen::MatrixXd force = scene.force(scene.initial_state());
+        const Eigen::MatrixXd carried = coarse.system.force(coarse.system.initial_state());
+        CHECK((force.rowwise().sum() - carried.rowwise().sum()).norm() <
+              tolerance * std::max({1.0, largest(force), largest(carried)}));
+    });
 }
 
 TEST_CASE("coarsen: all particles are the same network in another order", "[resolution]") {
-    for (const Kind& kind : kinds) {
-        Random random(7);
-        for (int trial = 0; trial < 10; ++trial) {
-            CAPTURE(kind, trial);
-            const Index n = 5 + random.below(20);
-            // No two springs of one law join the same pair: their rest lengths would be averaged.
-            Scene scene = random_particles(random, kind, n);
-            const auto x = scene.initial_state().x;
-            for (Index a = 0; a < n; ++a) {
-                for (Index b = a + 1; b < n; ++b) {
-                    if (b != a + 1 && random.below(3) > 0) continue;
-                    const double rest = (x.col(b) - x.col(a)).norm() * random.uniform(0.8, 1.2);
-                    for (const LawOf law : laws_of(kind)) {
-                        auto spring = spring_of(law, a, b, 7, rest, 2);
-                        spring.second *= 3;
-                        spring.third += 2;
-                        scene.add_spring(spring);
-                    }
+    for_each_trial(7, 10, [](Random& random, const Kind& kind, int) {
+        const Index n = 5 + random.below(20);
+        // No two springs of one law join the same pair: their rest lengths would be averaged.
+        Scene scene = random_particles(random, kind, n);
+        const auto x = scene.initial_state().x;
+        for (Index a = 0; a < n; ++a) {
+            for (Index b = a + 1; b < n; ++b) {
+                if (b != a + 1 && random.below(3) > 0) continue;
+                const double rest = (x.col(b) - x.col(a)).norm() * random.uniform(0.8, 1.2);
+                for (const LawOf law : laws_of(kind)) {
+                    auto spring = spring_of(law, a, b, 7, rest, 2);
+                    spring.second *= 3;
+                    spring.third += 2;
+                    scene.add_spring(spring);
                 }
             }
-            const auto coarse = coarsen(scene, n);
-            auto moving = scene.initial_state();
-            moving.v = random_points(random, kind.dim, n, -1, 1);
-            const Eigen::MatrixXd fine = scene.force(moving);
-            const Eigen::MatrixXd force = coarse.system.force(coarse.restricted(moving));
-            for (Index c = 0; c < n; ++c)
-                CHECK(distance(force.col(c), fine.col(coarse.seeds[c])) <
-                      kind.accumulated() * largest(fine));
         }
-    }
+        const auto coarse = coarsen(scene, n);
+        auto moving = scene.initial_state();
+        moving.v = random_points(random, kind.dim, n, -1, 1);
+        const Eigen::MatrixXd fine = scene.force(moving);
+        const Eigen::MatrixXd force = coarse.system.force(coarse.restricted(moving));
+        for (Index c = 0; c < n; ++c)
+            CHECK(distance(force.col(c), fine.col(coarse.seeds[c])) <
+                  kind.accumulated() * largest(fine));
+    });
 }
 
-TEST_CASE(
-    "coarsen: under a stretch along AB a coarse spring stores what it stands for, of equal "
-    "strain and as much damping",
-    "[resolution]") {
-    for (const Kind& kind : kinds) {
-        if (kind.laws == Laws::strings) continue;
-        Random random(13);
-        for (int trial = 0; trial < 6; ++trial) {
-            CAPTURE(kind, trial);
-            const Index n = 30 + random.below(30);
-            Scene scene = random_particles(random, kind, n);
-            const auto x = scene.initial_state().x;
-            for (Index i = 1; i < n; ++i) {
-                const Index a = random.below(i);
-                const double l = (x.col(i) - x.col(a)).norm();
-                const double k = random.uniform(10, 100);
-                scene.add_spring({a, i, k, l / 1.25, k / 16});
-            }
-            const auto coarse = coarsen(scene, 5 + random.below(10));
-            // Between A and B each crossing spring stands for L_AB/(l |cos θ|) of its kind, since
-            // those of a volume cross a plane in proportion to l |cos θ|. A strain ε along AB
-            // stretches it by ε l cos² θ.
-            std::map<std::pair<Index, Index>, double> energy;  // J/ε²
-            for (const auto& spring : scene.springs()) {
-                const Index a = coarse.cluster[spring.a], b = coarse.cluster[spring.b];
-                if (a == b) continue;
-                const Eigen::VectorXd d = x.col(spring.b) - x.col(spring.a);
-                const Eigen::VectorXd AB = x.col(coarse.seeds[b]) - x.col(coarse.seeds[a]);
-                const double along = std::abs(d.dot(AB)) / AB.norm();
-                const double stretch = along * along / d.norm();
-                energy[std::minmax(a, b)] +=
-                    spring.stiffness * stretch * stretch / 2 * (AB.norm() / along);
-            }
-            CHECK(coarse.system.spring_count() == static_cast<Index>(energy.size()));
-            for (const auto& spring : coarse.system.springs()) {
-                const double L = length_of(spring, coarse.system.initial_state().x);
-                CHECK_THAT(spring.stiffness * L * L / 2,
-                           WithinRel(energy[std::minmax(spring.a, spring.b)], kind.accumulated()));
-                CHECK_THAT(L / spring.rest_length, WithinRel(1.25, kind.accumulated()));
-                CHECK_THAT(16 * spring.damping, WithinRel(spring.stiffness, kind.accumulated()));
-            }
+TEST_CASE("coarsen: a spring stores, damps and strains as what it stands for, stretched along AB",
+          "[resolution]") {
+    for_each_trial(13, 6, [](Random& random, const Kind& kind, int) {
+        if (kind.laws == Laws::strings) return;
+        const Index n = 30 + random.below(30);
+        Scene scene = random_particles(random, kind, n);
+        const auto x = scene.initial_state().x;
+        for (Index i = 1; i < n; ++i) {
+            const Index a = random.below(i);
+            const double l = (x.col(i) - x.col(a)).norm();
+            const double k = random.uniform(10, 100);
+            scene.add_spring({a, i, k, l / 1.25, k / 16});
         }
-    }
+        const auto coarse = coarsen(scene, 5 + random.below(10));
+        // Between A and B each crossing spring stands for L_AB/(l |cos θ|) of its kind, since
+        // those of a volume cross a plane in proportion to l |cos θ|. A strain ε along AB
+        // stretches it by ε l cos² θ.
+        std::map<std::pair<Index, Index>, double> energy;  // J/ε²
+        for (const auto& spring : scene.springs()) {
+            const Index a = coarse.cluster[spring.a], b = coarse.cluster[spring.b];
+            if (a == b) continue;
+            const Eigen::VectorXd d = x.col(spring.b) - x.col(spring.a);
+            const Eigen::VectorXd AB = x.col(coarse.seeds[b]) - x.col(coarse.seeds[a]);
+            const double along = std::abs(d.dot(AB)) / AB.norm();
+            const double stretch = along * along / d.norm();
+            energy[std::minmax(a, b)] +=
+                spring.stiffness * stretch * stretch / 2 * (AB.norm() / along);
+        }
+        CHECK(coarse.system.spring_count() == static_cast<Index>(energy.size()));
+        for (const auto& spring : coarse.system.springs()) {
+            const double L = length_of(spring, coarse.system.initial_state().x);
+            CHECK_THAT(spring.stiffness * L * L / 2,
+                       WithinRel(energy[std::minmax(spring.a, spring.b)], kind.accumulated()));
+            CHECK_THAT(L / spring.rest_length, WithinRel(1.25, kind.accumulated()));
+            CHECK_THAT(16 * spring.damping, WithinRel(spring.stiffness, kind.accumulated()));
+        }
+    });
 }
 
 TEST_CASE("coarsen: a lift is a mean of near seeds, exact at seeds", "[resolution]") {
-    for (const Kind& kind : kinds) {
-        Random random(17);
-        for (int trial = 0; trial < 6; ++trial) {
-            CAPTURE(kind, trial);
-            const Index n = 20 + random.below(80), count = 4 + random.below(n - 4);
-            const auto coarse = coarsen(random_network(random, kind, n, 2), count);
-            const auto u = random_points(random, kind.dim, count, -1, 1);
-            const auto fine = coarse.lifted(u);
-            for (Index c = 0; c < count; ++c) CHECK(fine.col(coarse.seeds[c]) == u.col(c));
-            const auto shift = random_vector(random, kind.dim, -1, 1);
-            CHECK(distance(coarse.lifted(shift.replicate(1, count)), shift.replicate(1, n)) <
-                  kind.rounding());
-            // A mean: never outside of the values.
-            for (int d = 0; d < kind.dim; ++d) {
-                CHECK(fine.row(d).maxCoeff() <= u.row(d).maxCoeff() + kind.rounding());
-                CHECK(fine.row(d).minCoeff() >= u.row(d).minCoeff() - kind.rounding());
-            }
-            // Of four at the most.
-            Eigen::VectorXi used = Eigen::VectorXi::Zero(n);
-            for (Index c = 0; c < count; ++c) {
-                Eigen::MatrixXd one = Eigen::MatrixXd::Zero(kind.dim, count);
-                one(0, c) = 1;
-                const auto reach = coarse.lifted(one);
-                for (Index i = 0; i < n; ++i) used[i] += reach(0, i) > 0;
-            }
-            CHECK(used.maxCoeff() <= 4);
-            CHECK(used.minCoeff() >= 1);
+    for_each_trial(17, 6, [](Random& random, const Kind& kind, int) {
+        const Index n = 20 + random.below(80), count = 4 + random.below(n - 4);
+        const auto coarse = coarsen(random_network(random, kind, n, 2), count);
+        const auto u = random_points(random, kind.dim, count, -1, 1);
+        const auto fine = coarse.lifted(u);
+        for (Index c = 0; c < count; ++c) CHECK(fine.col(coarse.seeds[c]) == u.col(c));
+        const auto shift = random_vector(random, kind.dim, -1, 1);
+        CHECK(distance(coarse.lifted(shift.replicate(1, count)), shift.replicate(1, n)) <
+              kind.rounding());
+        // A mean: never outside of the values.
+        for (int d = 0; d < kind.dim; ++d) {
+            CHECK(fine.row(d).maxCoeff() <= u.row(d).maxCoeff() + kind.rounding());
+            CHECK(fine.row(d).minCoeff() >= u.row(d).minCoeff() - kind.rounding());
         }
-    }
+        // Of four at the most.
+        Eigen::VectorXi used = Eigen::VectorXi::Zero(n);
+        for (Index c = 0; c < count; ++c) {
+            Eigen::MatrixXd one = Eigen::MatrixXd::Zero(kind.dim, count);
+            one(0, c) = 1;
+            const auto reach = coarse.lifted(one);
+            for (Index i = 0; i < n; ++i) used[i] += reach(0, i) > 0;
+        }
+        CHECK(used.maxCoeff() <= 4);
+        CHECK(used.minCoeff() >= 1);
+    });
 }
 
 TEST_CASE("coarsen: a smaller count's seeds come first among a larger one's", "[resolution]") {
