@@ -6,9 +6,8 @@
 #include <taut/taut.hpp>
 #include <taut/tight/tight.hpp>
 
-// What the tests use beyond Taut::Compiled, declared here and compiled by compiled_once.cpp and
-// compiled_dense.cpp alone: bare
-// matrices, factorisations and dense eigensolvers, which take a compiler 15 s.
+// What the tests use beyond Taut::Compiled: bare matrices, factorisations and dense eigensolvers,
+// which would take a compiler half a minute in every test. Compiled by compiled_*.cpp.
 
 #define TAUT_TEST_MATRICES(KIND)                                  \
     KIND class GeneralLinearSystem<float>;                        \
@@ -21,6 +20,7 @@
     KIND Stability<double>::Stability(const LinearSystem<double>&);
 
 #define TAUT_TEST_TIGHT(KIND)                                                             \
+    KIND double explicit_estimate<double>(const Pencil&, double);                         \
     KIND class stability_detail::Factorisations<double>;                                  \
     KIND StepLimit<float> max_step(const Stability<float>&, Method, double);              \
     KIND StepLimit<double> max_step(const Stability<double>&, Method, double);            \
@@ -32,11 +32,10 @@
     KIND DefinitenessProof prove<double>(Prover&, const Pencil&, const Combination&);     \
     KIND double proved_deficit<double>(Prover&, const Pencil&, const Combination&, double);
 
-#define TAUT_TEST_DENSE(KIND)                                              \
-    KIND class DenseAnalysis<double>;                                      \
-    KIND double spectral_radius(const Stability<float>&, Method, double);  \
-    KIND double spectral_radius(const Stability<double>&, Method, double); \
-    KIND double explicit_estimate<double>(const Pencil&, double);
+#define TAUT_TEST_DENSE(KIND)                                             \
+    KIND class DenseAnalysis<double>;                                     \
+    KIND double spectral_radius(const Stability<float>&, Method, double); \
+    KIND double spectral_radius(const Stability<double>&, Method, double);
 
 namespace taut {
 TAUT_TEST_MATRICES(extern template)

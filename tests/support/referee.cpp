@@ -186,6 +186,12 @@ RealVector Multipliers::reduced_position(const RealVector& x) const {
     return omega_ * (R_.transpose() * root_.cwiseProduct(x));
 }
 
+Real definite_margin(const Exact& e, double h) {
+    const Real t = h;
+    const RealMatrix S = e.scaled(4, -t * t, -2 * t, false);
+    return eigenvalues(S)[0] / S.cwiseAbs().maxCoeff();
+}
+
 double definite_limit(const Exact& e, Real sign, bool project) {
     const Index N = e.size();
     const RealMatrix K = e.scaled(0, 1, 0, project);

@@ -137,6 +137,9 @@ private:
     bool buckled_ = false;
 };
 
+/// λ_min of 4M − 2hD − h²K as M⁻¹ of it, over the size of its terms.
+Real definite_margin(const Exact& e, double h);
+
 /// The smallest h at which 4M − 2hD − sign·h²K loses definiteness, with 1/h = s: the largest real s
 /// of 4s²M − 2sD − sign·K [T19]; infinity if there is none.
 double definite_limit(const Exact& e, Real sign, bool project);
