@@ -57,6 +57,16 @@ TEST_CASE("matrix_pencil: upper_bound is never below the largest eigenvalue", "[
     }
 }
 
+TEST_CASE("matrix_pencil: the bound counts what is left where terms cancel", "[own_matrices]") {
+    Random random(907);
+    for (int repeat = 0; repeat < 100; ++repeat) {
+        const double k = 1 / random.uniform(1, 2), b = 1 / random.uniform(1, 2), a = b * k;
+        const auto pencil = pencil_of({RealVector::Ones(1), {}, RealMatrix::Constant(1, 1, k)});
+        INFO("repeat " << repeat);
+        CHECK(pencil->upper_bound(a * matrices::M - b * matrices::K_plus) >= a - Real(b) * k);
+    }
+}
+
 TEST_CASE("matrix_pencil: masses at both ends of the range leave no bound too low",
           "[own_matrices]") {
     // Weights of the bound vanish there; K_ii/m_i is below the largest eigenvalue whatever they

@@ -251,6 +251,37 @@ TEST_CASE("coarsen: a lift is a mean of near seeds, exact at seeds", "[resolutio
     });
 }
 
+TEST_CASE("coarsen: a seed's weight in a lift begins at 0 where it becomes the fourth nearest",
+          "[resolution]") {
+    for_each_trial(29, 5, [](Random& random, const Kind& kind, int) {
+        constexpr Index n = 20, count = 8;
+        Scene scene = random_particles(random, kind, n);
+        const auto x = scene.initial_state().x;
+        for (Index a = 0; a < n; ++a)
+            for (Index b = 0; b < a; ++b)
+                scene.add_spring(
+                    spring_of(laws_of(kind).front(), a, b, 10, (x.col(b) - x.col(a)).norm()));
+        const auto coarse = coarsen(scene, count);
+        Eigen::MatrixXd weight(count, n);
+        for (Index c = 0; c < count; ++c) {
+            Eigen::MatrixXd one = Eigen::MatrixXd::Zero(kind.dim, count);
+            one(0, c) = 1;
+            weight.row(c) = coarse.lifted(one).row(0);
+        }
+        for (Index i = 0; i < n; ++i) {
+            Eigen::VectorXd d(count);
+            for (Index c = 0; c < count; ++c) d[c] = (x.col(coarse.seeds[c]) - x.col(i)).norm();
+            Eigen::VectorXd sorted = d;
+            std::sort(sorted.data(), sorted.data() + count);
+            if (sorted[0] == 0) continue;
+            // ((R − d)/(R d))², R the distance of the fifth.
+            const Eigen::ArrayXd roots = (1 / d.array() - 1 / sorted[4]).max(0);
+            const Eigen::VectorXd expected = roots.square() / roots.square().sum();
+            CHECK(distance(weight.col(i), expected) < kind.accumulated());
+        }
+    });
+}
+
 TEST_CASE("coarsen: a smaller count's seeds come first among a larger one's", "[resolution]") {
     Random random(19);
     const Scene scene = random_network(random, {false, 2}, 200, 5);

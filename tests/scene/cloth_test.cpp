@@ -78,6 +78,14 @@ TEST_CASE("cloth: options leave out what they say", "[scene]") {
     CHECK(cloth.is_pinned(3));
     CHECK(cloth.initial_state().x.col(1) == Eigen::Vector3d(2, 0, 0));
     CHECK(cloth.initial_state().x.col(4) == Eigen::Vector3d(0, 2, 0));
+    // Its triangles are the halves of its cells, all the same way round.
+    const auto x = cloth.initial_state().x;
+    const auto triangles = taut::cloth_triangles(options);
+    CHECK(triangles.size() == 12);
+    for (const auto& [a, b, c] : triangles) {
+        const Eigen::Vector2d u = (x.col(b) - x.col(a)).head(2), w = (x.col(c) - x.col(a)).head(2);
+        CHECK(u[0] * w[1] - u[1] * w[0] == 2 * 2);
+    }
     options.pin_corners = false;
     cloth = cloth_scene(options);
     for (Index i = 0; i < 12; ++i) CHECK_FALSE(cloth.is_pinned(i));

@@ -21,7 +21,6 @@ using Faces = std::vector<std::vector<Index>>;
 using Pairs = std::set<std::pair<Index, Index>>;
 using Vertices = Eigen::MatrixXd;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 struct Mesh {
@@ -285,9 +284,9 @@ TEST_CASE("mesh: masses by area do not ask at which corner a face begins", "[sce
             Vertices vertices = Vertices::Zero(3, 9 + corners);
             for (Index i = 0; i < 9; ++i)
                 vertices.col(i) << static_cast<double>(i % 3), static_cast<double>(i / 3), 0;
+            const double n = static_cast<double>(corners), sector = 6.283185307179586 / n;
             for (Index i = 0; i < corners; ++i) {
-                const double angle =
-                    6.283185307179586 * static_cast<double>(i) / static_cast<double>(corners);
+                const double angle = static_cast<double>(i) * sector;
                 vertices.col(9 + i) << 5 + std::cos(angle), std::sin(angle), 0;
             }
             const Vertices x = random_points(random, 3, 3, -1, 1) * vertices;
@@ -311,6 +310,9 @@ TEST_CASE("mesh: masses by area do not ask at which corner a face begins", "[sce
                  {std::pair{2, 1}, {6, 1}, {8, 1}, {1, 2}, {3, 2}, {4, 4}})
                 CHECK_THAT(mass[v], WithinRel(quarters * mass[0], tolerance));
             CHECK((mass.tail(corners).array() - mass[9]).abs().maxCoeff() < tolerance * mass[9]);
+            // Areas n/2 sin(2π/n) and 4, times the map's.
+            CHECK_THAT(mass.tail(corners).sum() / mass.head(9).sum(),
+                       WithinRel(n * std::sin(sector) / 8, tolerance));
         }
     }
 }
@@ -365,7 +367,7 @@ TEST_CASE("mesh: bad input: options and vertices", "[scene][bad_input]") {
     const auto wrong = [](const MeshOptions& options, std::initializer_list<const char*> words) {
         CHECK(refused(scattered(3), {{0, 1, 2}}, options, words) == "");
     };
-    for (const double bad : {-1.0, not_a_number, infinity}) {
+    for (const double bad : {-1.0, not_a_number, std::numeric_limits<double>::infinity()}) {
         wrong({bad, 100, 0.3}, {"springs_from_mesh", "stretch is ", ">= 0"});
         wrong({1000, bad, 0.3}, {"springs_from_mesh", "bend is ", ">= 0"});
         wrong({1000, 100, bad}, {"mass", " is ", "> 0"});
