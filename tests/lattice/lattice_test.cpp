@@ -73,9 +73,7 @@ TEST_CASE("chain: spectra equal the closed forms to 1e-12 relative", "[lattice]"
             CHECK(worst(chain_scene(false, 3, options), expected) < 1e-12);
         }
     }
-}
-
-TEST_CASE("chain: the smallest chains by hand", "[lattice]") {
+    // The smallest by hand.
     const auto error = [](Index masses, ChainEnds ends, const RealVector& expected) {
         return worst(chain_scene(false, 1, {masses, ends, 2, 8}), expected);
     };

@@ -13,7 +13,7 @@ namespace {
 using System = taut::LinearSystem<double>;
 
 System draw_system(Random& random, Index n) {
-    const auto positive = [&] {
+    const auto positive = [&]() -> taut::SparseMatrix<double> {
         const Eigen::VectorXd spectrum = random_vector(random, n).array() + 2;
         return with_spectrum(random, spectrum).sparseView();
     };
