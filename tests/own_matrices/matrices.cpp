@@ -22,10 +22,10 @@ System<Scalar> system_of(const Matrices& m) {
     return {m.mass.cast<Scalar>(), sparse(m.D), sparse(m.K), m.load.cast<Scalar>()};
 }
 
-template <class System>
+template <class Scalar>
 class LinearOn : public AnyLinear {
 public:
-    using Scalar = typename System::Scalar;
+    using System = taut::GeneralLinearSystem<Scalar>;  // of which a LinearSystem is a checked one
     using State = typename System::State;
 
     explicit LinearOn(System system) : system_(std::move(system)) {
@@ -69,8 +69,8 @@ private:
 template <template <class> class System>
 std::unique_ptr<AnyLinear> make_linear(const Matrices& m) {
     return with_scalar(m.digits, [&](auto scalar) -> std::unique_ptr<AnyLinear> {
-        using Of = System<decltype(scalar)>;
-        return std::make_unique<LinearOn<Of>>(system_of<System, decltype(scalar)>(m));
+        using Scalar = decltype(scalar);
+        return std::make_unique<LinearOn<Scalar>>(system_of<System, Scalar>(m));
     });
 }
 
@@ -96,9 +96,9 @@ std::unique_ptr<AnyLinear> linearized(const Scene& scene, const AnyState& pose) 
     std::unique_ptr<AnyLinear> made;
     visit_system<Plain<double, 1>, Plain<double, 2>, Plain<double, 3>, Plain<float, 3>>(
         scene, [&](const auto& system) {
-            using State = typename std::decay_t<decltype(system)>::State;
-            auto linear = taut::linearize(system, from_any<State>(pose));
-            made = std::make_unique<LinearOn<decltype(linear)>>(std::move(linear));
+            using System = std::decay_t<decltype(system)>;
+            made = std::make_unique<LinearOn<typename System::Scalar>>(
+                taut::linearize(system, from_any<typename System::State>(pose)));
         });
     return made;
 }
