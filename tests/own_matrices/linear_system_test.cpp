@@ -52,7 +52,7 @@ TEST_CASE(
         const RealVector m = draw_matrix(random, 8, 1).array() / 2 + 1;
         const RealVector load = draw_matrix(random, 8, 1);
         const auto check = [&](const Matrices& of, const AnyLinear& system) {
-            const AnyState start = system.initial_state();
+            const AnyState start = system.start;
             CHECK((start.x.isZero(0) && start.v.isZero(0)));
             const AnyState u = draw_state(random, start);
             const RealVector x = u.x.transpose().cast<Real>(), v = u.v.transpose().cast<Real>();
@@ -68,16 +68,16 @@ TEST_CASE(
             CHECK((system.damping.cast<Real>() == of.D));
         };
         const Matrices symmetric(m, B + B.transpose(), A + A.transpose(), digits, load);
-        check(symmetric, *linear_system(symmetric));
+        check(symmetric, linear_system(symmetric));
         const Matrices general(m, B, A, digits, load);
-        check(general, *general_system(general));
+        check(general, general_system(general));
     }
 }
 
 TEST_CASE("linear_system: no damping and no load mean zeros of the right size", "[own_matrices]") {
     const auto system = linear_system({mass, {}, K});
-    CHECK(system->damping == Eigen::MatrixXd::Zero(3, 3));
-    CHECK(system->load == Eigen::VectorXd::Zero(3));
+    CHECK(system.damping == Eigen::MatrixXd::Zero(3, 3));
+    CHECK(system.load == Eigen::VectorXd::Zero(3));
 }
 
 TEST_CASE("linear_system: asymmetry of a few ulp is averaged, of many is refused",
@@ -87,8 +87,8 @@ TEST_CASE("linear_system: asymmetry of a few ulp is averaged, of many is refused
         RealMatrix almost = with_entry(0, 1, -1 - 4 * ulp);
         const auto system = linear_system({mass, almost, almost, digits});
         almost(0, 1) = almost(1, 0) = -1 - 2 * ulp;
-        CHECK((system->stiffness.cast<Real>() == almost));
-        CHECK((system->damping.cast<Real>() == almost));
+        CHECK((system.stiffness.cast<Real>() == almost));
+        CHECK((system.damping.cast<Real>() == almost));
         refuse({mass, {}, with_entry(0, 1, -1 - 1000 * ulp), digits},
                {"stiffness", "symmetric", "GeneralLinearSystem"});
     }
@@ -162,8 +162,8 @@ TEST_CASE("linear_system: bad input: shapes", "[own_matrices][bad_input]") {
     refuse({mass, {}, K, Digits::of_double, RealVector::Ones(2)}, {"load has 2", "3"});
     const auto system = linear_system({mass, {}, K});
     const AnyState u{Eigen::MatrixXd::Zero(1, 2), Eigen::MatrixXd::Zero(1, 3)};
-    CHECK(missing(message_of([&] { system->force(u); }), {"2 positions", "3 velocities"}) == "");
-    CHECK(missing(message_of([&] { system->energy(u); }), {"2 positions"}) == "");
+    CHECK(missing(message_of([&] { system.force(u); }), {"2 positions", "3 velocities"}) == "");
+    CHECK(missing(message_of([&] { system.energy(u); }), {"2 positions"}) == "");
 }
 
 TEST_CASE("diagonal_mass: takes the diagonal and names what is off it",
@@ -203,13 +203,13 @@ TEST_CASE(
         pose.v.col(5).setZero();
         state.time = 3;
         const auto linear = linearized(scene, pose);
-        const AnyState u = linear->to_free(state);
+        const AnyState u = linear.to_free(state);
         CHECK(u.x.cols() == kind.dim * 6);
         CHECK(u.time == 3);
-        CHECK(linear->to_free(pose).x.isZero(0));
+        CHECK(linear.to_free(pose).x.isZero(0));
         const auto before = random_state(random, scene);
         auto back = before;
-        linear->from_free(u, back);
+        linear.from_free(u, back);
         CHECK(back.time == 3);
         for (Index i = 0; i < 8; ++i) {
             const auto& from = scene.is_pinned(i) ? before : state;
@@ -230,8 +230,7 @@ TEST_CASE(
             auto force = moved;
             force.x = scene.force(moved) + pose.x;  // which to_free() takes away again
             const auto about = linearized(scene, at);
-            return distance(about->force(about->to_free(moved)),
-                            linear->to_free(force).x.transpose());
+            return distance(about.force(about.to_free(moved)), linear.to_free(force).x.transpose());
         };
         const double rounding = kind.accumulated();
         CHECK(error(pose, 0) <= rounding);
@@ -251,14 +250,14 @@ TEST_CASE("linearize: bad input: to_free and from_free of the wrong system or si
     const auto refused = [](const AnyLinear& of, const AnyState& any) {
         return message_of([&] { of.to_free(any); });
     };
-    CHECK(missing(refused(*linear_system({mass, {}, K}), state),
+    CHECK(missing(refused(linear_system({mass, {}, K}), state),
                   {"not linearised from a SpringSystem of dimension 2"}) == "");
-    CHECK(missing(refused(*linear, space.initial_state()), {"dimension 3"}) == "");
-    const AnyState u = linear->to_free(state);
+    CHECK(missing(refused(linear, space.initial_state()), {"dimension 3"}) == "");
+    const AnyState u = linear.to_free(state);
     state.x.conservativeResize(2, 7);
-    CHECK(missing(refused(*linear, state), {"7 positions", "8 velocities", "8 particles"}) == "");
+    CHECK(missing(refused(linear, state), {"7 positions", "8 velocities", "8 particles"}) == "");
     const AnyState before = state;
-    CHECK(missing(message_of([&] { linear->from_free(u, state); }),
+    CHECK(missing(message_of([&] { linear.from_free(u, state); }),
                   {"7 positions", "8 particles"}) == "");
     CHECK(state == before);
 }

@@ -22,55 +22,46 @@ System<Scalar> system_of(const Matrices& m) {
     return {m.mass.cast<Scalar>(), sparse(m.D), sparse(m.K), m.load.cast<Scalar>()};
 }
 
+template <class Scalar, class Action>
+void with_state(const AnyState& any, Action&& action) {
+    if (any.x.rows() == 1) return action(from_any<taut::State<Scalar, 1>>(any));
+    if (any.x.rows() == 2) return action(from_any<taut::State<Scalar, 2>>(any));
+    action(from_any<taut::State<Scalar, 3>>(any));
+}
 template <class Scalar>
-class LinearOn : public AnyLinear {
-public:
-    using System = taut::GeneralLinearSystem<Scalar>;  // of which a LinearSystem is a checked one
-    using State = typename System::State;
-
-    explicit LinearOn(System system) : system_(std::move(system)) {
-        stiffness = system_.stiffness().toDense().template cast<double>();
-        damping = system_.damping().toDense().template cast<double>();
-        load = system_.load().template cast<double>();
-        inverse_mass = system_.inverse_mass().template cast<double>();
-        revision = system_.revision();
-    }
-    AnyState initial_state() const override { return to_any(system_.initial_state()); }
-    Eigen::VectorXd force(const AnyState& u) const override {
-        taut::Points<Scalar, 1> f;
-        system_.force(from_any<State>(u), f);
-        return f.transpose().template cast<double>();
-    }
-    double energy(const AnyState& u) const override {
-        return static_cast<double>(system_.energy(from_any<State>(u)));
-    }
-    AnyState to_free(const AnyState& any) const override {
-        AnyState u;
-        with_state(any, [&](const auto& state) { u = to_any(system_.to_free(state)); });
-        return u;
-    }
-    void from_free(const AnyState& u, AnyState& any) const override {
-        with_state(any, [&](auto state) {
-            system_.from_free(from_any<State>(u), state);
-            any = to_any(state);
-        });
-    }
-
-private:
-    template <class Action>
-    void with_state(const AnyState& any, Action&& action) const {
-        if (any.x.rows() == 1) return action(from_any<taut::State<Scalar, 1>>(any));
-        if (any.x.rows() == 2) return action(from_any<taut::State<Scalar, 2>>(any));
-        action(from_any<taut::State<Scalar, 3>>(any));
-    }
-    System system_;
-};
-
+AnyLinear any_linear(const taut::GeneralLinearSystem<Scalar>& system) {
+    using State = taut::State<Scalar, 1>;
+    return {system.stiffness().toDense().template cast<double>(),
+            system.damping().toDense().template cast<double>(),
+            system.load().template cast<double>(),
+            system.inverse_mass().template cast<double>(),
+            system.revision(),
+            to_any(system.initial_state()),
+            [system](const AnyState& u) -> Eigen::VectorXd {
+                taut::Points<Scalar, 1> f;
+                system.force(from_any<State>(u), f);
+                return f.transpose().template cast<double>();
+            },
+            [system](const AnyState& u) {
+                return static_cast<double>(system.energy(from_any<State>(u)));
+            },
+            [system](const AnyState& any) {
+                AnyState u;
+                with_state<Scalar>(any, [&](const auto& s) { u = to_any(system.to_free(s)); });
+                return u;
+            },
+            [system](const AnyState& u, AnyState& any) {
+                with_state<Scalar>(any, [&](auto state) {
+                    system.from_free(from_any<State>(u), state);
+                    any = to_any(state);
+                });
+            }};
+}
 template <template <class> class System>
-std::unique_ptr<AnyLinear> make_linear(const Matrices& m) {
-    return with_scalar(m.digits, [&](auto scalar) -> std::unique_ptr<AnyLinear> {
+AnyLinear make_linear(const Matrices& m) {
+    return with_scalar(m.digits, [&](auto scalar) {
         using Scalar = decltype(scalar);
-        return std::make_unique<LinearOn<Scalar>>(system_of<System, Scalar>(m));
+        return any_linear<Scalar>(system_of<System, Scalar>(m));
     });
 }
 
@@ -86,18 +77,14 @@ Matrices::Matrices(const RealVector& mass_of, const RealMatrix& D_of, const Real
     round(mass), round(D), round(K), round(load);
 }
 
-std::unique_ptr<AnyLinear> linear_system(const Matrices& m) {
-    return make_linear<taut::LinearSystem>(m);
-}
-std::unique_ptr<AnyLinear> general_system(const Matrices& m) {
-    return make_linear<taut::GeneralLinearSystem>(m);
-}
-std::unique_ptr<AnyLinear> linearized(const Scene& scene, const AnyState& pose) {
-    std::unique_ptr<AnyLinear> made;
+AnyLinear linear_system(const Matrices& m) { return make_linear<taut::LinearSystem>(m); }
+AnyLinear general_system(const Matrices& m) { return make_linear<taut::GeneralLinearSystem>(m); }
+AnyLinear linearized(const Scene& scene, const AnyState& pose) {
+    AnyLinear made;
     visit_system<Plain<double, 1>, Plain<double, 2>, Plain<double, 3>, Plain<float, 3>>(
         scene, [&](const auto& system) {
             using System = std::decay_t<decltype(system)>;
-            made = std::make_unique<LinearOn<typename System::Scalar>>(
+            made = any_linear<typename System::Scalar>(
                 taut::linearize(system, from_any<typename System::State>(pose)));
         });
     return made;

@@ -30,25 +30,21 @@ struct Matrices {
     Exact exact() const { return {mass, K, K, D.size() > 0 ? D : RealMatrix(0 * K)}; }
 };
 
-/// A LinearSystem or GeneralLinearSystem.
-class AnyLinear {
-public:
-    virtual ~AnyLinear() = default;
-    virtual AnyState initial_state() const = 0;
-    virtual Eigen::VectorXd force(const AnyState& u) const = 0;
-    virtual double energy(const AnyState& u) const = 0;
-    virtual AnyState to_free(const AnyState& state) const = 0;
-    virtual void from_free(const AnyState& u, AnyState& state) const = 0;
-
+/// A LinearSystem or GeneralLinearSystem of float or double.
+struct AnyLinear {
     Eigen::MatrixXd stiffness, damping;
     Eigen::VectorXd load, inverse_mass;
-    std::uint64_t revision = 0;
+    std::uint64_t revision;
+    AnyState start;
+    std::function<Eigen::VectorXd(const AnyState&)> force;
+    std::function<double(const AnyState&)> energy;
+    std::function<AnyState(const AnyState&)> to_free;
+    std::function<void(const AnyState&, AnyState&)> from_free;
 };
-/// Of float or double.
-std::unique_ptr<AnyLinear> linear_system(const Matrices& matrices);
-std::unique_ptr<AnyLinear> general_system(const Matrices& matrices);
+AnyLinear linear_system(const Matrices& matrices);
+AnyLinear general_system(const Matrices& matrices);
 /// Of a plain scene.
-std::unique_ptr<AnyLinear> linearized(const Scene& scene, const AnyState& pose);
+AnyLinear linearized(const Scene& scene, const AnyState& pose);
 
 using AnyPencil = std::shared_ptr<const taut::ScenePencil>;
 AnyPencil pencil_of(const Matrices& matrices);
