@@ -52,7 +52,12 @@ AnyLinear any_linear(const taut::GeneralLinearSystem<Scalar>& system) {
             },
             [system](const AnyState& u, AnyState& any) {
                 with_state<Scalar>(any, [&](auto state) {
-                    system.from_free(from_any<State>(u), state);
+                    try {
+                        system.from_free(from_any<State>(u), state);
+                    } catch (...) {  // what it has done to the state is to be seen
+                        any = to_any(state);
+                        throw;
+                    }
                     any = to_any(state);
                 });
             }};
