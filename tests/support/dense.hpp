@@ -7,15 +7,11 @@
 #include <taut/model/spring_system.hpp>
 #include <vector>
 
+#include "scene_dense.hpp"
+
+// scene_dense.hpp for systems by their type.
+
 namespace taut_test {
-
-using taut::Index;
-
-/// M, K, K⁺ and D of a pose, dense and in double, pinned particles included; written from [T2] and
-/// [T28] with nothing of the library's assembly in it.
-struct DenseMatrices {
-    Eigen::MatrixXd M, K, K_plus, D;
-};
 
 template <class System>
 DenseMatrices dense_matrices(const System& system, const typename System::State& state) {

@@ -50,6 +50,48 @@ void Exact::add_rayleigh(Real mass_proportional, Real stiffness_proportional) {
     D.diagonal() += mass_proportional * mass;
 }
 
+namespace {
+
+/// Masses in place, and to each particle its place among the free ones, −1: pinned.
+std::vector<Index> free_places(const Scene& scene, int dim, Exact& e) {
+    std::vector<Index> place;
+    Index count = 0;
+    for (Index i = 0; i < scene.size(); ++i) place.push_back(scene.is_pinned(i) ? -1 : count++);
+    e = Exact::zero(dim * count);
+    for (Index i = 0; i < scene.size(); ++i) {
+        if (place[i] >= 0) e.mass.segment(dim * place[i], dim).setConstant(scene.mass(i));
+    }
+    return place;
+}
+
+}  // namespace
+
+Exact exact_matrices(const Scene& scene, const Eigen::MatrixXd& x) {
+    Exact e;
+    const auto place = free_places(scene, scene.dim(), e);
+    for (const AnySpring& s : scene.springs()) {
+        const RealVector dx = x.col(s.b).cast<Real>() - x.col(s.a).cast<Real>();
+        const Real l = dx.norm();
+        const LawAt law = law_at(s, l);
+        e.add(place[s.a], place[s.b],
+              {dx, law.bound, l == 0 ? 0 : law.slope,
+               l == 0 || scene.dim() == 1 ? 0 : law.tension / l, s.damping});
+    }
+    e.add_rayleigh(scene.mass_proportional(), scene.stiffness_proportional());
+    return e;
+}
+
+Exact exact_laplacians(const Scene& scene) {
+    Exact e;
+    const auto place = free_places(scene, 1, e);
+    for (const AnySpring& s : scene.springs()) {
+        const Real bound = law_at(s, s.rest_length).bound;
+        e.add(place[s.a], place[s.b], {RealVector::Ones(1), bound, bound, 0, s.damping});
+    }
+    e.add_rayleigh(scene.mass_proportional(), scene.stiffness_proportional());
+    return e;
+}
+
 Multipliers::Multipliers(const Exact& e, Real zero)
     : root_(e.mass.cwiseSqrt()),
       K_(e.scaled(0, 1, 0, false)),

@@ -10,6 +10,7 @@
 
 #include "decompositions.hpp"
 #include "random.hpp"
+#include "scene.hpp"
 
 // The referee of the stability tests: matrices and multipliers in long double, written from the
 // theory's equations with nothing of the library's analysis in them.
@@ -76,6 +77,11 @@ Exact exact_matrices(const System& system, const Pose& pose) {
                    static_cast<Real>(rayleigh.stiffness_proportional));
     return e;
 }
+
+/// Of a scene in pose x.
+Exact exact_matrices(const Scene& scene, const Eigen::MatrixXd& x);
+/// M, L_k as K and K⁺, and L_c with Rayleigh damping as D [T23], [T42]: one row a free particle.
+Exact exact_laplacians(const Scene& scene);
 
 /// Of bare matrices: K⁺ = K.
 template <class Scalar>

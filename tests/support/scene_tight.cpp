@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include <taut/tight/tight.hpp>
-
+#include "compiled_once.hpp"
 #include "scene_on.hpp"
 
 namespace taut_test {

@@ -1,0 +1,8 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#include "compiled_once.hpp"
+
+namespace taut {
+TAUT_TEST_MATRICES(template)
+TAUT_TEST_TIGHT(template)
+}  // namespace taut
