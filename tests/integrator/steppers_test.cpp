@@ -283,6 +283,30 @@ TEST_CASE("steppers: velocity Verlet's force is evaluated once a step, and again
     CHECK(evaluations(1) == 2);
 }
 
+TEST_CASE("steppers: after a step from a spring of no length they go on as one that is new",
+          "[integrator]") {
+    // Which is not the sweep's: what it kept from an earlier step is of another state.
+    for (const Kind& kind : kinds_of(Laws::hookean)) {
+        for (const Method method : {Method::symplectic_euler, Method::velocity_verlet}) {
+            INFO(kind << ", " << static_cast<int>(method));
+            Random random(10);
+            Scene scene = random_scene(random, kind);
+            scene.add_spring({4, 5, 100, 0.5});
+            auto state = random_state(random, scene);
+            const auto stepper = scene.stepper(method);
+            const double h = scene.rounded(0.001);
+            REQUIRE(stepper->step(state, h));
+            state.x.col(4) = state.x.col(5);
+            for (int i = 0; i < 3; ++i) {
+                auto expected = state;
+                REQUIRE(scene.stepper(method)->step(expected, h));
+                REQUIRE(stepper->step(state, h));
+                CHECK(gap(state.v, expected.v) <= kind.rounding() * largest(expected.v));
+            }
+        }
+    }
+}
+
 TEST_CASE("steppers: velocity Verlet takes a force of time at the step's end: order 2 there, too",
           "[integrator]") {
     Scene scene({false, 1, Laws::hookean});
