@@ -26,16 +26,57 @@ Springs draw_system(Random& random) {
 }
 
 /// Solved to rounding.
-template <class Stepper, class System>
-Stepper tight(const System& system) {
-    using Scalar = typename System::Scalar;
+template <class Stepper>
+struct Tight : Stepper {
+    template <class System>
+    explicit Tight(const System& system) : Stepper(system) {
+        using Scalar = typename System::Scalar;
+        this->configure(
+            [](auto& solver) { solver.setTolerance(16 * std::numeric_limits<Scalar>::epsilon()); });
+    }
+};
+using Constrained = Tight<taut::ConstrainedEuler<Springs>>;
+using Free = Tight<taut::ImplicitEuler<Springs>>;
+
+struct Newton : taut::NewtonEuler<Springs> {
+    explicit Newton(const Springs& system)
+        : taut::NewtonEuler<Springs>(system, [] {
+              Options options;
+              options.tolerance = 1e-12;
+              return options;
+          }()) {}
+};
+
+/// With its constraint forces as external ones, and no constraint, a step is the same.
+template <class Stepper>
+void check_forces(double tolerance) {
+    Random random(4);
+    auto system = draw_system(random);
+    const auto start = random_state(random, system);
     Stepper stepper(system);
-    stepper.configure(
-        [](auto& solver) { solver.setTolerance(16 * std::numeric_limits<Scalar>::epsilon()); });
-    return stepper;
+    stepper.constraints().hold_in_plane(3, {1, 2, -1}, 0.5);
+    stepper.constraints().hold_on_line(4, {0, 1, 1});
+    stepper.constraints().prescribe(7, {0, 0, 1});
+    auto held = start;
+    REQUIRE(stepper.step(held, 0.05));
+    CHECK_THAT(Eigen::Vector3d(1, 2, -1).normalized().dot(held.v.col(3)),
+               WithinAbs(0.5, Tolerance<double>::accumulated));
+    CHECK(distance(held.v.col(7), Eigen::Vector3d(0, 0, 1)) <= Tolerance<double>::accumulated);
+    const auto forces = stepper.constraint_forces();
+    CHECK(largest(forces.col(3)) > 0);
+    CHECK(Eigen::Vector3d(forces.col(3)).cross(Eigen::Vector3d(1, 2, -1)).norm() <=
+          tolerance * largest(forces));
+    CHECK((forces.col(5).array() == 0).all());
+    auto released = held;
+    stepper.constraints().clear();
+    REQUIRE(stepper.step(released, 0.05));
+    CHECK(stepper.constraint_forces().cols() == 0);
+    system.set_external_force([forces](const auto&, auto& f) { f += forces; });
+    auto pushed = start;
+    Stepper free(system);
+    REQUIRE(free.step(pushed, 0.05));
+    CHECK(distance(held.v, pushed.v) <= tolerance * largest(held.v));
 }
-using Constrained = taut::ConstrainedEuler<Springs>;
-using Free = taut::ImplicitEuler<Springs>;
 
 }  // namespace
 
@@ -47,10 +88,10 @@ TEST_CASE("constraints: a particle held at a point moves as a pinned one", "[con
     auto expected = state;
     auto pinned = system;
     pinned.pin(5);
-    auto stepper = tight<Constrained>(system);
+    Constrained stepper(system);
     stepper.constraints().fix(5);
     REQUIRE(stepper.step(state, 0.02, 5));
-    REQUIRE(tight<Free>(pinned).step(expected, 0.02, 5));
+    REQUIRE(Free(pinned).step(expected, 0.02, 5));
     CHECK(distance(state.x, expected.x) <= Tolerance<double>::accumulated);
 }
 
@@ -65,7 +106,7 @@ TEMPLATE_TEST_CASE("constraints: planes, lines and prescribed velocities are hel
     const Vector normal = random.vector<TestType, 3>(-1, 1);
     const Vector line = random.vector<TestType, 3>(-1, 1);
     const Vector velocity = random.vector<TestType, 3>(-1, 1);
-    auto stepper = tight<taut::ConstrainedEuler<System>>(system);
+    Tight<taut::ConstrainedEuler<System>> stepper(system);
     stepper.constraints().hold_in_plane(3, normal, TestType(0.25));
     stepper.constraints().hold_on_line(4, line);
     stepper.constraints().prescribe(6, velocity);
@@ -108,7 +149,7 @@ TEST_CASE("constraints: filtered conjugate gradients take the direct solver's st
     auto by_factors = random_state(random, system);
     auto by_gradients = by_factors;
     taut::ConstrainedEuler<Springs, taut::SparseCholesky<double>> direct(system);
-    auto filtered = tight<Constrained>(system);
+    Constrained filtered(system);
     const auto hold = [](auto& constraints, int phase) {
         constraints.clear();
         constraints.hold_in_plane(3, {1, -1, 2}, 0.5 * phase);
@@ -128,39 +169,8 @@ TEST_CASE("constraints: filtered conjugate gradients take the direct solver's st
 
 TEST_CASE("constraints: with their forces a step is that of free particles, Newton's too",
           "[constraints]") {
-    // The same forces as external ones, and no constraint, give the same step.
-    Random random(4);
-    const auto check = [&](auto make, double tolerance) {
-        auto system = draw_system(random);
-        const auto start = random_state(random, system);
-        auto stepper = make(system);
-        stepper.constraints().hold_in_plane(3, {1, 2, -1}, 0.5);
-        stepper.constraints().hold_on_line(4, {0, 1, 1});
-        stepper.constraints().prescribe(7, {0, 0, 1});
-        auto held = start;
-        REQUIRE(stepper.step(held, 0.05));
-        CHECK_THAT(Eigen::Vector3d(1, 2, -1).normalized().dot(held.v.col(3)),
-                   WithinAbs(0.5, Tolerance<double>::accumulated));
-        CHECK(distance(held.v.col(7), Eigen::Vector3d(0, 0, 1)) <= Tolerance<double>::accumulated);
-        const auto forces = stepper.constraint_forces();
-        CHECK(largest(forces.col(3)) > 0);
-        CHECK(Eigen::Vector3d(forces.col(3)).cross(Eigen::Vector3d(1, 2, -1)).norm() <=
-              tolerance * largest(forces));
-        CHECK((forces.col(5).array() == 0).all());
-        auto released = held;
-        stepper.constraints().clear();
-        REQUIRE(stepper.step(released, 0.05));
-        CHECK(stepper.constraint_forces().cols() == 0);
-        system.set_external_force([forces](const auto&, auto& f) { f += forces; });
-        auto pushed = start;
-        REQUIRE(make(system).step(pushed, 0.05));
-        CHECK(distance(held.v, pushed.v) <= tolerance * largest(held.v));
-    };
-    check(tight<Constrained, Springs>, Tolerance<double>::accumulated);
-    using Newton = taut::NewtonEuler<Springs>;
-    Newton::Options options;
-    options.tolerance = 1e-12;
-    check([&](const Springs& system) { return Newton(system, options); }, 1e-8);
+    check_forces<Constrained>(Tolerance<double>::accumulated);
+    check_forces<Newton>(1e-8);
 }
 
 TEST_CASE("constraints: of one particle they add up, and the filter takes their part away",

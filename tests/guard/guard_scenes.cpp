@@ -8,7 +8,7 @@ namespace taut_test {
 
 std::unique_ptr<AnyGuard> guarded(const Scene& scene, const taut::GuardedOptions<double>& options) {
     std::unique_ptr<AnyGuard> made;
-    visit_system<Plain<double, 1>, Plain<double, 2>, AnyLaw<double, 3>, Strings<float, 3>>(
+    visit_system<Plain<double, 1>, Plain<float, 2>, AnyLaw<double, 3>, Strings<float, 3>>(
         scene, [&](const auto& system) {
             using System = std::decay_t<decltype(system)>;
             using Scalar = typename System::Scalar;

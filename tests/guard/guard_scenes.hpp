@@ -32,11 +32,12 @@ public:
     Frames advance_all(AnyState& state, int frames, const Respond& each = {});
 };
 
-/// The scene must outlive the guard. By velocity Verlet: double 1d and 2d of Laws::hookean, 3d of
-/// Laws::any, float 3d of Laws::strings.
+/// The scene must outlive the guard. By velocity Verlet: Laws::hookean of double 1d and float 2d,
+/// Laws::any of double 3d, Laws::strings of float 3d.
 std::unique_ptr<AnyGuard> guarded(const Scene& scene,
                                   const taut::GuardedOptions<double>& options = {});
-/// By a call: 1d of Laws::hookean, 2d of Laws::strings, 3d as above; with a response in 3d.
+/// By a call: Laws::hookean of float 1d, Laws::strings of double 2d, 3d as above and with a
+/// response.
 std::unique_ptr<AnyGuard> guarded(const Scene& scene, Trial trial);
 
 constexpr Kind any3{false, 3, Laws::any};
