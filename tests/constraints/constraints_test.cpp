@@ -3,27 +3,17 @@
 #include <cmath>
 #include <limits>
 #include <taut/constraints/constraints.hpp>
-#include <taut/newton/newton.hpp>
+#include <taut/own_matrices/own_matrices.hpp>
 
 #include "../support/catch.hpp"
-#include "../support/compiled_once.hpp"
 #include "../support/message.hpp"
-#include "../support/random_system.hpp"
-#include "../support/tolerance.hpp"
+#include "check_forces.hpp"
 
 namespace taut_test::constraints_test {
 
 using taut::ParticleConstraints;
 
 namespace {
-
-using Springs = taut::SpringSystem<double, 3>;
-
-Springs draw_system(Random& random) {
-    RandomOptions options;
-    options.dampers = options.rayleigh = true;
-    return random_like<Springs>(random, options);
-}
 
 /// Solved to rounding.
 template <class Stepper>
@@ -37,46 +27,6 @@ struct Tight : Stepper {
 };
 using Constrained = Tight<taut::ConstrainedEuler<Springs>>;
 using Free = Tight<taut::ImplicitEuler<Springs>>;
-
-struct Newton : taut::NewtonEuler<Springs> {
-    explicit Newton(const Springs& system)
-        : taut::NewtonEuler<Springs>(system, [] {
-              Options options;
-              options.tolerance = 1e-12;
-              return options;
-          }()) {}
-};
-
-/// With its constraint forces as external ones, and no constraint, a step is the same.
-template <class Stepper>
-void check_forces(double tolerance) {
-    Random random(4);
-    auto system = draw_system(random);
-    const auto start = random_state(random, system);
-    Stepper stepper(system);
-    stepper.constraints().hold_in_plane(3, {1, 2, -1}, 0.5);
-    stepper.constraints().hold_on_line(4, {0, 1, 1});
-    stepper.constraints().prescribe(7, {0, 0, 1});
-    auto held = start;
-    REQUIRE(stepper.step(held, 0.05));
-    CHECK_THAT(Eigen::Vector3d(1, 2, -1).normalized().dot(held.v.col(3)),
-               WithinAbs(0.5, Tolerance<double>::accumulated));
-    CHECK(distance(held.v.col(7), Eigen::Vector3d(0, 0, 1)) <= Tolerance<double>::accumulated);
-    const auto forces = stepper.constraint_forces();
-    CHECK(largest(forces.col(3)) > 0);
-    CHECK(Eigen::Vector3d(forces.col(3)).cross(Eigen::Vector3d(1, 2, -1)).norm() <=
-          tolerance * largest(forces));
-    CHECK((forces.col(5).array() == 0).all());
-    auto released = held;
-    stepper.constraints().clear();
-    REQUIRE(stepper.step(released, 0.05));
-    CHECK(stepper.constraint_forces().cols() == 0);
-    system.set_external_force([forces](const auto&, auto& f) { f += forces; });
-    auto pushed = start;
-    Stepper free(system);
-    REQUIRE(free.step(pushed, 0.05));
-    CHECK(distance(held.v, pushed.v) <= tolerance * largest(held.v));
-}
 
 }  // namespace
 
@@ -167,10 +117,8 @@ TEST_CASE("constraints: filtered conjugate gradients take the direct solver's st
     }
 }
 
-TEST_CASE("constraints: with their forces a step is that of free particles, Newton's too",
-          "[constraints]") {
+TEST_CASE("constraints: with their forces a step is that of free particles", "[constraints]") {
     check_forces<Constrained>(Tolerance<double>::accumulated);
-    check_forces<Newton>(1e-8);
 }
 
 TEST_CASE("constraints: of one particle they add up, and the filter takes their part away",
