@@ -2,8 +2,4 @@
 // SPDX-License-Identifier: MIT
 #include "scene_on.hpp"
 
-namespace taut_test {
-
-template class SceneOn<AnyLaw<float, 3>>;
-
-}  // namespace taut_test
+TAUT_TEST_ANY_SCENE(template, float, 3)
