@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <memory>
 #include <string>
 
 #include "common/main.hpp"
@@ -25,24 +26,29 @@ using drape::State;
 constexpr int diverged = 3;     // exit code
 constexpr double silence = 10;  // s, the longest
 
-/// The chosen integrator behind one call.
+template <class Stepper>
+drape::Step by(const Cloth& cloth) {
+    return [stepper = std::make_shared<Stepper>(cloth)](State& state, double h, taut::Index count) {
+        return stepper->step(state, h, count);
+    };
+}
+
+/// The chosen integrator, with or without its guard.
 drape::Advance make_motion(const Options& options, const drape::Scene& scene) {
-    if (options.integrator == "energy_stable") {
-        return drape::plain_or_guarded<taut::EnergyStableEuler<Cloth>>(options, scene,
-                                                                       drape::AsItIs());
-    }
-    if (options.integrator == "symplectic") {
-        return drape::plain_or_guarded<taut::SymplecticEuler<Cloth>>(options, scene,
-                                                                     drape::AsItIs());
-    }
-    if (options.integrator == "verlet") {
-        return drape::plain_or_guarded<taut::VelocityVerlet<Cloth>>(options, scene,
-                                                                    drape::AsItIs());
-    }
-    if (options.integrator == "explicit") {
-        return drape::by_stepper(scene, std::make_shared<taut::ExplicitEuler<Cloth>>(scene.cloth));
-    }
-    return make_implicit_motion(options, scene);
+    const Cloth& cloth = scene.cloth;
+    const std::string& chosen = options.integrator;
+    const drape::Step step =
+        chosen == "energy_stable" ? by<taut::EnergyStableEuler<Cloth>>(cloth)
+        : chosen == "symplectic"  ? by<taut::SymplecticEuler<Cloth>>(cloth)
+        : chosen == "verlet"      ? by<taut::VelocityVerlet<Cloth>>(cloth)
+        : chosen == "explicit"
+            ? by<taut::ExplicitEuler<Cloth>>(cloth)
+            : drape::implicit_step(cloth, chosen, options.solver, options.tolerance);
+    using taut::Method;
+    if (!options.guard) return drape::by_steps(scene, step);
+    if (options.implicit()) return drape::by_guard<Method::implicit_euler>(scene, step);
+    return chosen == "energy_stable" ? drape::by_guard<Method::energy_stable_euler>(scene, step)
+                                     : drape::by_guard<Method::symplectic_euler>(scene, step);
 }
 
 /// What became of a run.

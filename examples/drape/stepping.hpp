@@ -30,15 +30,14 @@ std::string name_trouble(const Report& report) {
     return text;
 }
 
-template <class Stepper>
-Advance by_stepper(const Scene& scene, std::shared_ptr<Stepper> stepper) {
+inline Advance by_steps(const Scene& scene, const Step& step) {
     const Plan plan = scene.plan;
     const bool contacts = bool(scene.obstacle);
-    return [plan, contacts, stepper, &cloth = scene.cloth,
+    return [plan, contacts, step, &cloth = scene.cloth,
             &obstacle = scene.obstacle](State& state) -> Advanced {
         const taut::Index at_once = contacts ? 1 : plan.steps;
         for (taut::Index done = 0; done < plan.steps; done += at_once) {
-            const taut::Report report = stepper->step(state, plan.h, at_once);
+            const taut::Report report = step(state, plan.h, at_once);
             if (!report) return {name_particle(report.status, report.where)};
             obstacle.resolve(cloth, state);
         }
@@ -46,9 +45,23 @@ Advance by_stepper(const Scene& scene, std::shared_ptr<Stepper> stepper) {
     };
 }
 
-template <class Guarded>
-Advance by_guard(const Scene& scene, std::shared_ptr<Guarded> guard) {
-    return [guard, frame = scene.plan.frame, &cloth = scene.cloth,
+/// What the guard asks of a stepper: of which steps the method promises what.
+template <taut::Method of>
+struct StepOf {
+    static constexpr taut::Method method = of;
+    taut::Report step(State& state, double h, taut::Index count) { return take(state, h, count); }
+    Step take;
+};
+
+template <taut::Method method>
+Advance by_guard(const Scene& scene, const Step& step) {
+    using Guarded = taut::Guarded<StepOf<method>, Cloth>;
+    typename Guarded::Options options;
+    options.max_step = scene.plan.h;
+    options.max_substeps = std::numeric_limits<taut::Index>::max();  // a frame is never cut short
+    const auto stepper = std::make_shared<StepOf<method>>(StepOf<method>{step});
+    const auto guard = std::make_shared<Guarded>(scene.cloth, *stepper, options);
+    return [stepper, guard, frame = scene.plan.frame, &cloth = scene.cloth,
             &obstacle = scene.obstacle](State& state) {
         Advanced advanced;
         // Steps beyond those that an Index can count shorten a frame.
@@ -64,29 +77,5 @@ Advance by_guard(const Scene& scene, std::shared_ptr<Guarded> guard) {
         return advanced;
     };
 }
-
-/// @param prepare    prepare(stepper), before the first step
-/// @param arguments  further ones of the stepper's constructor
-template <class Stepper, class Prepare, class... Arguments>
-Advance plain_or_guarded(const Options& chosen, const Scene& scene, const Prepare& prepare,
-                         const Arguments&... arguments) {
-    if (!chosen.guard) {
-        auto stepper = std::make_shared<Stepper>(scene.cloth, arguments...);
-        prepare(*stepper);
-        return by_stepper(scene, std::move(stepper));
-    }
-    using Guarded = taut::Guarded<Stepper>;
-    typename Guarded::Options options;
-    options.max_step = scene.plan.h;
-    options.max_substeps = std::numeric_limits<taut::Index>::max();  // a frame is never cut short
-    auto guard = std::make_shared<Guarded>(scene.cloth, options, arguments...);
-    prepare(guard->stepper());
-    return by_guard(scene, std::move(guard));
-}
-
-struct AsItIs {
-    template <class Stepper>
-    void operator()(Stepper&) const {}
-};
 
 }  // namespace drape
