@@ -27,7 +27,7 @@ struct Layout {
     bool sorted = true;
     bool velocities = true;
     bool units = true;
-    bool extra = false;      // columns that nobody asked for, and others in another order
+    bool extra = false;      // columns that nobody asked for, others in another order, blanks
     bool unwrapped = false;  // xu for x
 };
 
@@ -98,6 +98,11 @@ TEST_CASE("lammps_dump: frames are read back to the bit, in any layout", "[io]")
                 frames.push_back(random_frame(random, kind, 6, f));
                 text += frame(frames.back(), layout, random);
                 if (!layout.velocities) frames.back().v.setZero();
+            }
+            if (layout.extra) {
+                for (std::size_t at = 0; (at = text.find('\n', at)) != text.npos; at += 3) {
+                    text.insert(at, " \t");
+                }
             }
             put(file, text);
             const auto dump = open_dump(kind, file.path, 6);
@@ -180,6 +185,7 @@ TEST_CASE("lammps_dump: bad input: foreign lines are named", "[io][bad_input]") 
     const auto foreign = DumpStatus::foreign;
     refused("v 0 0 0\n", foreign, 1, {"\"v 0 0 0\"", "no item"});
     refused(std::string("PK\003\004\0\0\0\n", 8), foreign, 1, {"no text"});
+    refused(std::string("\0\n", 2), foreign, 1, {"no text"});
     refused(std::string(1 << 17, 'x'), foreign, 1, {"no text"});
     refused("\xff\xfe\n", foreign, 1, {"\"??\""});
     refused(with("ITEM: UNITS\nsi", "ITEM: UNITS\nreal"), foreign, 2, {"neither si nor lj"});
