@@ -83,14 +83,14 @@ void compare(Run& run, const Scene& scene, const AnyState& start, Index steps, d
 // Where the last digits go depends on the order in which forces are added: 4e-15 and 6e-15 of a
 // metre were measured after these 1000 steps.
 TEST_CASE("with_lammps: the hanging cloth moves as by velocity Verlet, on one rank and two",
-          "[io][slow][deep]") {
+          "[io][deep]") {
     Run run("cloth");
     run.options.share = 0.95;
     const Scene cloth = cloth_scene(64, 64);
     compare(run, cloth, cloth.initial_state(), 1000, 1e-12);
 }
 
-TEST_CASE("with_lammps: so does a free lattice that turns and vibrates", "[io][slow][deep]") {
+TEST_CASE("with_lammps: so does a free lattice that turns and vibrates", "[io][deep]") {
     Run run("lattice");
     run.options.share = 0.95;
     const Scene lattice = lattice_scene({20, 20, 20});
@@ -105,7 +105,7 @@ TEST_CASE("with_lammps: so does a free lattice that turns and vibrates", "[io][s
 }
 
 TEST_CASE("with_lammps: pins that move, drag, gravity, masses by type and by particle",
-          "[io][slow][deep]") {
+          "[io][deep]") {
     for (const int dim : {1, 2, 3}) {
         CAPTURE(dim);  // and the seed
         Random random(static_cast<std::uint32_t>(dim));
@@ -124,7 +124,7 @@ TEST_CASE("with_lammps: pins that move, drag, gravity, masses by type and by par
     }
 }
 
-TEST_CASE("with_lammps: a bond may be as long as the whole scene", "[io][slow][deep]") {
+TEST_CASE("with_lammps: a bond may be as long as the whole scene", "[io][deep]") {
     Run run("long_bond");
     Scene scene(Kind{});
     scene.add_particle(Eigen::Vector3d(0, 0, 0), 1);
@@ -136,7 +136,7 @@ TEST_CASE("with_lammps: a bond may be as long as the whole scene", "[io][slow][d
 }
 
 TEST_CASE("with_lammps: bounded below the certified step, growing above the refuted one",
-          "[io][slow][deep]") {
+          "[io][deep]") {
     // The same for 20 × 20 × 20 particles takes minutes: bench/lammps_table.cpp. One rank takes the
     // long run, since two that share a processor wait for each other in every step.
     Run run("limit");
