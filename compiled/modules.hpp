@@ -10,7 +10,7 @@
 // What the modules tight and mass_scaling do in double, of whatever system: many seconds to
 // compile, and once for the programs and tests of this project, which parse this with taut.hpp.
 
-#define TAUT_MODULES(KIND)                                                                 \
+#define TAUT_TIGHT(KIND)                                                                   \
     KIND class DenseAnalysis<double>;                                                      \
     KIND double explicit_estimate<double>(const Pencil&, double);                          \
     KIND DefinitenessProof prove<double>(Prover&, const Pencil&, const Combination&);      \
@@ -20,11 +20,14 @@
     KIND Index stability_detail::count_zero_modes<double>(const Pencil&, double);          \
     KIND StepLimit<double> max_step(const Stability<double>&, Method, double);             \
     KIND Certificate certify(const Stability<double>&, Method, double);                    \
-    KIND double spectral_radius(const Stability<double>&, Method, double);                 \
-    KIND MatrixX<double> stability_detail::low_modes<double>(const Pencil&);               \
-    KIND std::vector<double> stability_detail::frequency_changes<double>(const Pencil&,    \
+    KIND double spectral_radius(const Stability<double>&, Method, double);
+
+#define TAUT_MASS_SCALING(KIND)                                                         \
+    KIND MatrixX<double> stability_detail::low_modes<double>(const Pencil&);            \
+    KIND std::vector<double> stability_detail::frequency_changes<double>(const Pencil&, \
                                                                          const Pencil&);
 
 namespace taut {
-TAUT_MODULES(extern template)
+TAUT_TIGHT(extern template)
+TAUT_MASS_SCALING(extern template)
 }  // namespace taut

@@ -6,7 +6,6 @@
 
 #include <chrono>
 #include <cstdio>
-#include <memory>
 #include <string>
 
 #include "common/main.hpp"
@@ -26,29 +25,18 @@ using drape::State;
 constexpr int diverged = 3;     // exit code
 constexpr double silence = 10;  // s, the longest
 
-template <class Stepper>
-drape::Step by(const Cloth& cloth) {
-    return [stepper = std::make_shared<Stepper>(cloth)](State& state, double h, taut::Index count) {
-        return stepper->step(state, h, count);
-    };
-}
-
 /// The chosen integrator, with or without its guard.
 drape::Advance make_motion(const Options& options, const drape::Scene& scene) {
-    const Cloth& cloth = scene.cloth;
     const std::string& chosen = options.integrator;
     const drape::Step step =
-        chosen == "energy_stable" ? by<taut::EnergyStableEuler<Cloth>>(cloth)
-        : chosen == "symplectic"  ? by<taut::SymplecticEuler<Cloth>>(cloth)
-        : chosen == "verlet"      ? by<taut::VelocityVerlet<Cloth>>(cloth)
-        : chosen == "explicit"
-            ? by<taut::ExplicitEuler<Cloth>>(cloth)
-            : drape::implicit_step(cloth, chosen, options.solver, options.tolerance);
-    using taut::Method;
+        options.implicit()
+            ? drape::implicit_step(scene.cloth, chosen, options.solver, options.tolerance)
+            : drape::explicit_step(scene.cloth, chosen);
     if (!options.guard) return drape::by_steps(scene, step);
-    if (options.implicit()) return drape::by_guard<Method::implicit_euler>(scene, step);
-    return chosen == "energy_stable" ? drape::by_guard<Method::energy_stable_euler>(scene, step)
-                                     : drape::by_guard<Method::symplectic_euler>(scene, step);
+    const taut::Method like = options.implicit()          ? taut::Method::implicit_euler
+                              : chosen == "energy_stable" ? taut::Method::energy_stable_euler
+                                                          : taut::Method::symplectic_euler;
+    return drape::by_guard(scene, drape::guarded(scene.cloth, step, like, scene.plan.h));
 }
 
 /// What became of a run.

@@ -3,11 +3,8 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
-#include <memory>
+#include <functional>
 #include <string>
-#include <taut/guard/guard.hpp>
-#include <utility>
 
 #include "motion.hpp"
 
@@ -45,31 +42,15 @@ inline Advance by_steps(const Scene& scene, const Step& step) {
     };
 }
 
-/// What the guard asks of a stepper: of which steps the method promises what.
-template <taut::Method of>
-struct StepOf {
-    static constexpr taut::Method method = of;
-    taut::Report step(State& state, double h, taut::Index count) { return take(state, h, count); }
-    Step take;
-};
-
-template <taut::Method method>
-Advance by_guard(const Scene& scene, const Step& step) {
-    using Guarded = taut::Guarded<StepOf<method>, Cloth>;
-    typename Guarded::Options options;
-    options.max_step = scene.plan.h;
-    options.max_substeps = std::numeric_limits<taut::Index>::max();  // a frame is never cut short
-    const auto stepper = std::make_shared<StepOf<method>>(StepOf<method>{step});
-    const auto guard = std::make_shared<Guarded>(scene.cloth, *stepper, options);
-    return [stepper, guard, frame = scene.plan.frame, &cloth = scene.cloth,
+inline Advance by_guard(const Scene& scene, const Guard& guard) {
+    return [guard, frame = scene.plan.frame, &cloth = scene.cloth,
             &obstacle = scene.obstacle](State& state) {
+        std::function<void(State&)> respond;
+        if (obstacle) respond = [&](State& s) { obstacle.resolve(cloth, s); };
         Advanced advanced;
         // Steps beyond those that an Index can count shorten a frame.
         for (double left = frame; advanced.trouble.empty() && left > 1e-9 * frame;) {
-            const auto report =
-                obstacle
-                    ? guard->advance(state, left, [&](State& s) { obstacle.resolve(cloth, s); })
-                    : guard->advance(state, left);
+            const auto report = guard(state, left, respond);
             left -= report.advanced;
             advanced.trouble = name_trouble(report);
             advanced.taken = std::max(advanced.taken, report.taken);

@@ -3,5 +3,5 @@
 #include "modules.hpp"
 
 namespace taut {
-TAUT_MODULES(template)
+TAUT_MASS_SCALING(template)
 }  // namespace taut
