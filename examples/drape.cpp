@@ -25,24 +25,18 @@ using drape::State;
 constexpr int diverged = 3;     // exit code
 constexpr double silence = 10;  // s, the longest
 
-/// The chosen integrator behind one call.
+/// The chosen integrator, with or without its guard.
 drape::Advance make_motion(const Options& options, const drape::Scene& scene) {
-    if (options.integrator == "energy_stable") {
-        return drape::plain_or_guarded<taut::EnergyStableEuler<Cloth>>(options, scene,
-                                                                       drape::AsItIs());
-    }
-    if (options.integrator == "symplectic") {
-        return drape::plain_or_guarded<taut::SymplecticEuler<Cloth>>(options, scene,
-                                                                     drape::AsItIs());
-    }
-    if (options.integrator == "verlet") {
-        return drape::plain_or_guarded<taut::VelocityVerlet<Cloth>>(options, scene,
-                                                                    drape::AsItIs());
-    }
-    if (options.integrator == "explicit") {
-        return drape::by_stepper(scene, std::make_shared<taut::ExplicitEuler<Cloth>>(scene.cloth));
-    }
-    return make_implicit_motion(options, scene);
+    const std::string& chosen = options.integrator;
+    const drape::Step step =
+        options.implicit()
+            ? drape::implicit_step(scene.cloth, chosen, options.solver, options.tolerance)
+            : drape::explicit_step(scene.cloth, chosen);
+    if (!options.guard) return drape::by_steps(scene, step);
+    const taut::Method like = options.implicit()          ? taut::Method::implicit_euler
+                              : chosen == "energy_stable" ? taut::Method::energy_stable_euler
+                                                          : taut::Method::symplectic_euler;
+    return drape::by_guard(scene, drape::guarded(scene.cloth, step, like, scene.plan.h));
 }
 
 /// What became of a run.

@@ -3,12 +3,9 @@
 #pragma once
 
 #include "options.hpp"
+#include "step.hpp"
 
 namespace drape {
-
-/// One type for all laws: each keeps its own springs, and a scene pays for those that it has.
-using Cloth = taut::SpringSystem<double, 3, taut::Hookean, taut::TensionOnly, taut::Buckling>;
-using State = Cloth::State;
 
 inline void add_spring(Cloth& cloth, const Options& options, bool bends,
                        const taut::Spring<double, taut::Hookean>& spring) {

@@ -26,7 +26,4 @@ struct Scene {
     const Plan& plan;
 };
 
-/// implicit, newton, bdf2 and projective.
-Advance make_implicit_motion(const Options& options, const Scene& scene);
-
 }  // namespace drape

@@ -3,11 +3,8 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
-#include <memory>
+#include <functional>
 #include <string>
-#include <taut/guard/guard.hpp>
-#include <utility>
 
 #include "motion.hpp"
 
@@ -30,15 +27,14 @@ std::string name_trouble(const Report& report) {
     return text;
 }
 
-template <class Stepper>
-Advance by_stepper(const Scene& scene, std::shared_ptr<Stepper> stepper) {
+inline Advance by_steps(const Scene& scene, const Step& step) {
     const Plan plan = scene.plan;
     const bool contacts = bool(scene.obstacle);
-    return [plan, contacts, stepper, &cloth = scene.cloth,
+    return [plan, contacts, step, &cloth = scene.cloth,
             &obstacle = scene.obstacle](State& state) -> Advanced {
         const taut::Index at_once = contacts ? 1 : plan.steps;
         for (taut::Index done = 0; done < plan.steps; done += at_once) {
-            const taut::Report report = stepper->step(state, plan.h, at_once);
+            const taut::Report report = step(state, plan.h, at_once);
             if (!report) return {name_particle(report.status, report.where)};
             obstacle.resolve(cloth, state);
         }
@@ -46,17 +42,15 @@ Advance by_stepper(const Scene& scene, std::shared_ptr<Stepper> stepper) {
     };
 }
 
-template <class Guarded>
-Advance by_guard(const Scene& scene, std::shared_ptr<Guarded> guard) {
+inline Advance by_guard(const Scene& scene, const Guard& guard) {
     return [guard, frame = scene.plan.frame, &cloth = scene.cloth,
             &obstacle = scene.obstacle](State& state) {
+        std::function<void(State&)> respond;
+        if (obstacle) respond = [&](State& s) { obstacle.resolve(cloth, s); };
         Advanced advanced;
         // Steps beyond those that an Index can count shorten a frame.
         for (double left = frame; advanced.trouble.empty() && left > 1e-9 * frame;) {
-            const auto report =
-                obstacle
-                    ? guard->advance(state, left, [&](State& s) { obstacle.resolve(cloth, s); })
-                    : guard->advance(state, left);
+            const auto report = guard(state, left, respond);
             left -= report.advanced;
             advanced.trouble = name_trouble(report);
             advanced.taken = std::max(advanced.taken, report.taken);
@@ -64,29 +58,5 @@ Advance by_guard(const Scene& scene, std::shared_ptr<Guarded> guard) {
         return advanced;
     };
 }
-
-/// @param prepare    prepare(stepper), before the first step
-/// @param arguments  further ones of the stepper's constructor
-template <class Stepper, class Prepare, class... Arguments>
-Advance plain_or_guarded(const Options& chosen, const Scene& scene, const Prepare& prepare,
-                         const Arguments&... arguments) {
-    if (!chosen.guard) {
-        auto stepper = std::make_shared<Stepper>(scene.cloth, arguments...);
-        prepare(*stepper);
-        return by_stepper(scene, std::move(stepper));
-    }
-    using Guarded = taut::Guarded<Stepper>;
-    typename Guarded::Options options;
-    options.max_step = scene.plan.h;
-    options.max_substeps = std::numeric_limits<taut::Index>::max();  // a frame is never cut short
-    auto guard = std::make_shared<Guarded>(scene.cloth, options, arguments...);
-    prepare(guard->stepper());
-    return by_guard(scene, std::move(guard));
-}
-
-struct AsItIs {
-    template <class Stepper>
-    void operator()(Stepper&) const {}
-};
 
 }  // namespace drape

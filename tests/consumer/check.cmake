@@ -27,8 +27,8 @@ function(build way standard program)
 endfunction()
 
 if(WAY STREQUAL "subdirectory")
-    build(subdirectory 20 main.cpp)
     # That the targets arrive; what they do, the others see.
+    build(subdirectory 20 version.cpp)
     build(fetched 17 version.cpp -D CONSUMER_SUITESPARSE=${SUITESPARSE} -D CONSUMER_MODAL=${MODAL})
     return()
 endif()

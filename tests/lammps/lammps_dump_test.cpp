@@ -1,22 +1,19 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
-#include <limits>
+#include <numeric>
 #include <string>
-#include <taut/lammps/lammps_dump.hpp>
 #include <vector>
 
 #include "../support/catch.hpp"
 #include "../support/message.hpp"
-#include "../support/random.hpp"
 #include "../support/temporary_file.hpp"
-#include "../support/tolerance.hpp"
+#include "lammps_scenes.hpp"
 
 namespace taut_test::lammps_dump_test {
 
 using taut::DumpStatus;
-using taut::LammpsDump;
 
 namespace {
 
@@ -30,13 +27,12 @@ struct Layout {
     bool sorted = true;
     bool velocities = true;
     bool units = true;
-    bool extra = false;      // columns that nobody asked for, and others in another order
+    bool extra = false;      // columns that nobody asked for, others in another order, blanks
     bool unwrapped = false;  // xu for x
 };
 
 /// A frame as LAMMPS 2022-01 writes it by dump custom.
-template <class State>
-std::string frame(const State& state, const Layout& layout, Random& random) {
+std::string frame(const AnyState& state, const Layout& layout, Random& random) {
     const Index n = state.x.cols();
     const std::string u = layout.unwrapped ? "u" : "";
     const auto axes = [](const std::string& before, const std::string& after) {
@@ -44,25 +40,23 @@ std::string frame(const State& state, const Layout& layout, Random& random) {
     };
     std::string text;
     if (layout.units) text += "ITEM: UNITS\nsi\n";
-    text += "ITEM: TIME\n" + exact(static_cast<double>(state.time)) + "\nITEM: TIMESTEP\n100\n";
+    text += "ITEM: TIME\n" + exact(state.time) + "\nITEM: TIMESTEP\n100\n";
     text += "ITEM: NUMBER OF ATOMS\n" + std::to_string(n) + "\nITEM: BOX BOUNDS ss ss ss\n";
     for (int d = 0; d < 3; ++d) text += "-1.0e+00 1.0e+00\n";
     const std::string v = layout.velocities ? axes("v", "") : "";
     text += layout.extra ? "ITEM: ATOMS type" + v + " id" + axes("", u) + " mol \n"
                          : "ITEM: ATOMS id" + axes("", u) + v + " \n";
-    std::vector<Index> order;
-    for (Index i = 0; i < n; ++i) order.push_back(i);
+    std::vector<Index> order(static_cast<std::size_t>(n));
+    std::iota(order.begin(), order.end(), 0);
     for (Index i = n - 1; !layout.sorted && i > 0; --i) {
         std::swap(order[static_cast<std::size_t>(i)],
                   order[static_cast<std::size_t>(random.below(i + 1))]);
     }
     for (const Index i : order) {
-        const auto triple = [&](const auto& values) {
+        const auto triple = [&](const Eigen::MatrixXd& values) {
             std::string three;
-            for (int d = 0; d < 3; ++d) {
-                const double number =
-                    d < State::Dim ? static_cast<double>(values(d < State::Dim ? d : 0, i)) : 0.0;
-                three += " " + exact(number);
+            for (Index d = 0; d < 3; ++d) {
+                three += " " + exact(d < values.rows() ? values(d, i) : 0);
             }
             return three;
         };
@@ -74,13 +68,13 @@ std::string frame(const State& state, const Layout& layout, Random& random) {
     return text;
 }
 
-template <class State>
-State random_frame(Random& random, Index n, double time) {
-    State state;
-    state.x = random.points<typename State::Scalar, State::Dim>(n, -2, 2);
-    state.v = random.points<typename State::Scalar, State::Dim>(n, -2, 2);
+AnyState random_frame(Random& random, const Kind& kind, Index n, double time) {
+    AnyState state;
+    state.x = random_points(random, kind.dim, n, -2, 2);
+    state.v = random_points(random, kind.dim, n, -2, 2);
     state.x /= 3;  // numbers that need all their digits
-    state.time = static_cast<typename State::Scalar>(time / 3);
+    if (kind.single) state.x = state.x.cast<float>().cast<double>().eval();
+    state.time = Scene(kind).rounded(time / 3);
     return state;
 }
 
@@ -90,37 +84,39 @@ void put(const TemporaryFile& file, const std::string& text) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("lammps_dump: frames are read back to the bit, in any layout", "[io]",
-                   (Case<float, 1>), (Case<float, 2>), (Case<double, 1>), (Case<double, 2>),
-                   (Case<double, 3>)) {
-    using State = taut::State<typename TestType::Scalar, TestType::Dim>;
-    const TemporaryFile file("layout_" + std::to_string(sizeof(typename TestType::Scalar)) +
-                             std::to_string(TestType::Dim) + ".dump");
+TEST_CASE("lammps_dump: frames are read back to the bit, in any layout", "[io]") {
+    const TemporaryFile file("layout.dump");
     Random random(1);
-    for (int bits = 0; bits < 32; ++bits) {
-        const Layout layout{(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0, (bits & 8) != 0,
-                            (bits & 16) != 0};
-        std::vector<State> frames;
-        std::string text;
-        for (int f = 0; f < 3; ++f) {
-            frames.push_back(random_frame<State>(random, 6, f));
-            text += frame(frames.back(), layout, random);
-            if (!layout.velocities) frames.back().v.setZero();
+    for (const Kind& kind : kinds_of(Laws::hookean)) {
+        for (int bits = 0; bits < 32; ++bits) {
+            CAPTURE(kind, bits);
+            const Layout layout{(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0, (bits & 8) != 0,
+                                (bits & 16) != 0};
+            std::vector<AnyState> frames;
+            std::string text;
+            for (int f = 0; f < 3; ++f) {
+                frames.push_back(random_frame(random, kind, 6, f));
+                text += frame(frames.back(), layout, random);
+                if (!layout.velocities) frames.back().v.setZero();
+            }
+            if (layout.extra) {
+                for (std::size_t at = 0; (at = text.find('\n', at)) != text.npos; at += 3) {
+                    text.insert(at, " \t");
+                }
+            }
+            put(file, text);
+            const auto dump = open_dump(kind, file.path, 6);
+            AnyState state;
+            for (const AnyState& expected : frames) {
+                REQUIRE(dump->read(state));
+                CHECK(state == expected);
+                CHECK(dump->has_velocities() == layout.velocities);
+            }
+            CHECK(dump->read(state).status == DumpStatus::end);
+            CHECK(dump->read(state).status == DumpStatus::end);
+            CHECK(dump->frames() == 3);
+            CHECK(state == frames.back());
         }
-        put(file, text);
-        LammpsDump<typename TestType::Scalar, TestType::Dim> dump(file.path, 6);
-        State state;
-        for (const State& expected : frames) {
-            REQUIRE(dump.read(state));
-            CHECK(state.x == expected.x);
-            CHECK(state.v == expected.v);
-            CHECK(state.time == expected.time);
-            CHECK(dump.has_velocities() == layout.velocities);
-        }
-        CHECK(dump.read(state).status == DumpStatus::end);
-        CHECK(dump.read(state).status == DumpStatus::end);
-        CHECK(dump.frames() == 3);
-        CHECK(state.x == frames.back().x);
     }
 }
 
@@ -128,21 +124,19 @@ TEST_CASE("lammps_dump: a file cut anywhere gives whole frames and then says so"
           "[io][bad_input]") {
     const TemporaryFile file("cut.dump");
     Random random(2);
-    using State = taut::State<double, 3>;
-    const State first = random_frame<State>(random, 4, 0),
-                second = random_frame<State>(random, 4, 1);
+    const AnyState first = random_frame(random, {}, 4, 0), second = random_frame(random, {}, 4, 1);
     const std::string one = frame(first, {}, random);
     const std::string all = one + frame(second, {}, random);
     for (std::size_t size = 0; size < all.size(); ++size) {
         put(file, all.substr(0, size));
-        LammpsDump<double, 3> dump(file.path, 4);
-        State state = second;
+        const auto dump = open_dump({}, file.path, 4);
+        AnyState state = second;
         state.time = -1;
         Index frames = 0;
-        while (dump.read(state)) ++frames;
+        while (dump->read(state)) ++frames;
         CAPTURE(size);
         REQUIRE(frames == (size >= one.size() ? 1 : 0));
-        REQUIRE(dump.read(state).status ==
+        REQUIRE(dump->read(state).status ==
                 (size == one.size() ? DumpStatus::end : DumpStatus::cut));
         // What was not read as a whole has changed nothing.
         REQUIRE(state.x == (frames > 0 ? first.x : second.x));
@@ -153,35 +147,34 @@ TEST_CASE("lammps_dump: a file cut anywhere gives whole frames and then says so"
 TEST_CASE("lammps_dump: a last line of any length that has no end is cut", "[io][bad_input]") {
     const TemporaryFile file("tail.dump");
     Random random(4);
-    using State = taut::State<double, 3>;
-    const std::string one = frame(random_frame<State>(random, 4, 0), {}, random);
+    const std::string one = frame(random_frame(random, {}, 4, 0), {}, random);
     for (std::size_t length = 1; length < 1100; ++length) {
         put(file, one + std::string(length, 'x'));
-        LammpsDump<double, 3> dump(file.path, 4);
-        State state;
-        REQUIRE(dump.read(state));
+        const auto dump = open_dump({}, file.path, 4);
+        AnyState state;
+        REQUIRE(dump->read(state));
         CAPTURE(length);
-        REQUIRE(dump.read(state).status == DumpStatus::cut);
+        REQUIRE(dump->read(state).status == DumpStatus::cut);
     }
 }
 
 TEST_CASE("lammps_dump: bad input: foreign lines are named", "[io][bad_input]") {
     const TemporaryFile file("foreign.dump");
     Random random(3);
-    using State = taut::State<double, 2>;
-    const std::string good = frame(random_frame<State>(random, 3, 0), {}, random);
+    const Kind flat{false, 2};
+    const std::string good = frame(random_frame(random, flat, 3, 0), {}, random);
     const auto refused = [&](const std::string& text, DumpStatus status, long long line,
                              std::initializer_list<const char*> words) {
         put(file, text);
-        LammpsDump<double, 2> dump(file.path, 3);
-        State state;
-        const auto report = dump.read(state);
+        const auto dump = open_dump(flat, file.path, 3);
+        AnyState state;
+        const auto report = dump->read(state);
         CHECK(report.status == status);
         CHECK(report.line == line);
         CHECK(missing(report.message(), words).empty());
         CHECK(missing(report.message(), {file.path.c_str()}).empty());
         CHECK(state.x.size() == 0);
-        CHECK(dump.read(state).status == status);
+        CHECK(dump->read(state).status == status);
     };
     const auto with = [&](const std::string& old, const std::string& fresh) {
         std::string text = good;
@@ -192,6 +185,7 @@ TEST_CASE("lammps_dump: bad input: foreign lines are named", "[io][bad_input]") 
     const auto foreign = DumpStatus::foreign;
     refused("v 0 0 0\n", foreign, 1, {"\"v 0 0 0\"", "no item"});
     refused(std::string("PK\003\004\0\0\0\n", 8), foreign, 1, {"no text"});
+    refused(std::string("\0\n", 2), foreign, 1, {"no text"});
     refused(std::string(1 << 17, 'x'), foreign, 1, {"no text"});
     refused("\xff\xfe\n", foreign, 1, {"\"??\""});
     refused(with("ITEM: UNITS\nsi", "ITEM: UNITS\nreal"), foreign, 2, {"neither si nor lj"});
@@ -216,16 +210,13 @@ TEST_CASE("lammps_dump: bad input: foreign lines are named", "[io][bad_input]") 
 
     // What overflows a float is no frame of floats.
     put(file, with("\n3 ", "\n3 1e39 "));
-    LammpsDump<float, 2> narrow(file.path, 3);
-    taut::State<float, 2> state;
-    CHECK(narrow.read(state).status == DumpStatus::not_finite);
+    AnyState none;
+    CHECK(open_dump({true, 2}, file.path, 3)->read(none).status == DumpStatus::not_finite);
 
-    LammpsDump<double, 2> nowhere("no/such.dump", 3);
-    State none;
-    CHECK(nowhere.read(none).status == DumpStatus::not_opened);
-    CHECK(nowhere.read(none).message() == "no/such.dump: cannot be opened");
-    CHECK(missing(message_of([&] { LammpsDump<double, 2>(file.path, 0); }), {"particles is 0"})
-              .empty());
+    const auto nowhere = open_dump(flat, "no/such.dump", 3);
+    CHECK(nowhere->read(none).status == DumpStatus::not_opened);
+    CHECK(nowhere->read(none).message() == "no/such.dump: cannot be opened");
+    CHECK(missing(message_of([&] { open_dump(flat, file.path, 0); }), {"particles is 0"}).empty());
 }
 
 }  // namespace taut_test::lammps_dump_test

@@ -6,14 +6,13 @@
 #include <map>
 #include <sstream>
 #include <string>
-#include <taut/mesh_files/vtk.hpp>
 #include <vector>
 
 #include "../support/catch.hpp"
 #include "../support/message.hpp"
-#include "../support/random_system.hpp"
 #include "../support/temporary_file.hpp"
 #include "../support/tolerance.hpp"
+#include "vtk_scenes.hpp"
 
 namespace taut_test::vtk_test {
 
@@ -85,67 +84,61 @@ Document read(const TemporaryFile& file) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("vtk: the tensions read back, laid along the lines, are the forces", "[io]",
-                   (Case<float, 2>), (Case<float, 3>), (Case<double, 1>), (Case<double, 3>)) {
-    using Scalar = typename TestType::Scalar;
-    constexpr int Dim = TestType::Dim;
-    const TemporaryFile file("tangle_" + std::to_string(sizeof(Scalar)) + std::to_string(Dim) +
-                             ".vtk");
-    for (std::uint32_t seed = 1; seed <= 5; ++seed) {
-        Random random(seed);
-        const auto system = random_system<Scalar, Dim, taut::Hookean, TensionOnly, Buckling>(
-            random, {12, 14, 1, false, false, false});
-        auto state = system.initial_state();
-        state.v = random.points<Scalar, Dim>(system.size(), -3, 3);
-        REQUIRE(taut::write_vtk(file.path, system, state));
-        const auto found = read(file);
-        REQUIRE(found.understood);
-        REQUIRE(found.points.size() == 12);
-        REQUIRE(found.lines.size() == static_cast<std::size_t>(system.spring_count()));
-        const auto& tension = found.cells.at("tension");
+TEST_CASE("vtk: the tensions read back, laid along the lines, are the forces", "[io]") {
+    const TemporaryFile file("tangle.vtk");
+    auto kinds = kinds_of(Laws::any);
+    kinds.push_back({true, 2, Laws::mixed});
+    for (const Kind& kind : kinds) {
+        for (std::uint32_t seed = 1; seed <= 5; ++seed) {
+            CAPTURE(kind, seed);
+            Random random(seed);
+            const Scene scene = random_scene(random, kind, {12, 14, 1, false, false, false});
+            auto state = scene.initial_state();
+            state.v = random_points(random, kind.dim, 12, -3, 3);
+            REQUIRE(write_vtk(file.path, scene, state));
+            const auto found = read(file);
+            REQUIRE(found.understood);
+            REQUIRE(found.points.size() == 12);
+            REQUIRE(found.lines.size() == static_cast<std::size_t>(scene.spring_count()));
+            const auto& tension = found.cells.at("tension");
 
-        Eigen::Matrix3Xd force = Eigen::Matrix3Xd::Zero(3, 12);
-        double scale = 0;
-        for (std::size_t s = 0; s < tension.size(); ++s) {
-            const auto [a, b] = found.lines[s];
-            const Eigen::Vector3d along = (found.points[static_cast<std::size_t>(b)] -
-                                           found.points[static_cast<std::size_t>(a)])
-                                              .stableNormalized();
-            force.col(a) += tension[s] * along;
-            force.col(b) -= tension[s] * along;
-            scale = std::max(scale, std::abs(tension[s]));
-        }
-        taut::Points<Scalar, Dim> expected;
-        auto still = state;
-        still.v.setZero();
-        system.force(still, expected);
-        const double written = 1e-7;  // nine digits of positions some 1e-2 apart
-        CHECK(distance(force.topRows(Dim), expected) <=
-              scale * (written + Tolerance<Scalar>::accumulated));
+            Eigen::Matrix3Xd force = Eigen::Matrix3Xd::Zero(3, 12);
+            double scale = 0;
+            for (std::size_t s = 0; s < tension.size(); ++s) {
+                const auto [a, b] = found.lines[s];
+                const Eigen::Vector3d along = (found.points[static_cast<std::size_t>(b)] -
+                                               found.points[static_cast<std::size_t>(a)])
+                                                  .stableNormalized();
+                force.col(a) += tension[s] * along;
+                force.col(b) -= tension[s] * along;
+                scale = std::max(scale, std::abs(tension[s]));
+            }
+            AnyState still = state;
+            still.v.setZero();
+            const double written = 1e-7;  // nine digits of positions some 1e-2 apart
+            CHECK(distance(force.topRows(kind.dim), scene.force(still)) <=
+                  scale * (written + kind.accumulated()));
 
-        for (Index i = 0; i < 12; ++i) {
-            const auto at = static_cast<std::size_t>(i);
-            CHECK(found.vertices.at("pinned")[at] == (i == 0 ? 1 : 0));
-            CHECK_THAT(found.vertices.at("mass")[at],
-                       WithinRel(static_cast<double>(system.mass(i)), 1e-8));
-            CHECK_THAT(found.vertices.at("velocity")[3 * at],
-                       WithinAbs(static_cast<double>(state.v(0, i)), 1e-7));
+            for (Index i = 0; i < 12; ++i) {
+                const auto at = static_cast<std::size_t>(i);
+                CHECK(found.vertices.at("pinned")[at] == (i == 0 ? 1 : 0));
+                CHECK_THAT(found.vertices.at("mass")[at], WithinRel(scene.mass(i), 1e-8));
+                CHECK_THAT(found.vertices.at("velocity")[3 * at], WithinAbs(state.v(0, i), 1e-7));
+            }
+            CHECK(found.cells.at("law").front() == 0);
+            CHECK(found.cells.at("law").back() == static_cast<double>(laws_of(kind).size() - 1));
         }
-        CHECK(found.cells.at("law").front() == 0);
-        CHECK(found.cells.at("law").back() == 2);
     }
 }
 
 TEST_CASE("vtk: strain is the change of length, and a spring of no length has neither", "[io]") {
     const TemporaryFile file("strain.vtk");
-    taut::SpringSystem<double, 3> system;
-    system.add_particle({0, 0, 0}, 1);
-    system.add_particle({1, 0, 0}, 1);
-    system.add_particle({0, 0, 0}, 1);
-    system.add_spring<taut::Hookean>({0, 1, {100}, 0.8});
-    system.add_spring<taut::Hookean>({0, 2, {100}, 0.5});  // its ends meet
-    system.add_spring<taut::Hookean>({0, 1, {100}, 0});
-    REQUIRE(taut::write_vtk(file.path, system, system.initial_state()));
+    Scene scene({false, 3, Laws::any});
+    for (const double x : {0, 1, 0}) scene.add_particle(Eigen::Vector3d(x, 0, 0), 1);
+    scene.add_spring({0, 1, 100, 0.8});
+    scene.add_spring({0, 2, 100, 0.5});  // its ends meet
+    scene.add_spring({0, 1, 100, 0});
+    REQUIRE(write_vtk(file.path, scene, scene.initial_state()));
     const auto found = read(file);
     REQUIRE(found.understood);
     CHECK_THAT(found.cells.at("strain")[0], WithinRel(0.25, 1e-8));
@@ -158,21 +151,21 @@ TEST_CASE("vtk: strain is the change of length, and a spring of no length has ne
 
 TEST_CASE("vtk: bad input: a path, a size or a position that cannot be written",
           "[io][bad_input]") {
-    taut::SpringSystem<float, 2> system;
-    system.add_particle({0, 0}, 1);
-    system.add_particle({1, 0}, 1);
-    auto state = system.initial_state();
-    const auto report = taut::write_vtk("no_such_directory/state.vtk", system, state);
+    Scene scene({true, 2, Laws::mixed});
+    scene.add_particle(Eigen::Vector2d(0, 0), 1);
+    scene.add_particle(Eigen::Vector2d(1, 0), 1);
+    auto state = scene.initial_state();
+    const auto report = write_vtk("no_such_directory/state.vtk", scene, state);
     CHECK(report.status == taut::FileStatus::not_opened);
     CHECK_THAT(report.message(), ContainsSubstring("no_such_directory/state.vtk: cannot"));
-    state.x(0, 1) = std::numeric_limits<float>::quiet_NaN();
-    CHECK(taut::write_vtk("not_written.vtk", system, state).where == 1);
+    state.x(0, 1) = std::numeric_limits<double>::quiet_NaN();
+    CHECK(write_vtk("not_written.vtk", scene, state).where == 1);
     CHECK_FALSE(std::ifstream("not_written.vtk"));
     state.x(0, 1) = 1;
-    state.v(1, 0) = std::numeric_limits<float>::infinity();
-    CHECK(taut::write_vtk("not_written.vtk", system, state).where == 0);
+    state.v(1, 0) = std::numeric_limits<double>::infinity();
+    CHECK(write_vtk("not_written.vtk", scene, state).where == 0);
     state.x.resize(2, 1);
-    CHECK_THAT(message_of([&] { (void)taut::write_vtk("not_written.vtk", system, state); }),
+    CHECK_THAT(message_of([&] { (void)write_vtk("not_written.vtk", scene, state); }),
                ContainsSubstring("1 positions and 2 velocities; the system has 2 particles"));
 }
 

@@ -167,8 +167,16 @@ void check_read(const Written& written) {
     for (Index i = 0; i < mesh.vertices.cols(); ++i)
         same = same && mesh.vertices.col(i) == written.vertices[static_cast<std::size_t>(i)];
     CHECK(same);
-    CHECK(mesh.faces.size() == written.faces.size());
     CHECK((mesh.faces == written.faces));
+}
+
+std::vector<std::string> split(const std::string& text) {
+    std::vector<std::string> words(1);
+    for (const char c : text) {
+        if (c == ' ') words.emplace_back();
+        if (c != ' ') words.back() += c;
+    }
+    return words;
 }
 
 const std::string corners_of_square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
@@ -235,58 +243,19 @@ TEST_CASE("mesh_file: a face of 300 corners with 300 quads at it keeps all its p
 TEST_CASE("mesh_file: bad input: a word that is no number is refused by its line",
           "[programs][bad_input]") {
     const std::string nul(1, '\0');
-    const std::vector<std::string> no_numbers = {"0x10",
-                                                 "nan",
-                                                 "inf",
-                                                 "1e999",
-                                                 "1..2",
-                                                 "1e",
-                                                 "--1",
-                                                 "1,5",
-                                                 "x",
-                                                 "1\v3",
-                                                 "1\f3",
-                                                 "1d0",
-                                                 "1" + nul,
-                                                 nul,
-                                                 "1\\2",
-                                                 "0x",
-                                                 "1x",
-                                                 "1\x1b[",
-                                                 "+-1",
-                                                 "1_0",
-                                                 "infinity",
-                                                 "1"
-                                                 "\xC2\xA0",
-                                                 "1e1.5"};
-    const std::vector<std::string> no_corners = {"0",
-                                                 "1.9",
-                                                 "1x",
-                                                 "1e0",
-                                                 "/1",
-                                                 "1/2/3/4",
-                                                 "1/x",
-                                                 "99999",
-                                                 "-99999",
-                                                 "0x1",
-                                                 "nan",
-                                                 "",
-                                                 "1\v2",
-                                                 "1//x",
-                                                 "1 x",
-                                                 "1" + nul + "2",
-                                                 "+-1",
-                                                 "4294967297",
-                                                 "1\\2",
-                                                 "9223372036854775808",
-                                                 "-9223372036854775808"};
+    auto no_numbers = split(
+        "0x10 nan inf 1e999 1..2 1e --1 1,5 x 1\v3 1\f3 1d0 1\\2 0x 1x 1\x1b[ +-1 1_0 infinity "
+        "1\xC2\xA0 1e1.5");
+    no_numbers.insert(no_numbers.end(), {nul, "1" + nul});
+    auto no_corners = split(
+        "0 1.9 1x 1e0 /1 1/2/3/4 1/x 99999 -99999 0x1 nan 1\v2 1//x +-1 4294967297 1\\2 "
+        "9223372036854775808 -9223372036854775808");
+    no_corners.insert(no_corners.end(), {"1 x", "1" + nul + "2"});
     for (std::uint32_t seed = 0; seed < 300; ++seed) {
         Random random(seed);
         const auto& words = seed % 2 == 0 ? no_numbers : no_corners;
         const auto& word = words[random.below(static_cast<Index>(words.size()))];
-        if (word.empty()) continue;
-        std::vector<std::string> numbers;
-        for (int i = 0; i < 3; ++i) numbers.push_back(std::to_string(i + 1));
+        std::vector<std::string> numbers{"1", "2", "3"};
         numbers[random.below(3)] = word;
         const char* kinds[] = {"v", "f", "l"};
         std::string line = kinds[seed % 2 == 0 ? 0 : 1 + random.below(2)];
@@ -323,9 +292,7 @@ TEST_CASE("mesh_file: bad input: what is no line of a mesh is refused", "[progra
     CHECK_THAT(complaint(corners_of_square + "f 1 2 3\\\n4\n"),
                ContainsSubstring("mesh_file.obj:5: "));
     CHECK_THAT(complaint(corners_of_square + "f 1 2 3 \\"), ContainsSubstring("mesh_file.obj:5: "));
-    CHECK_THAT(complaint(corners_of_square + "\xFF\xFE"
-                                             "f\n"),
-               ContainsSubstring("mesh_file.obj:5: "));
+    CHECK_THAT(complaint(corners_of_square + "\xFF\xFE\n"), ContainsSubstring("mesh_file.obj:5: "));
     CHECK_THAT(complaint(corners_of_square), ContainsSubstring("4 vertices and 0 faces"));
     CHECK_THAT(complaint(""), ContainsSubstring("0 vertices and 0 faces"));
     CHECK_THAT(complaint(std::string(1000, '\x1b')), !ContainsSubstring("\x1b"));
