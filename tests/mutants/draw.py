@@ -15,7 +15,7 @@ import re
 import sys
 
 sys.dont_write_bytecode = True
-from run import read_list  # noqa: E402, after the line above
+from lists import read_list  # noqa: E402, after the line above
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
