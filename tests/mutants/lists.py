@@ -11,17 +11,19 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 LISTS = ("chosen", "drawn")
-Mutant = collections.namedtuple("Mutant", "name room file old new at key")
+Mutant = collections.namedtuple("Mutant", "name room file old new at key unseen")
 
 
 def read_list(name):
     path = HERE / f"{name}.txt"
-    mutants, block, at = [], [], 0
+    mutants, block, at, unseen = [], [], 0, ""
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines() + [""], 1):
         if line.strip() and not line.startswith("#"):
             at = at or number
             block.append(line)
             continue
+        if line.startswith("# unseen: "):
+            unseen = line[len("# unseen: "):]
         if line.strip() or not block:
             continue
         head = block[0].split()
@@ -29,8 +31,8 @@ def read_list(name):
             sys.exit(f"{path}:{at}: not a block of ROOM FILE, a line '- ' and a line '+ '")
         old, new = block[1][1:].strip(), block[2][1:].strip()
         key = hashlib.sha256("\n".join([head[1], old, new]).encode()).hexdigest()[:12]
-        mutants.append(Mutant(f"{name}:{len(mutants) + 1}", head[0], head[1], old, new, at, key))
-        block, at = [], 0
+        mutants.append(Mutant(f"{name}:{len(mutants) + 1}", head[0], head[1], old, new, at, key, unseen))
+        block, at, unseen = [], 0, ""
     return mutants
 
 
@@ -88,7 +90,9 @@ def included(path, folders):
 
 
 def rooms_with_tests():
-    return sorted(p.name for p in (ROOT / "tests").iterdir() if any(p.glob("*_test.cpp")))
+    """Those with the least to compile come first."""
+    sizes = {p.name: sum(f.stat().st_size for f in p.glob("*_test.cpp")) for p in (ROOT / "tests").iterdir()}
+    return sorted((room for room, size in sizes.items() if size), key=lambda room: (sizes[room], room))
 
 
 def programs_that_read(file):

@@ -22,9 +22,10 @@ import signal
 import sys
 
 sys.dont_write_bytecode = True
-from lists import LISTS, ROOT, broken, check, numbers, programs_that_read, read_list, rooms_with_tests  # noqa: E402
+from lists import HERE, LISTS, ROOT, broken, check, numbers, programs_that_read, read_list, rooms_with_tests  # noqa: E402
 from switched import Switched  # noqa: E402
-from tree import KILLED, NO_BUILD, SURVIVED, Copy, program_of  # noqa: E402
+from table import ELSEWHERE, outcomes, record, table  # noqa: E402
+from tree import NO_BUILD, SURVIVED, Copy, program_of  # noqa: E402
 
 
 class Single(Copy):
@@ -73,34 +74,6 @@ class Single(Copy):
             path.write_text(whole, encoding="utf-8")
 
 
-# ---- the whole ----
-
-def table(mutants, rows):
-    latest = {}
-    for row in rows:
-        latest.setdefault(row.key, {})[row.program] = row.outcome
-    counts = collections.defaultdict(collections.Counter)
-    survivors = []
-    for m in mutants:
-        outcomes = latest.get(m.key, {})
-        if not outcomes:
-            outcome = "not run"
-        elif KILLED in outcomes.values():
-            outcome = KILLED if outcomes.get(m.room) == KILLED else "elsewhere"
-        else:
-            outcome = NO_BUILD if NO_BUILD in outcomes.values() else SURVIVED
-        counts[m.room][outcome] += 1
-        counts["all"][outcome] += 1
-        if outcome in (SURVIVED, "elsewhere"):
-            survivors.append((m, outcome))
-    columns = (KILLED, "elsewhere", SURVIVED, NO_BUILD, "not run")
-    print(f"\n{'room':14}" + "".join(f"{c:>18}" for c in columns))
-    for room in sorted(counts, key=lambda r: (r == "all", r)):
-        print(f"{room:14}" + "".join(f"{counts[room][c]:>18}" for c in columns))
-    for m, outcome in survivors:
-        print(f"\n{m.name} survived{'' if outcome == SURVIVED else ' its own room'}: {m.file}\n- {m.old}\n+ {m.new}")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--list", choices=(*LISTS, "both"), default="both")
@@ -109,10 +82,12 @@ def main():
     parser.add_argument("--most", type=int, help="at most so many of a room and list, drawn by their text")
     parser.add_argument("--check", action="store_true", help="whether each line occurs once; compiles nothing")
     parser.add_argument("--table", action="store_true", help="what is known; compiles nothing")
+    parser.add_argument("--record", action="store_true", help="write what is known to results.txt; compiles nothing")
     parser.add_argument("--wider", action="store_true", help="survivors: all programs that read the header, too")
     parser.add_argument("--again", action="store_true", help="those that have a result, too")
     parser.add_argument("--singly", action="store_true", help="no switches: each mutant is built anew")
     parser.add_argument("--no-rest", action="store_true", help="only mutants that have a switch")
+    parser.add_argument("--survivors", action="store_true", help="only those that survived, again: tests were written")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="compilers and programs at a time")
     parser.add_argument("--memory", type=float, default=8, help="of a process, at most, GB")
     parser.add_argument("--build-limit", type=float, default=7200, help="s")
@@ -138,6 +113,9 @@ def main():
     if options.table:
         table(mutants, copy.known())
         return 0
+    if options.record:
+        (HERE / "results.txt").write_text(record(mutants, copy.known()), encoding="utf-8")
+        return 0
     if not check(mutants):
         return 1
     signal.signal(signal.SIGTERM, lambda *_: sys.exit("stopped"))  # which ends the children and mends the line
@@ -146,21 +124,26 @@ def main():
     def has_result(m, room):
         return any(r.key == m.key and r.program == room for r in copy.known())
 
-    todo = [m for m in mutants if options.again or not has_result(m, m.room)]
+    if options.survivors:
+        mutants = [m for m, outcome, _, _ in outcomes(mutants, copy.known()) if outcome in (SURVIVED, ELSEWHERE)]
+    todo = [m for m in mutants if options.again or options.survivors or not has_result(m, m.room)]
     everything = [m for name in LISTS for m in read_list(name)]
     numbered = dict(enumerate(everything, 1))
     number_of = {m.key: number for number, m in numbered.items()}
     switched, inside = None, set()
     if not options.singly:
         switched = Switched(options, numbered, rooms_with_tests())
-        switched.compile()
+        switched.check()
         inside = switched.switched()
         print(f"{len(inside)} of {len(numbered)} mutants have a switch", flush=True)
 
         def note(m, room, outcome, seconds, detail):
             switched.note(m.key, room, outcome, 0, seconds, m.name, detail)
 
-        switched.run([(m, number_of[m.key], m.room) for m in todo if number_of[m.key] in inside], note)
+        for room in rooms_with_tests():  # one after the other, so that the first results come early
+            wanted = [(m, number_of[m.key], room) for m in todo if m.room == room and number_of[m.key] in inside]
+            if wanted:
+                switched.run(wanted, note)
     rest = [m for m in todo if number_of[m.key] not in inside]
     if rest and not options.no_rest:
         single = Single(options)
