@@ -10,8 +10,11 @@ A list is made of blocks with blank lines between them:
     - a line of the file                        which occurs once; blanks around it do not count
     + what becomes of it
 
-Each result is appended to build/mutants/results.tsv. A mutant that has one there is not run again, so the program
-may be stopped and started again. docs/testing.md says more.
+The line "# unseen: why" marks a mutant that no test can kill.
+
+The library is built once, with a switch at each line that can have one (switched.py); then the others are built one
+by one. Each result is appended to build/mutants/results.tsv. A mutant that has one there is not run again, so the
+program may be stopped and started again. docs/testing.md says more.
 """
 
 import argparse
@@ -74,6 +77,16 @@ class Single(Copy):
             path.write_text(whole, encoding="utf-8")
 
 
+def elsewhere(mutants, rows):
+    """Survivors, and the rooms whose tests read their header and have not run by them."""
+    for m, outcome, _, _ in outcomes(mutants, rows):
+        if outcome == SURVIVED:
+            done = {row.program for row in rows if row.key == m.key}
+            rooms = [room for room in programs_that_read(m.file) if room not in done]
+            if rooms:
+                yield m, rooms
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--list", choices=(*LISTS, "both"), default="both")
@@ -121,52 +134,26 @@ def main():
     signal.signal(signal.SIGTERM, lambda *_: sys.exit("stopped"))  # which ends the children and mends the line
     copy.lock()
 
-    def has_result(m, room):
-        return any(r.key == m.key and r.program == room for r in copy.known())
-
     if options.survivors:
         mutants = [m for m, outcome, _, _ in outcomes(mutants, copy.known()) if outcome in (SURVIVED, ELSEWHERE)]
-    todo = [m for m in mutants if options.again or options.survivors or not has_result(m, m.room)]
-    everything = [m for name in LISTS for m in read_list(name)]
-    numbered = dict(enumerate(everything, 1))
-    number_of = {m.key: number for number, m in numbered.items()}
-    switched, inside = None, set()
-    if not options.singly:
-        switched = Switched(options, numbered, rooms_with_tests())
-        switched.check()
-        inside = switched.switched()
-        print(f"{len(inside)} of {len(numbered)} mutants have a switch", flush=True)
-
-        def note(m, room, outcome, seconds, detail):
-            switched.note(m.key, room, outcome, 0, seconds, m.name, detail)
-
-        for room in rooms_with_tests():  # one after the other, so that the first results come early
-            wanted = [(m, number_of[m.key], room) for m in todo if m.room == room and number_of[m.key] in inside]
-            if wanted:
-                switched.run(wanted, note)
-    rest = [m for m in todo if number_of[m.key] not in inside]
+    known = {(row.key, row.program) for row in copy.known()}
+    todo = [m for m in mutants if options.again or options.survivors or (m.key, m.room) not in known]
+    switched = None if options.singly else Switched(options, [m for name in LISTS for m in read_list(name)])
+    for room in rooms_with_tests() if switched else []:  # one after the other: the first results come early
+        switched.run([(m, room) for m in todo if m.room == room])
+    rest = [(m, [m.room]) for m in todo if not switched or not switched.has(m)]
+    single = None
     if rest and not options.no_rest:
         single = Single(options)
-        for m in sorted(rest, key=lambda m: m.room):  # a stable sort: a room is built once
-            single.try_mutant(m, [m.room])
+        for m, rooms in sorted(rest, key=lambda r: r[1]):  # a stable sort: a room is built once
+            single.try_mutant(m, rooms)
     if options.wider:
-        def survivors():
-            rows = collections.defaultdict(list)
-            for row in copy.known():
-                rows[row.key].append(row)
-            for m in mutants:
-                if rows[m.key] and all(r.outcome == SURVIVED for r in rows[m.key]):
-                    done = {r.program for r in rows[m.key]}
-                    yield m, [room for room in programs_that_read(m.file) if room not in done]
-
-        wanted = [(m, number_of[m.key], room) for m, rooms in survivors() for room in rooms
-                  if number_of[m.key] in inside]
+        wider = list(elsewhere(mutants, copy.known()))
         if switched:
-            switched.run(wanted, note)
-        left = [(m, rooms) for m, rooms in survivors() if rooms and number_of[m.key] not in inside]
-        if left and not options.no_rest:
-            single = Single(options)
-            for m, rooms in left:
+            switched.run([(m, room) for m, rooms in wider for room in rooms])
+        for m, rooms in wider if not options.no_rest else []:
+            if not switched or not switched.has(m):
+                single = single or Single(options)
                 single.try_mutant(m, rooms)
     table(mutants, copy.known())
     return 0

@@ -10,34 +10,36 @@ import shlex
 import sys
 
 import switches
-from lists import ROOT, broken
+from lists import ROOT, broken, rooms_with_tests
 from tree import KILLED, SURVIVED, Copy, Task, program_of
 
 HEADER = "include/taut_mutants.hpp"
 
 
 class Switched(Copy):
-    """numbered: {number: mutant}, all of the lists, so that one build serves every choice among them."""
+    """Of all mutants of the lists, so that one build serves every choice among them."""
 
-    def __init__(self, options, numbered, rooms):
+    def __init__(self, options, mutants):
         super().__init__(options, "switched")
-        self.rooms = rooms
+        self.numbers = {m.key: number for number, m in enumerate(mutants, 1)}
         self.store = self.work / "switched/choices.json"
         stored = json.loads(self.store.read_text(encoding="utf-8")) if self.store.is_file() else {}
         self.checked = stored.get("checked", "")
         self.texts, self.tokens, self.groups, self.lines = {}, {}, {}, {}
         at_line = collections.defaultdict(list)
-        for number, m in numbered.items():
-            at_line[m.file, m.old].append((m, number))
-        for (file, _), mutants in at_line.items():
+        for m in mutants:
+            at_line[m.file, m.old].append((m, self.numbers[m.key]))
+        for (file, _), at in at_line.items():
             if file not in self.texts:
                 self.texts[file] = (ROOT / file).read_text(encoding="utf-8")
                 self.tokens[file] = switches.Tokens(self.texts[file])
-            new = [(m, n, switches.Tokens(broken(self.texts[file], m))) for m, n in mutants]
+            new = [(m, n, switches.Tokens(broken(self.texts[file], m))) for m, n in at]
             self.groups.setdefault(file, []).append(switches.Group(self.tokens[file], new))
         for file in self.groups:
             while self.rewritten(file, stored.get("choices", {})) is None:
                 pass
+        self.check()
+        print(f"{sum(map(self.has, mutants))} of {len(mutants)} mutants have a switch", flush=True)
 
     def rewritten(self, file, choices=None):
         """The text of a file with its switches, or None where two groups had to become one."""
@@ -68,15 +70,14 @@ class Switched(Copy):
         choices = {g.name(): g.at for groups in self.groups.values() for g in groups}
         self.store.write_text(json.dumps({"checked": self.checked, "choices": choices}, indent=1), encoding="utf-8")
 
-    def switched(self):
-        """{number of a mutant that has a switch}."""
-        return {n for groups in self.groups.values() for g in groups if g.candidate() for _, n, _ in g.mutants}
+    def has(self, mutant):
+        return any(g.candidate() and mutant.key in (m.key for m, _, _ in g.mutants) for g in self.groups[mutant.file])
 
     # ---- what compiles ----
 
     def commands(self):
         """[(source, arguments)] that check the syntax of what is built."""
-        folders = [f"{program_of(room)[0]}.dir/" for room in self.rooms]
+        folders = [f"{program_of(room)[0]}.dir/" for room in rooms_with_tests()]
         listed = json.loads((self.build / "compile_commands.json").read_text(encoding="utf-8"))
         found = []
         for entry in listed:
@@ -193,11 +194,15 @@ class Switched(Copy):
             folder.mkdir(exist_ok=True)
             yield folder
 
-    def run(self, wanted, results):
-        """wanted: [(mutant, number, room)]. results(mutant, room, outcome, seconds, detail) takes each."""
+    def run(self, wanted):
+        """wanted: [(mutant, room)], of which those without a switch are left."""
+        wanted = [(m, room) for m, room in wanted if self.has(m)]
+        rooms = {room for _, room in wanted}
+        if not rooms:
+            return
         free = list(self.folders(self.options.jobs))
-        rooms = {room for _, _, room in wanted}
         self.compile(rooms)
+        wanted = [w for w in wanted if self.has(w[0])]
         fresh = [self.test(room, room, self.fresh_log(f"unbroken-{room}"), 3600, self.work)
                  for room in sorted(rooms) if self.unbroken(room) is None]
         for task, status, seconds in self.many(self.placed(fresh, free), self.options.jobs):
@@ -207,25 +212,25 @@ class Switched(Copy):
             if outcome != SURVIVED:
                 print(f"{task.name} does not pass unbroken: {task.log}", flush=True)
         took = {room: self.unbroken(room) for room in rooms}
-        wanted = [w for w in wanted if took[w[2]] is not None]
+        wanted = [w for w in wanted if took[w[1]] is not None]
         of, killed = {}, set()
 
         def tasks():  # cheap rooms first; who is dead is not run by the next
-            for m, number, room in sorted(wanted, key=lambda w: (took[w[2]], w[2], w[1])):
-                if number in killed:
+            for m, room in sorted(wanted, key=lambda w: (took[w[1]], w[1], self.numbers[w[0].key])):
+                if m.key in killed:
                     continue
                 name = f"{m.name}-{room}"
-                of[name] = (m, number, room)
+                of[name] = (m, room)
                 yield self.test(name, room, self.fresh_log(name), max(30.0, 5 * took[room]), self.work,
-                                {"TAUT_MUTANT": str(number)})
+                                {"TAUT_MUTANT": str(self.numbers[m.key])})
 
         for task, status, seconds in self.many(self.placed(tasks(), free), self.options.jobs):
             free.append(task.cwd)
-            m, number, room = of[task.name]
+            m, room = of[task.name]
             outcome, detail = self.outcome(task, status)
             if outcome == KILLED:
-                killed.add(number)
-            results(m, room, outcome, seconds, detail)
+                killed.add(m.key)
+            self.note(m.key, room, outcome, 0, seconds, m.name, detail)
 
     @staticmethod
     def placed(tasks, free):

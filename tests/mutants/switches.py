@@ -87,8 +87,10 @@ class Tokens:
     def is_block(self, i):
         """Whether the brace at i opens statements, not a list of values."""
         before = self.words[i - 1] if i else ""
-        if before in (")", "]", "const", "noexcept", "override", "else", "do", "try", ";", "{", "}", "mutable"):
-            return before != "]" or True
+        if before == "{":
+            return self.is_block(i - 1)
+        if before in (")", "]", "const", "noexcept", "override", "else", "do", "try", ";", "}", "mutable"):
+            return True
         head = i - 1
         while head >= 0 and self.words[head] not in (";", "{", "}", "(", ")", ","):
             head -= 1
@@ -219,7 +221,8 @@ class Group:
     def statements(self):
         """[(begin, end)] of statements that hold all differences and end by a semicolon, the inner first."""
         old, found = self.old, []
-        opens = sorted((i for i, j in old.partner.items() if i < self.first and j >= self.last and i < j), reverse=True)
+        opens = sorted((i for i, j in old.partner.items() if i < self.first and i < j and j >= self.last),
+                       reverse=True)
         for brace in opens:
             if old.words[brace] != "{" or not old.is_block(brace):
                 continue
@@ -256,7 +259,7 @@ class Group:
     def without_heads(self, begin, end):
         """The statement, and what if, else, for and while stand before; the inner first."""
         words, found = self.old.words, []
-        while begin < self.first or begin == self.first:
+        while begin <= self.first:
             found.append((begin, end))
             at = begin
             if words[at] in ("if", "for", "while", "switch"):
@@ -284,8 +287,7 @@ class Group:
             return begin
         if words[begin] in LEADING and words[begin] not in ("const", "auto", "constexpr"):
             return None
-        depth_end = end
-        while i < depth_end and words[i] not in ("=", "(", "{", ";", "[") and not (
+        while i < end and words[i] not in ("=", "(", "{", ";", "[") and not (
                 self.old.binary[i] and words[i] in ASSIGN):
             if words[i] == "<" and i in self.old.partner:
                 i = self.old.partner[i] + 1
@@ -338,8 +340,6 @@ def rewrite(text, tokens, groups):
     for (begin, end, new), group in places:
         start, stop = tokens.starts[begin], tokens.ends[end - 1]
         out += [text[at:start], new, "\n" * text.count("\n", start, stop)]
-        if text.count("\n", start, stop):  # what follows on the last line stays on it
-            pass
         for line in range(bisect.bisect(breaks, start - 1) + 1, bisect.bisect(breaks, stop - 1) + 2):
             lines.setdefault(line, []).append(group)
         at = stop

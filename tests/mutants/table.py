@@ -51,9 +51,10 @@ def table(mutants, rows):
 def record(mutants, rows):
     """What results.txt holds: no times, nothing of the machine."""
     found = list(outcomes(mutants, rows))
-    lines = ["# Written by run.py --record. What became of each mutant, and the first check that failed: its own room's,",
-             "# or else the room's that is named. README: docs/testing.md.", "", *counts(found), ""]
+    lines = ["# Written by run.py --record: what became of each mutant, and the first check that failed, in its own room",
+             "# or else in another. docs/testing.md says more.", "", *counts(found), ""]
     for m, outcome, room, how in found:
         by = "" if room in ("", m.room) or how.startswith(f"tests/{room}/") else f" ({room})"
-        lines.append(f"{m.name:12}{m.room:14}{outcome:18}{how}{by}{'unseen: ' + m.unseen if m.unseen else ''}".rstrip())
+        unseen = f"unseen: {m.unseen}" if m.unseen else ""
+        lines.append(f"{m.name:12}{m.room:14}{outcome:18}{how}{by}{unseen}".rstrip())
     return "\n".join(lines) + "\n"
