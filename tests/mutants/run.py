@@ -25,7 +25,8 @@ import signal
 import sys
 
 sys.dont_write_bytecode = True
-from lists import HERE, LISTS, ROOT, broken, check, numbers, programs_that_read, read_list, rooms_with_tests  # noqa: E402
+from lists import HERE, LISTS, ROOT, broken, check, numbers  # noqa: E402, after the line above
+from lists import programs_that_read, read_list, rooms_with_tests  # noqa: E402
 from switched import Switched  # noqa: E402
 from table import ELSEWHERE, outcomes, record, table  # noqa: E402
 from tree import NO_BUILD, SURVIVED, Copy, program_of  # noqa: E402
@@ -100,13 +101,13 @@ def main():
     parser.add_argument("--again", action="store_true", help="those that have a result, too")
     parser.add_argument("--singly", action="store_true", help="no switches: each mutant is built anew")
     parser.add_argument("--no-rest", action="store_true", help="only mutants that have a switch")
-    parser.add_argument("--survivors", action="store_true", help="only those that survived, again: tests were written")
+    parser.add_argument("--survivors", action="store_true", help="only those that survived, again")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="compilers and programs at a time")
     parser.add_argument("--memory", type=float, default=8, help="of a process, at most, GB")
     parser.add_argument("--build-limit", type=float, default=7200, help="s")
     parser.add_argument("--work", type=pathlib.Path, default=ROOT / "build/mutants",
                         help="the folder of the copy; two runs at a time need two")
-    parser.add_argument("--cmake", action="append", default=[], help="one more argument of cmake: --cmake=-DNAME=VALUE")
+    parser.add_argument("--cmake", action="append", default=[], help="one more argument: --cmake=-DNAME=VALUE")
     options = parser.parse_args()
 
     mutants = [m for name in LISTS if options.list in (name, "both") for m in read_list(name)]

@@ -51,8 +51,8 @@ def table(mutants, rows):
 def record(mutants, rows):
     """What results.txt holds: no times, nothing of the machine."""
     found = list(outcomes(mutants, rows))
-    lines = ["# Written by run.py --record: what became of each mutant, and the first check that failed, in its own room",
-             "# or else in another. docs/testing.md says more.", "", *counts(found), ""]
+    lines = ["# Written by run.py --record: what became of each mutant, and the first check that failed.",
+             "# elsewhere: not in its own room. docs/testing.md says more.", "", *counts(found), ""]
     for m, outcome, room, how in found:
         by = "" if room in ("", m.room) or how.startswith(f"tests/{room}/") else f" ({room})"
         unseen = f"unseen: {m.unseen}" if m.unseen else ""
