@@ -33,11 +33,12 @@ from tree import NO_BUILD, SURVIVED, Copy, program_of  # noqa: E402
 
 
 class Single(Copy):
-    """One mutant at a time, each built anew."""
+    """One mutant at a time, each built anew. The switched build has run the unbroken programs, if there is one."""
 
-    def __init__(self, options):
+    def __init__(self, options, switched):
         super().__init__(options, "single")
         self.sync()
+        self.switched = switched
         self.configure("-D", "TAUT_COMPILED=OFF")  # which a line of the core would have built anew each time
 
     def run(self, name, room, limit):
@@ -55,6 +56,8 @@ class Single(Copy):
     def time_limit(self, room):
         """Five times what the unbroken program takes, which must pass."""
         seconds = self.unbroken(room)
+        if seconds is None and self.switched:
+            seconds = self.switched.unbroken(room)
         if seconds is None:
             outcome, build_s, seconds, detail = self.run("unbroken", room, 3600)
             self.note(f"unbroken-{self.digest}", room, outcome, build_s, seconds, "unbroken", detail)
@@ -145,7 +148,7 @@ def main():
     rest = [(m, [m.room]) for m in todo if not switched or not switched.has(m)]
     single = None
     if rest and not options.no_rest:
-        single = Single(options)
+        single = Single(options, switched)
         for m, rooms in sorted(rest, key=lambda r: r[1]):  # a stable sort: a room is built once
             single.try_mutant(m, rooms)
     if options.wider:
@@ -154,7 +157,7 @@ def main():
             switched.run([(m, room) for m, rooms in wider for room in rooms])
         for m, rooms in wider if not options.no_rest else []:
             if not switched or not switched.has(m):
-                single = single or Single(options)
+                single = single or Single(options, switched)
                 single.try_mutant(m, rooms)
     table(mutants, copy.known())
     return 0
