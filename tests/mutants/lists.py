@@ -3,6 +3,7 @@
 """Reads the lists of mutants; run.py says what is in them."""
 
 import collections
+import functools
 import hashlib
 import pathlib
 import re
@@ -80,13 +81,15 @@ def numbers(text):
     return chosen
 
 
-def included(path, folders):
+@functools.lru_cache(None)
+def included(path):
+    found = []
     for name in re.findall(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', path.read_text(encoding="utf-8"), re.M):
-        for folder in (path.parent, *folders):
-            found = (folder / name).resolve()
-            if found.is_file():
-                yield found
+        for folder in (path.parent, ROOT / "include", ROOT / "tests"):
+            if (folder / name).is_file():
+                found.append((folder / name).resolve())
                 break
+    return found
 
 
 def rooms_with_tests():
@@ -95,17 +98,17 @@ def rooms_with_tests():
     return sorted((room for room, size in sizes.items() if size), key=lambda room: (sizes[room], room))
 
 
-def programs_that_read(file):
-    folders = (ROOT / "include", ROOT / "tests")
-    target, programs = (ROOT / file).resolve(), []
-    for room in rooms_with_tests():
-        front = [*(ROOT / "tests" / room).glob("*_test.cpp"), *(ROOT / "tests/support").glob("*.cpp")]
-        known = set(front)
-        while front:
-            for path in included(front.pop(), folders):
-                if path not in known:
-                    known.add(path)
-                    front.append(path)
-        if target in known:
-            programs.append(room)
-    return programs
+@functools.lru_cache(None)
+def read_by(room):
+    front = [*(ROOT / "tests" / room).glob("*_test.cpp"), *(ROOT / "tests/support").glob("*.cpp")]
+    known = set(front)
+    while front:
+        for path in included(front.pop()):
+            if path not in known:
+                known.add(path)
+                front.append(path)
+    return known
+
+
+def rooms_that_read(file):
+    return [room for room in rooms_with_tests() if (ROOT / file).resolve() in read_by(room)]

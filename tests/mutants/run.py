@@ -26,7 +26,7 @@ import sys
 
 sys.dont_write_bytecode = True
 from lists import HERE, LISTS, ROOT, broken, check, numbers  # noqa: E402, after the line above
-from lists import programs_that_read, read_list, rooms_with_tests  # noqa: E402
+from lists import rooms_that_read, read_list, rooms_with_tests  # noqa: E402
 from switched import Switched  # noqa: E402
 from table import ELSEWHERE, outcomes, record, table  # noqa: E402
 from tree import NO_BUILD, SURVIVED, Copy, program_of  # noqa: E402
@@ -86,7 +86,7 @@ def elsewhere(mutants, rows):
     for m, outcome, _, _ in outcomes(mutants, rows):
         if outcome == SURVIVED:
             done = {row.program for row in rows if row.key == m.key}
-            rooms = [room for room in programs_that_read(m.file) if room not in done]
+            rooms = [room for room in rooms_that_read(m.file) if room not in done]
             if rooms:
                 yield m, rooms
 
@@ -152,10 +152,9 @@ def main():
         for m, rooms in sorted(rest, key=lambda r: r[1]):  # a stable sort: a room is built once
             single.try_mutant(m, rooms)
     if options.wider:
-        wider = list(elsewhere(mutants, copy.known()))
-        if switched:
-            switched.run([(m, room) for m, rooms in wider for room in rooms])
-        for m, rooms in wider if not options.no_rest else []:
+        for room in sorted(rooms_with_tests(), key=switched.seconds) if switched else []:
+            switched.run([(m, room) for m, rooms in elsewhere(mutants, copy.known()) if room in rooms])
+        for m, rooms in elsewhere(mutants, copy.known()) if not options.no_rest else []:
             if not switched or not switched.has(m):
                 single = single or Single(options, switched)
                 single.try_mutant(m, rooms)
