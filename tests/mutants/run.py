@@ -47,6 +47,8 @@ class Single(Copy):
         status, build_s = self.command(
             ["cmake", "--build", self.build, "--target", program_of(room)[0], "-j", str(self.options.jobs)],
             log, self.options.build_limit, self.work)
+        if status is not None and status < 0:
+            sys.exit(f"the build was stopped: {log}")
         if status != 0:
             return NO_BUILD, build_s, 0.0, "the compiler took too long" if status is None else ""
         for task, status, run_s in self.many([self.test(name, room, log, limit, self.build / "tests")], 1):

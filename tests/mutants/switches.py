@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Writes a file and its mutants as one text, in which the environment chooses the mutant at run time.
 
-A statement becomes    { if (TAUT_MUTANT(7)) { new } else { old } }
-an expression          (TAUT_MUTANT(7) ? (new) : (old)), where both have the same type
-an initialiser         T x = TAUT_MUTANT(7) ? T(new) : T(old);
+A statement becomes    { if (on(7)) { new } else { old } }
+an expression          (on(7) ? (new) : (old)), where both have the same type
+an initialiser         T x = on(7) ? T(new) : T(old);
 
 The tokens of the whole file are compared, not its lines. Which of several such places compiles, the compiler says.
 """
@@ -325,7 +325,17 @@ class Group:
         found += [(b, e, self.as_expression(b, e, "same")) for b, e in expressions]
         found += [(b, e, self.as_expression(b, e, "numbers")) for b, e in expressions
                   if words[b - 1] in ("(", ",", "=") and words[e] in (")", ",", ";")]
-        return found + last
+        found += last
+        return found + [without for place in found for without in self.without_constexpr(*place)]
+
+    def without_constexpr(self, begin, end, text):
+        """The place together with what stands before it, where that is constexpr, which no switch is."""
+        words, at = self.old.words, begin - 1
+        while at > 0 and words[at] not in (";", "}", "constexpr"):
+            at -= 1
+        if words[at] == "constexpr" and words[at - 1] != "if":
+            instead = "" if "{" in words[at:begin] else "const "
+            yield at, end, f"{instead}{self.old.text(at + 1, begin)} {text}"
 
 
 def rewrite(text, tokens, groups):
