@@ -21,6 +21,7 @@ import argparse
 import collections
 import os
 import pathlib
+import shutil
 import signal
 import sys
 
@@ -51,7 +52,10 @@ class Single(Copy):
             sys.exit(f"the build was stopped: {log}")
         if status != 0:
             return NO_BUILD, build_s, 0.0, "the compiler took too long" if status is None else ""
-        for task, status, run_s in self.many([self.test(name, room, log, limit, self.build / "tests")], 1):
+        folder = self.work / "single/run"
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir()
+        for task, status, run_s in self.many([self.test(name, room, log, limit, folder)], 1):
             outcome, detail = self.outcome(task, status)
             return outcome, build_s, run_s, detail
 

@@ -7,6 +7,7 @@ import json
 import pathlib
 import re
 import shlex
+import shutil
 import sys
 
 import switches
@@ -187,20 +188,13 @@ class Switched(Copy):
 
     # ---- the runs ----
 
-    def folders(self, count):
-        """Where programs run, each in its own: tests write files."""
-        for i in range(count):
-            folder = self.work / "switched" / f"run-{i}"
-            folder.mkdir(exist_ok=True)
-            yield folder
-
     def run(self, wanted):
         """wanted: [(mutant, room)], of which those without a switch are left."""
         wanted = [(m, room) for m, room in wanted if self.has(m)]
         rooms = {room for _, room in wanted}
         if not rooms:
             return
-        free = list(self.folders(self.options.jobs))
+        free = [self.work / f"switched/run-{i}" for i in range(self.options.jobs)]
         self.compile(rooms)
         wanted = [w for w in wanted if self.has(w[0])]
         fresh = [self.test(room, room, self.fresh_log(f"unbroken-{room}"), 3600, self.work)
@@ -232,5 +226,9 @@ class Switched(Copy):
 
     @staticmethod
     def placed(tasks, free):
+        """Each in an empty folder: tests write files, and ask whether some are not there."""
         for task in tasks:
-            yield task._replace(cwd=free.pop())
+            folder = free.pop()
+            shutil.rmtree(folder, ignore_errors=True)
+            folder.mkdir()
+            yield task._replace(cwd=folder)
