@@ -146,8 +146,9 @@ def main():
 
     if options.survivors:
         mutants = [m for m, outcome, _, _ in outcomes(mutants, copy.known()) if outcome in (SURVIVED, ELSEWHERE)]
-    known = {(row.key, row.program) for row in copy.known()}
-    todo = [m for m in mutants if options.again or options.survivors or (m.key, m.room) not in known]
+    before = len(copy.known()) if options.again or options.survivors else 0  # results that do not count
+    known = {(row.key, row.program) for row in copy.known()[before:]}
+    todo = [m for m in mutants if (m.key, m.room) not in known]
     switched = None if options.singly else Switched(options, [m for name in LISTS for m in read_list(name)])
     for room in rooms_with_tests() if switched else []:  # one after the other: the first results come early
         switched.run([(m, room) for m in todo if m.room == room])
@@ -159,8 +160,8 @@ def main():
             single.try_mutant(m, rooms)
     if options.wider:
         for room in sorted(rooms_with_tests(), key=switched.seconds) if switched else []:
-            switched.run([(m, room) for m, rooms in elsewhere(mutants, copy.known()) if room in rooms])
-        for m, rooms in elsewhere(mutants, copy.known()) if not options.no_rest else []:
+            switched.run([(m, room) for m, rooms in elsewhere(mutants, copy.known()[before:]) if room in rooms])
+        for m, rooms in elsewhere(mutants, copy.known()[before:]) if not options.no_rest else []:
             if not switched or not switched.has(m):
                 single = single or Single(options, switched)
                 single.try_mutant(m, rooms)
