@@ -3,6 +3,7 @@
 """Prints what is known of the mutants."""
 
 import collections
+import posixpath
 
 from tree import KILLED, NO_BUILD, SURVIVED
 
@@ -54,6 +55,7 @@ def record(mutants, rows):
     lines = ["# Written by run.py --record: what became of each mutant, and the first check that failed.",
              "# elsewhere: not in its own room. docs/testing.md says more.", "", *counts(found), ""]
     for m, outcome, room, how in found:
+        how = posixpath.normpath(how) if how else ""
         by = "" if room in ("", m.room) or how.startswith(f"tests/{room}/") else f" ({room})"
         unseen = f"unseen: {m.unseen}" if m.unseen else ""
         lines.append(f"{m.name:12}{m.room:14}{outcome:18}{how}{by}{unseen}".rstrip())
