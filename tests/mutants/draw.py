@@ -15,7 +15,7 @@ import re
 import sys
 
 sys.dont_write_bytecode = True
-from run import read_list  # noqa: E402, after the line above
+from lists import read_list  # noqa: E402, after the line above
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
@@ -131,7 +131,9 @@ def drawn(count, seed):
 def main():
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 90
     seed = int(sys.argv[2]) if len(sys.argv) > 2 else 1
-    blocks = [f"{room} {file}\n- {old}\n+ {new}\n" for room, file, old, new in drawn(count, seed)]
+    unseen = {(m.file, m.old, m.new): f"# unseen: {m.unseen}\n" for m in read_list("drawn") if m.unseen}
+    blocks = [f"{room} {file}\n{unseen.get((file, old, new), '')}- {old}\n+ {new}\n"
+              for room, file, old, new in drawn(count, seed)]
     head = f"# Written by draw.py: {count} mutants by seed {seed}. run.py describes the format.\n"
     (HERE / "drawn.txt").write_text("\n".join([head, *blocks]), encoding="utf-8")
 
