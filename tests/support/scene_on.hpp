@@ -3,6 +3,7 @@
 #pragma once
 
 #include <stdexcept>
+#include <taut/own_matrices/own_matrices.hpp>
 #include <taut/taut.hpp>
 
 #include "laws.hpp"
@@ -302,6 +303,28 @@ std::unique_ptr<AnyStepper> make_stepper(const Scene& scene, const More&... more
     });
     return made;
 }
+
+/// Steps the scene linearised at its initial state, by Stepper of LinearSystem.
+template <class Stepper, class System>
+class LinearOn : public AnyStepper {
+public:
+    explicit LinearOn(const System& system)
+        : linear_(taut::linearize(system, system.initial_state())), stepper_(linear_) {}
+
+    taut::Report step(AnyState& any, double h, Index count) override {
+        auto state = from_any<typename System::State>(any);
+        auto u = linear_.to_free(state);
+        const auto report = stepper_.step(u, static_cast<typename System::Scalar>(h), count);
+        linear_.from_free(u, state);
+        state.time = u.time;
+        any = to_any(state);
+        return report;
+    }
+
+private:
+    taut::LinearSystem<typename System::Scalar> linear_;
+    Stepper stepper_;
+};
 
 // One of scene_*.cpp instantiates each.
 #define TAUT_TEST_SCENES(KIND, SCALAR)                 \
