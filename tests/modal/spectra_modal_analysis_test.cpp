@@ -59,7 +59,7 @@ void check_basis(const taut::LinearSystem<double>& system, const ModalBasis& bas
 }  // namespace
 
 TEST_CASE("modal_analysis: the lowest modes of a cloth at its equilibrium are the dense solver's",
-          "[solver]") {
+          "[modal]") {
     const auto system = hanging_strip();
     const Eigen::MatrixXd K(system.stiffness());
     const Eigen::MatrixXd M = system.mass().asDiagonal();
@@ -81,7 +81,7 @@ TEST_CASE("modal_analysis: the lowest modes of a cloth at its equilibrium are th
 }
 
 TEST_CASE("modal_analysis: a long chain has its closed form, and a free one its rigid motion",
-          "[solver]") {
+          "[modal]") {
     const Index n = 400;
     for (const auto ends : {taut::ChainEnds::fixed_fixed, taut::ChainEnds::free_free}) {
         const auto chain = taut::chain<double, 1>({n, ends, 0.5, 200});
@@ -101,7 +101,7 @@ TEST_CASE("modal_analysis: a long chain has its closed form, and a free one its 
     }
 }
 
-TEST_CASE("modal_analysis: every mechanism of a flat net counts as rigid", "[solver]") {
+TEST_CASE("modal_analysis: every mechanism of a flat net counts as rigid", "[modal]") {
     // Without bending and shear the flat net has no stiffness across its plane: 100 modes, and more
     // in it.
     taut::ClothOptions options;
@@ -114,8 +114,7 @@ TEST_CASE("modal_analysis: every mechanism of a flat net counts as rigid", "[sol
     CHECK(basis.rigid() == 103);
 }
 
-TEST_CASE("modal_analysis: sixfold eigenvalues of a symmetric net are found six times",
-          "[solver]") {
+TEST_CASE("modal_analysis: sixfold eigenvalues of a symmetric net are found six times", "[modal]") {
     // A square net of springs without length splits into rows and coordinates: its eigenvalues are
     // sums of two of a row's, each three times, and twice that where the two differ.
     const Index side = 14;
@@ -155,7 +154,7 @@ TEST_CASE("modal_analysis: sixfold eigenvalues of a symmetric net are found six 
     }
 }
 
-TEST_CASE("modal_analysis: a count out of range is refused by name", "[solver][bad_input]") {
+TEST_CASE("modal_analysis: a count out of range is refused by name", "[modal][bad_input]") {
     const auto chain = taut::chain<double, 1>({5});
     const auto system = taut::linearize(chain, chain.initial_state());
     ModalBasis basis;

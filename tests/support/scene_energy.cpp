@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene_dense.hpp"
+
 namespace taut_test {
 
 namespace {
@@ -131,6 +133,32 @@ double rounding(const Scene& scene, const AnyState& state, double h) {
         sum += eps * scene.mass(i) * (fastest * fastest + g * reach);
     }
     return 32 * sum;
+}
+
+Real step_objective(const Scene& scene, const AnyState& start, const AnyState& end, double h) {
+    const auto time = static_cast<Real>(h);
+    const RealMatrix u = end.x.cast<Real>() - start.x.cast<Real>();
+    const RealVector move = Eigen::Map<const RealVector>(u.data(), u.size());
+    auto still = end;
+    still.v.setZero();
+    Real value = time * time * total_energy(scene, still);  // gravity's, too
+    for (Index i = 0; i < scene.size(); ++i) {
+        if (scene.is_pinned(i)) continue;
+        const Point off = u.col(i) - time * start.v.col(i).cast<Real>();
+        value += static_cast<Real>(scene.mass(i)) * off.squaredNorm() / 2;
+    }
+    const RealMatrix D = dense_matrices(scene, start).D.cast<Real>();
+    return value + time / 2 * move.dot(D * move);
+}
+
+Eigen::VectorXd open_impulse(const Scene& scene, const AnyState& before, const AnyState& after,
+                             double h) {
+    const auto dense = dense_matrices(scene, before);
+    auto still = after;
+    still.v.setZero();
+    const Eigen::VectorXd open = dense.M * (flat(after.v) - flat(before.v)) -
+                                 h * (flat_force(scene, still) - dense.D * flat(after.v));
+    return open(free_dofs(scene));
 }
 
 int rises(const Scene& scene, AnyStepper& stepper, AnyState state, double h, int steps) {

@@ -29,6 +29,15 @@ Real total_energy(const Scene& scene, const AnyState& state);
 /// there, and of velocities.
 double rounding(const Scene& scene, const AnyState& state, double h);
 
+/// φ of the nonlinear implicit step of h from `start` that ends in `end`, kg·m²: dampers at the
+/// start, gravity without a force from outside.
+Real step_objective(const Scene& scene, const AnyState& start, const AnyState& end, double h);
+
+/// M(v⁺ − v) − h(f(x⁺) − D(x)v⁺) of the free degrees of freedom, N·s: 0 after a step of nonlinear
+/// implicit Euler.
+Eigen::VectorXd open_impulse(const Scene& scene, const AnyState& before, const AnyState& after,
+                             double h);
+
 /// How many of `steps` raise the energy by more than rounding; all if one fails.
 int rises(const Scene& scene, AnyStepper& stepper, AnyState state, double h, int steps);
 

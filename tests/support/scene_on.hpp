@@ -79,9 +79,9 @@ taut::StepLimit<double> to_any(const taut::StepLimit<Scalar>& limit) {
             limit.revision};
 }
 
-/// A stepper behind AnyStepper.
-template <class Stepper, class System>
-class StepperOn : public AnyStepper {
+/// A stepper behind AnyStepper, or behind a Base of it that has more.
+template <class Stepper, class System, class Base = AnyStepper>
+class StepperOn : public Base {
 public:
     template <class... More>
     explicit StepperOn(const System& system, const More&... more) : stepper_(system, more...) {}
@@ -95,7 +95,7 @@ public:
     }
     Stepper& stepper() { return stepper_; }
 
-private:
+protected:
     Stepper stepper_;
 };
 

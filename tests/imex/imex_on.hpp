@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <taut/imex/imex.hpp>
+
+#include "../support/scene_on.hpp"
+#include "imex_scenes.hpp"
+
+namespace taut_test {
+
+template <class System>
+class ImexOn : public StepperOn<taut::ImexEuler<System>, System, AnyImex> {
+public:
+    using StepperOn<taut::ImexEuler<System>, System, AnyImex>::StepperOn;
+
+    taut::StepLimit<double> limit() const override { return to_any(this->stepper_.limit()); }
+    double share(Index s) const override { return this->stepper_.share(s); }
+    Index implicit_springs() const override { return this->stepper_.implicit_springs(); }
+    Index touched() const override { return this->stepper_.touched(); }
+    std::int64_t factorizations() const override { return this->stepper_.factorizations(); }
+    double added_kinetic(const AnyState& state) const override {
+        return this->stepper_.added_kinetic(from_any<typename System::State>(state));
+    }
+};
+
+/// Compiled apart.
+std::unique_ptr<AnyImex> imex_in_3d(const Scene& scene, const taut::ImexOptions& options);
+
+}  // namespace taut_test
