@@ -41,7 +41,7 @@ template <int Dim>
 void check_bound(const Matrix<Dim>& A) {
     const Real truth = largest_eigenvalue<Dim>(A);
     const double bound = eigenvalue_upper_bound<Dim>(A);
-    INFO("\n" << A << "\n: " << bound << " above " << static_cast<double>(truth));
+    INFO(Dim << " dimensions: " << bound << " above " << static_cast<double>(truth));
     CHECK(static_cast<Real>(bound) >= truth);
     CHECK(static_cast<Real>(bound) <= truth * (1 + 1.1e-6L));
 }
@@ -54,6 +54,7 @@ TEMPLATE_TEST_CASE("small_eigenvalue: a bound, and within 1e-6", "[stability]",
     constexpr int Dim = TestType::value;
     Random random(700 + Dim);
     for (int repeat = 0; repeat < 5000; ++repeat) {
+        INFO("repeat " << repeat << " of seed " << 700 + Dim);
         Eigen::Matrix<Real, Dim, 1> lambda;
         const double spread = log_uniform(random, 1e-18, 1);
         for (int i = 0; i < Dim; ++i) lambda[i] = static_cast<Real>(log_uniform(random, spread, 1));
@@ -77,6 +78,7 @@ TEMPLATE_TEST_CASE("small_eigenvalue: sums of few springs", "[stability]",
     constexpr int Dim = TestType::value;
     Random random(710 + Dim);
     for (int repeat = 0; repeat < 2000; ++repeat) {
+        INFO("repeat " << repeat << " of seed " << 710 + Dim);
         Matrix<Dim> A = Matrix<Dim>::Zero();
         for (Index s = 0; s < 1 + random.below(6); ++s) {
             auto d = random.vector<double, Dim>(-1, 1);
@@ -124,6 +126,7 @@ TEST_CASE("small_eigenvalue: proved_above is never true below the largest eigenv
     Random random(720);
     int tested = 0;
     for (int repeat = 0; repeat < 3000; ++repeat) {
+        INFO("repeat " << repeat << " of seed 720");
         Eigen::Matrix<Real, 3, 1> lambda;
         for (int i = 0; i < 3; ++i) lambda[i] = static_cast<Real>(log_uniform(random, 1e-12, 1));
         if (repeat % 2 == 0) lambda[1] = lambda[2];

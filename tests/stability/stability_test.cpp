@@ -273,6 +273,10 @@ TEST_CASE("stability: a change reaches the analysis by update() alone, and the l
     auto state = cloth.initial_state();
     taut::Stability<double> stability(cloth, state);
     const auto method = Method::symplectic_euler;
+    const auto certificate = taut::certify(stability, method, 1e-4);
+    CHECK(certificate.proved);
+    CHECK(certificate.step == 1e-4);
+    CHECK(certificate.method == method);
     const auto check = [&](const char* change, auto&& make) {
         INFO(change);
         const auto before = stability.max_step(method);
