@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 #include <limits>
-#include <taut/constraints/constraints.hpp>
-#include <taut/own_matrices/own_matrices.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/message.hpp"
-#include "check_forces.hpp"
+#include "held.hpp"
 
 namespace taut_test::constraints_test {
 
@@ -15,17 +13,6 @@ using taut::ParticleConstraints;
 
 namespace {
 
-/// Solved to rounding.
-template <class Stepper>
-struct Tight : Stepper {
-    template <class System>
-    explicit Tight(const System& system) : Stepper(system) {
-        using Scalar = typename System::Scalar;
-        this->configure(
-            [](auto& solver) { solver.setTolerance(16 * std::numeric_limits<Scalar>::epsilon()); });
-    }
-};
-using Constrained = Tight<taut::ConstrainedEuler<Springs>>;
 using Free = Tight<taut::ImplicitEuler<Springs>>;
 
 }  // namespace
@@ -71,50 +58,6 @@ TEMPLATE_TEST_CASE("constraints: planes, lines and prescribed velocities are hel
     CHECK(distance(state.x.col(6), start.x.col(6) + TestType(10) * h * velocity) <= tolerance);
     CHECK(distance(state.v.col(0), start.v.col(0)) == 0);
     CHECK(distance(state.v.col(5), start.v.col(5)) > 0.1);
-}
-
-TEST_CASE("constraints: of a linear system, and their release", "[constraints]") {
-    Random random(5);
-    const auto springs = draw_system(random);
-    auto pose = springs.initial_state();
-    pose.x *= 3;
-    const auto linear = taut::linearize(springs, pose);
-    auto u = linear.initial_state();
-    taut::ConstrainedEuler stepper(linear);
-    stepper.constraints().fix(4);
-    REQUIRE(stepper.step(u, 0.1, 5));
-    CHECK(u.x(0, 4) == 0);
-    CHECK(u.x(0, 5) != 0);
-    stepper.constraints().release(4);
-    auto expected = u;
-    REQUIRE(stepper.step(u, 0.1));
-    REQUIRE(taut::ImplicitEuler(linear).step(expected, 0.1));
-    CHECK(distance(u.v, expected.v) <= Tolerance<double>::accumulated);
-}
-
-TEST_CASE("constraints: filtered conjugate gradients take the direct solver's step",
-          "[constraints]") {
-    Random random(8);
-    const auto system = draw_system(random);
-    auto by_factors = random_state(random, system);
-    auto by_gradients = by_factors;
-    taut::ConstrainedEuler<Springs, taut::SparseCholesky<double>> direct(system);
-    Constrained filtered(system);
-    const auto hold = [](auto& constraints, int phase) {
-        constraints.clear();
-        constraints.hold_in_plane(3, {1, -1, 2}, 0.5 * phase);
-        if (phase != 1) constraints.prescribe(6, {0, 1.0 * phase, 0});
-        if (phase != 2) constraints.hold_on_line(4, {1, 1, 0});
-    };
-    for (const int phase : {0, 1, 2}) {
-        hold(direct.constraints(), phase);
-        hold(filtered.constraints(), phase);
-        REQUIRE(direct.step(by_factors, 0.02, 3));
-        REQUIRE(filtered.step(by_gradients, 0.02, 3));
-        CHECK(distance(by_factors.v, by_gradients.v) <= 1e-9 * largest(by_factors.v));
-        CHECK(distance(direct.constraint_forces(), filtered.constraint_forces()) <=
-              1e-7 * largest(direct.constraint_forces()));
-    }
 }
 
 TEST_CASE("constraints: with their forces a step is that of free particles", "[constraints]") {

@@ -91,8 +91,8 @@ TEST_CASE("implicit_euler: a step satisfies its own update equation", "[integrat
 
 TEST_CASE("implicit_euler: on crumpled poses the step matrix is positive definite at every h",
           "[integrator]") {
-    for (const Kind& kind :
-         {Kind{false, 2, Laws::hookean}, Kind{true, 3, Laws::hookean}, Kind{false, 3, Laws::any}}) {
+    for (const Kind& kind : {Kind{false, 1, Laws::hookean}, Kind{false, 2, Laws::hookean},
+                             Kind{false, 3, Laws::any}}) {
         for (std::uint32_t seed = 1; seed <= 20; ++seed) {
             Random random(seed);
             SceneOptions options;

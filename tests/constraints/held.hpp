@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
+#include <taut/constraints/constraints.hpp>
+
 #include "../support/catch.hpp"
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
@@ -15,6 +18,18 @@ inline Springs draw_system(Random& random) {
     options.dampers = options.rayleigh = true;
     return random_like<Springs>(random, options);
 }
+
+/// Solved to rounding.
+template <class Stepper>
+struct Tight : Stepper {
+    template <class System>
+    explicit Tight(const System& system) : Stepper(system) {
+        using Scalar = typename System::Scalar;
+        this->configure(
+            [](auto& solver) { solver.setTolerance(16 * std::numeric_limits<Scalar>::epsilon()); });
+    }
+};
+using Constrained = Tight<taut::ConstrainedEuler<Springs>>;
 
 /// With its constraint forces as external ones, and no constraint, a step is the same.
 template <class Stepper>
