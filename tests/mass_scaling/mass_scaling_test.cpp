@@ -1,35 +1,13 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include <taut/mass_scaling/mass_scaling.hpp>
-#include <taut/stability/stability.hpp>
-#include <taut/tight/tight.hpp>
-
-#include "../support/catch.hpp"
 #include "../support/message.hpp"
-#include "../stability/wild_system.hpp"
+#include "account.hpp"
 
 namespace taut_test::mass_scaling_test {
 
 namespace matrices = taut::matrices;
 
-using taut::added_mass;
-using taut::AddedMass;
-using taut::Method;
-using taut::Stability;
-
 namespace {
-
-template <class System>
-System with_added(const System& system, const AddedMass& added) {
-    using Scalar = typename System::Scalar;
-    System heavier = system;
-    for (Index i = 0; i < system.size(); ++i) {
-        const double mass =
-            static_cast<double>(system.mass(i)) + added.mass[static_cast<std::size_t>(i)];
-        heavier.set_mass(i, static_cast<Scalar>(mass));
-    }
-    return heavier;
-}
 
 template <class System>
 double free_mass(const System& system) {
@@ -38,21 +16,6 @@ double free_mass(const System& system) {
         if (!system.is_pinned(i)) sum += static_cast<double>(system.mass(i));
     }
     return sum;
-}
-
-/// What is said of every answer.
-template <class System>
-void check_account(const System& system, const AddedMass& added) {
-    REQUIRE(static_cast<Index>(added.mass.size()) == system.size());
-    double sum = 0;
-    for (Index i = 0; i < system.size(); ++i) {
-        const double mass = added.mass[static_cast<std::size_t>(i)];
-        CHECK(mass >= 0);
-        CHECK(std::isfinite(mass));
-        if (system.is_pinned(i)) CHECK(mass == 0);
-        sum += mass;
-    }
-    CHECK_THAT(added.total, WithinRel(sum, 1e-12) || WithinAbs(sum, 1e-300));
 }
 
 taut::SpringSystem<double, 3> cloth_with_stiff_springs(Index count) {
@@ -64,36 +27,6 @@ taut::SpringSystem<double, 3> cloth_with_stiff_springs(Index count) {
 }
 
 }  // namespace
-
-TEST_CASE(
-    "mass_scaling: with the mass added the step is certified, and none is where it is already",
-    "[mass_scaling][slow]") {
-    for (const double factor : {0.5, 1.001, 1.1, 2.0, 10.0}) {
-        for_each_scene<double>([&](const std::string& scene, const auto& system,
-                                   const auto& state) {
-            const double omega = Multipliers(exact_matrices(system, state.x)).omega();
-            for_each_damping(system, omega, [&](const std::string& damping, const auto& damped) {
-                const auto limit =
-                    Stability<double>(damped, state).max_step(Method::symplectic_euler);
-                const double h = std::isfinite(limit.certified) ? factor * limit.certified : 1e3;
-                const auto added = added_mass(damped, state, h);
-                INFO(scene << ", " << damping << ", " << factor << " times the step");
-                check_account(damped, added);
-                const bool possible = h * damped.rayleigh().mass_proportional < 2;
-                CHECK(added.reached == possible);
-                if (!possible || h <= limit.certified) {
-                    CHECK(added.total == 0);
-                    for (const double change : added.frequency_change) CHECK(change == 0);
-                    return;
-                }
-                if (h > limit.refuted * (1 + 1e-9)) CHECK(added.total > 0);
-                const Stability<double> heavier(with_added(damped, added), state);
-                CHECK(taut::certify(heavier, Method::symplectic_euler, h).proved);
-                CHECK(taut::certify(heavier, Method::velocity_verlet, h).proved);
-            });
-        });
-    }
-}
 
 TEMPLATE_TEST_CASE("mass_scaling: by the referee the step is safe, over many decades",
                    "[mass_scaling]", float, double) {
