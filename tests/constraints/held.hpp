@@ -24,9 +24,8 @@ template <class Stepper>
 struct Tight : Stepper {
     template <class System>
     explicit Tight(const System& system) : Stepper(system) {
-        using Scalar = typename System::Scalar;
-        this->configure(
-            [](auto& solver) { solver.setTolerance(16 * std::numeric_limits<Scalar>::epsilon()); });
+        constexpr auto epsilon = std::numeric_limits<typename System::Scalar>::epsilon();
+        this->configure([](auto& solver) { solver.setTolerance(16 * epsilon); });
     }
 };
 using Constrained = Tight<taut::ConstrainedEuler<Springs>>;

@@ -18,8 +18,8 @@ template <class System>
 class TrialGuard : private TrialOn<System>,
                    public GuardOn<TrialOn<System>, System, System::Dim == 3> {
 public:
-    TrialGuard(const System& system, Trial trial)
-        : TrialOn<System>{std::move(trial)},
+    TrialGuard(const System& system, Trial of)
+        : TrialOn<System>{std::move(of)},
           GuardOn<TrialOn<System>, System, System::Dim == 3>(
               system, static_cast<TrialOn<System>&>(*this)) {}
 };

@@ -296,7 +296,7 @@ TEST_CASE("guarded_work: of a pin that lifts a weight", "[guard]") {
     CHECK_THAT(frames.work, WithinRel(50 + 0.125, 0.02));
 }
 
-TEST_CASE("guarded_work: of lifting a cloth, however fast; and it rests in the lift", "[guard]") {
+TEST_CASE("guarded_work: of lifting a cloth, however fast, and it rests in the lift", "[guard]") {
     const Scene cloth = cloth_scene(any3, {8, 8}, LawOf::tension_only);
     const auto rest = at_rest(cloth);
     const double mass = 62 * cloth.mass(0);  // of the free ones

@@ -13,9 +13,8 @@ namespace {
 template <class System>
 struct TightEuler : taut::ImplicitEuler<System> {
     explicit TightEuler(const System& system) : taut::ImplicitEuler<System>(system) {
-        using Scalar = typename System::Scalar;
-        this->configure(
-            [](auto& solver) { solver.setTolerance(16 * std::numeric_limits<Scalar>::epsilon()); });
+        constexpr auto epsilon = std::numeric_limits<typename System::Scalar>::epsilon();
+        this->configure([](auto& solver) { solver.setTolerance(16 * epsilon); });
     }
 };
 

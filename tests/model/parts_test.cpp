@@ -90,7 +90,7 @@ TEST_CASE("parts: block_pattern has the blocks of the pairs and of the diagonal,
     }
 }
 
-TEST_CASE("parts: free particles ascend; gather, scatter and add know their coordinates",
+TEST_CASE("parts: free particles ascend, and gather, scatter and add know their coordinates",
           "[model]") {
     for (const Kind& kind : kinds_of(Laws::hookean)) {
         Random random(2101);

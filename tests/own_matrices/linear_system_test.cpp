@@ -42,7 +42,7 @@ RealMatrix with_entry(Index row, Index column, Real value) {
 }  // namespace
 
 TEST_CASE(
-    "linear_system: force and energy are load - K u - D v and its potential; a "
+    "linear_system: force and energy are load - K u - D v and its potential, and a "
     "GeneralLinearSystem's D and K may be unsymmetric",
     "[own_matrices]") {
     for (const Digits digits : all_digits) {
