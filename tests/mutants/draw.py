@@ -43,7 +43,7 @@ CHANGES = [
 
 # No line of these: text for people, declarations, what no compiler would take, what changes speed alone.
 SKIPPED = re.compile(
-    r'"|^(//|/\*|\*|#|using |typedef |template\b|namespace |class |struct |enum |friend |public:|private:|case |'
+    r'"|^(//|/\*|\*|#|alignas|using |typedef |template\b|namespace |class |struct |enum |friend |public:|private:|case |'
     r"static_assert|inline constexpr (int|std::size_t|Index|bool) )|\bfail\(|\brequire_|TAUT_|\breserve\(|operator|"
     r"\bstd::(string|move|forward|enable_if|conditional|void_t|is_)|\bconstexpr bool\b|decltype|\bif constexpr\b|"
     r"\bmost_repeats\b|= (default|delete);|for \(.*;.*;.*\+\+\w+\) *\{?$")
