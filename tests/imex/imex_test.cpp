@@ -38,6 +38,8 @@ void check_written_out(Random& random, const Kind& kind, const SceneOptions& opt
     const RealMatrix A = matrices.free_part(matrices.A);
     CHECK(stepper->implicit_springs() >= scene.spring_count() / 2);
     const auto start = random_state(random, scene);
+    // Where a tension falls, φ hangs on what is left of a difference of energies.
+    const bool falls = kind.laws == Laws::any;
     for (const double h : {step, step / 4}) {
         auto state = start;
         for (int i = 0; i < 4; ++i) {
@@ -51,7 +53,7 @@ void check_written_out(Random& random, const Kind& kind, const SceneOptions& opt
                                  .cwiseAbs()
                                  .maxCoeff();
             const Real most = A.cwiseAbs().maxCoeff() * state.v.cwiseAbs().maxCoeff();
-            CHECK(off <= static_cast<Real>(kind.rounding()) * most);
+            CHECK(off <= (falls ? 64 : 1) * static_cast<Real>(kind.rounding()) * most);
             CHECK(gap(state.x, before.x + h * state.v) <=
                   kind.rounding() * state.v.cwiseAbs().maxCoeff());
             const auto added = static_cast<double>(matrices.added_energy(scene, state));
@@ -164,7 +166,7 @@ TEST_CASE("imex: a cloth with a stiff hem takes the step of the cloth", "[imex]"
 
 TEST_CASE("imex: an edit makes the inertia anew, nothing else does", "[imex]") {
     Random random(8750);
-    auto scene = random_scene(random, {false, 3, Laws::mixed}, many_springs(20, 40));
+    auto scene = random_scene(random, {false, 3, Laws::any}, many_springs(20, 40));
     const double step = 10 * scene.energy_limit().certified;
     const auto stepper = imex(scene, step);
     auto state = scene.initial_state();
