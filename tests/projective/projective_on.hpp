@@ -52,7 +52,6 @@ template <class System>
 using ByEigen = ProjectiveOn<System, Witness<typename System::Scalar>>;
 
 /// Compiled apart.
-std::unique_ptr<AnyProjective> projective_by_eigen_in_2d(const Scene& scene);
 std::unique_ptr<AnyProjective> projective_by_eigen_in_float(const Scene& scene);
 
 }  // namespace taut_test
