@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 // Apart from accuracy_test.cpp, as each makes steppers of all methods.
-#include <taut/lattice/chain.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
-#include <taut/tradeoff/mode_probe.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/tolerance.hpp"
+#include "chain_modes.hpp"
 
 namespace taut_test::accuracy_modes_test {
 
@@ -16,16 +15,8 @@ using taut::Method;
 TEMPLATE_TEST_CASE("accuracy: predicted against measured on every mode of a chain", "[accuracy]",
                    float, double) {
     using Scalar = TestType;
-    taut::ChainOptions options;
-    options.masses = 6;
-    options.stiffness = 250;
-    options.mass = 0.1;
-    auto chain = taut::chain<Scalar, 1>(options);
-    chain.set_rayleigh({Scalar(0.3), Scalar(1e-3)});
-    const auto rest = chain.initial_state();
-    const auto loaded = taut::linearize(chain, rest);
-    const taut::LinearSystem<Scalar> linear(loaded.mass(), loaded.damping(), loaded.stiffness());
-    const auto modes = taut::lowest_modes(chain, rest, 6);
+    const auto chain = chain_modes<Scalar>();
+    const auto& modes = chain.modes;
     REQUIRE(modes.size() == 6);
     constexpr double blur = 2e4 * Tolerance<Scalar>::epsilon;
     for (const taut::Mode& mode : modes) {
@@ -44,7 +35,7 @@ TEMPLATE_TEST_CASE("accuracy: predicted against measured on every mode of a chai
                 for (const auto solver : {LinearSolver::direct, LinearSolver::conjugate_gradient}) {
                     if (!is_implicit(method) && solver != LinearSolver::direct) continue;
                     const taut::Candidate candidate{method, h, solver, 1e-6};
-                    const auto seen = taut::measured_mode_error(linear, mode, candidate);
+                    const auto seen = taut::measured_mode_error(chain.linear, mode, candidate);
                     REQUIRE(seen);
                     const auto predicted = taut::mode_error(method, z, mode.zeta);
                     CHECK_THAT(seen->artificial_damping,

@@ -54,7 +54,7 @@ void check_networks(const Kind& kind) {
         }
     }
     CHECK(steps > 3000);
-    CHECK(implicit > 60);
+    CHECK(implicit > 80);
 }
 
 /// With A made for the edge of its rest, that edge is A's own: no step rises at it or below, and

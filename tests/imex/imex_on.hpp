@@ -24,7 +24,17 @@ public:
     }
 };
 
+template <class... Systems>
+std::unique_ptr<AnyImex> make_imex(const Scene& scene, const taut::ImexOptions& options) {
+    std::unique_ptr<AnyImex> made;
+    visit_system<Systems...>(scene, [&](const auto& system) {
+        made = std::make_unique<ImexOn<std::decay_t<decltype(system)>>>(system, options);
+    });
+    return made;
+}
+
 /// Compiled apart.
-std::unique_ptr<AnyImex> imex_in_3d(const Scene& scene, const taut::ImexOptions& options);
+std::unique_ptr<AnyImex> imex_of_laws(const Scene& scene, const taut::ImexOptions& options);
+std::unique_ptr<AnyImex> imex_of_laws_in_3d(const Scene& scene, const taut::ImexOptions& options);
 
 }  // namespace taut_test

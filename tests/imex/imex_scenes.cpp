@@ -30,18 +30,18 @@ private:
 
 }  // namespace
 
-const std::vector<Kind> imex_kinds = {
-    {false, 1}, {false, 2, Laws::strings}, {false, 3, Laws::mixed}, {true, 3, Laws::strings}};
+const std::vector<Kind> imex_kinds = {{false, 1, Laws::any},
+                                      {false, 2, Laws::any},
+                                      {false, 3, Laws::any},
+                                      {true, 3, Laws::any},
+                                      {true, 2},
+                                      {false, 2, Laws::strings}};
 
 std::unique_ptr<AnyImex> imex(const Scene& scene, double step, std::function<double(Index)> share,
                               int threads) {
-    std::unique_ptr<AnyImex> made;
     const taut::ImexOptions options{step, std::move(share), threads};
-    if (scene.dim() == 3) return imex_in_3d(scene, options);
-    visit_system<Plain<double, 1>, Planar>(scene, [&](const auto& system) {
-        made = std::make_unique<ImexOn<std::decay_t<decltype(system)>>>(system, options);
-    });
-    return made;
+    if (scene.kind().laws != Laws::any) return make_imex<Plain<float, 2>, Planar>(scene, options);
+    return scene.dim() == 3 ? imex_of_laws_in_3d(scene, options) : imex_of_laws(scene, options);
 }
 
 std::unique_ptr<AnyStepper> imex_of_view(const Scene& scene, double step) {

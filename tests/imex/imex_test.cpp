@@ -24,8 +24,13 @@ SceneOptions many_springs(Index particles, Index springs) {
 }
 
 /// Whether steps of h and h/4 are A's formula, of pins that move, too.
-void check_written_out(Random& random, const Kind& kind, const SceneOptions& options, bool forced) {
+/// @param glued  whether Glue stays: where a tension falls, φ hangs on what is left of a difference
+///               of energies
+void check_written_out(Random& random, const Kind& kind, const SceneOptions& options, bool forced,
+                       bool glued) {
     auto scene = random_scene(random, kind, options);
+    for (Index s = options.springs; kind.laws == Laws::any && !glued && s-- > 0;)
+        scene.remove_spring(LawOf::glue, s);
     RealMatrix forces = RealMatrix::Zero(kind.dim, scene.size());
     for (Index i = 0; forced && i < scene.size(); ++i) {
         const auto force = random_vector(random, kind.dim, -10, 10);
@@ -51,7 +56,7 @@ void check_written_out(Random& random, const Kind& kind, const SceneOptions& opt
                                  .cwiseAbs()
                                  .maxCoeff();
             const Real most = A.cwiseAbs().maxCoeff() * state.v.cwiseAbs().maxCoeff();
-            CHECK(off <= static_cast<Real>(kind.rounding()) * most);
+            CHECK(off <= (glued ? 64 : 1) * static_cast<Real>(kind.rounding()) * most);
             CHECK(gap(state.x, before.x + h * state.v) <=
                   kind.rounding() * state.v.cwiseAbs().maxCoeff());
             const auto added = static_cast<double>(matrices.added_energy(scene, state));
@@ -101,7 +106,8 @@ TEST_CASE("imex: a step is A's formula written out", "[imex]") {
             auto options = repeat == 0 ? many_springs(400, 500) : many_springs(24, 30);
             options.dampers = repeat % 3 == 0;
             options.rayleigh = repeat % 4 < 2;
-            check_written_out(random, kind, options, repeat % 5 == 0);
+            const bool glued = kind.laws == Laws::any && repeat % 2 == 1;
+            check_written_out(random, kind, options, repeat % 5 == 0, glued);
         }
     }
 }
@@ -164,7 +170,7 @@ TEST_CASE("imex: a cloth with a stiff hem takes the step of the cloth", "[imex]"
 
 TEST_CASE("imex: an edit makes the inertia anew, nothing else does", "[imex]") {
     Random random(8750);
-    auto scene = random_scene(random, {false, 3, Laws::mixed}, many_springs(20, 40));
+    auto scene = random_scene(random, {false, 3, Laws::any}, many_springs(20, 40));
     const double step = 10 * scene.energy_limit().certified;
     const auto stepper = imex(scene, step);
     auto state = scene.initial_state();

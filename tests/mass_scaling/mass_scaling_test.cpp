@@ -131,6 +131,17 @@ TEST_CASE("mass_scaling: frequencies of a large cloth change as those of a dense
     }
 }
 
+TEST_CASE("mass_scaling: in float the step is certified but for the rounding of the masses",
+          "[mass_scaling]") {
+    const auto cloth = taut::hanging_cloth<float>({4, 4});
+    const auto state = cloth.initial_state();
+    const auto limit = Stability<float>(cloth, state).max_step(Method::symplectic_euler).certified;
+    const double h = 3 * static_cast<double>(limit);
+    const auto heavier = with_added(cloth, added_mass(cloth, state, h));
+    CHECK(taut::certify(Stability<float>(heavier, state), Method::symplectic_euler, h * (1 - 1e-6))
+              .proved);
+}
+
 TEST_CASE("mass_scaling: masses beyond float are not reached, and pins need none",
           "[mass_scaling]") {
     auto cloth = taut::hanging_cloth<float>({4, 4});

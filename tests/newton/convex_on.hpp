@@ -101,7 +101,17 @@ taut::Report step_convex(const ConvexScene& scene, double h, AnyState& any, doub
     return report;
 }
 
-/// Of double in three dimensions: compiled apart.
+/// Of one scalar or the other.
+template <int Dim>
+taut::Report step_in(const ConvexScene& scene, double h, AnyState& any, double tolerance,
+                     const Held* held) {
+    return scene.single ? step_convex<Convex<float, Dim>>(scene, h, any, tolerance, held)
+                        : step_convex<Convex<double, Dim>>(scene, h, any, tolerance, held);
+}
+
+/// Compiled apart.
+taut::Report step_in_2d(const ConvexScene& scene, double h, AnyState& any, double tolerance,
+                        const Held* held);
 taut::Report step_in_3d(const ConvexScene& scene, double h, AnyState& any, double tolerance,
                         const Held* held);
 

@@ -23,8 +23,8 @@ LawAt law_at(const ConvexString& s, long double l) {
 
 taut::Report convex_step(const ConvexScene& scene, double h, AnyState& state, double tolerance,
                          const Held* held) {
-    if (scene.single) return step_convex<Convex<float, 2>>(scene, h, state, tolerance, held);
-    return scene.dim == 1 ? step_convex<Convex<double, 1>>(scene, h, state, tolerance, held)
+    if (scene.dim == 1) return step_in<1>(scene, h, state, tolerance, held);
+    return scene.dim == 2 ? step_in_2d(scene, h, state, tolerance, held)
                           : step_in_3d(scene, h, state, tolerance, held);
 }
 

@@ -44,8 +44,7 @@ struct Held {
     Eigen::VectorXd normal, velocity;
 };
 
-/// Takes a step of h by NewtonEuler. Scenes of double in one and three dimensions, and of float in
-/// two.
+/// Takes a step of h by NewtonEuler.
 taut::Report convex_step(const ConvexScene& scene, double h, AnyState& state,
                          double tolerance = 1e-6, const Held* held = nullptr);
 

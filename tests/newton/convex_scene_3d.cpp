@@ -6,7 +6,7 @@ namespace taut_test {
 
 taut::Report step_in_3d(const ConvexScene& scene, double h, AnyState& any, double tolerance,
                         const Held* held) {
-    return step_convex<Convex<double, 3>>(scene, h, any, tolerance, held);
+    return step_in<3>(scene, h, any, tolerance, held);
 }
 
 }  // namespace taut_test

@@ -11,7 +11,7 @@ namespace {
 
 using Real = long double;
 
-constexpr Kind kinds[] = {{false, 1}, {true, 2}, {false, 3}};
+constexpr Kind kinds[] = {{false, 1}, {false, 2}, {false, 3}, {true, 1}, {true, 2}, {true, 3}};
 
 /// What a scene is made of.
 struct Draw {
@@ -124,7 +124,7 @@ bool keeps(const ConvexScene& scene, const Kind& kind, const AnyState& after, do
 
 /// @returns how many of a hundred steps are solved
 int solved(const Kind& kind, const Draw& draw) {
-    const int count = 300;
+    const int count = 500;
     int converged = 0;
     for (std::uint32_t seed = 1; seed <= count; ++seed) {
         INFO("seed " << seed);
@@ -182,7 +182,7 @@ TEST_CASE("energy_guarantee: a string of 1e20 N/m excuses no particle but its ow
     int converged = 0;
     for (std::uint32_t seed = 1; seed <= count; ++seed) {
         Random random(seed);
-        auto scene = draw_scene(random, kinds[2], {1, 2});
+        auto scene = draw_scene(random, {false, 3}, {1, 2});
         const double h = power_of_ten(random, -3, 0);
         AnyState alone = scene.state;
         INFO("seed " << seed << ", h " << h);
@@ -210,7 +210,7 @@ TEST_CASE("energy_guarantee: a string of 1e20 N/m excuses no particle but its ow
 
 TEST_CASE("energy_guarantee: float reaches what its rounding admits", "[newton]") {
     Random random(5);
-    auto scene = draw_scene(random, kinds[1], {1, 2});
+    auto scene = draw_scene(random, {true, 2}, {1, 2});
     for (int i = 0; i < 5; ++i) {
         const taut::Report report = convex_step(scene, 0.05, scene.state, 1e-12);  // out of reach
         CHECK(report);

@@ -2,37 +2,27 @@
 // SPDX-License-Identifier: MIT
 #include "newton_scenes.hpp"
 
-#include <taut/newton/newton.hpp>
 #include <taut/solver/conjugate_gradient.hpp>
 
-#include "../support/scene_on.hpp"
+#include "newton_on.hpp"
 
 namespace taut_test {
 
-namespace {
-
-using System = Plain<double, 3>;
-
-template <class... Solver>
-std::unique_ptr<AnyStepper> make(const Scene& scene, int iterations, double tolerance) {
-    using Stepper = taut::NewtonEuler<System, Solver...>;
-    typename Stepper::Options options;
-    options.iterations = iterations;
-    options.tolerance = tolerance;
+std::unique_ptr<AnyStepper> newton(const Scene& scene, int iterations, double tolerance) {
+    if (scene.dim() == 2) return newton_in_2d(scene, iterations, tolerance);
     std::unique_ptr<AnyStepper> made;
-    visit_system<System>(scene, [&](const System& system) {
-        made = std::make_unique<StepperOn<Stepper, System>>(system, options);
-    });
+    visit_system<Plain<double, 1>, Plain<double, 3>>(
+        scene, [&](const auto& system) { made = newton_on(system, iterations, tolerance); });
     return made;
 }
 
-}  // namespace
-
-std::unique_ptr<AnyStepper> newton(const Scene& scene, int iterations, double tolerance) {
-    return make(scene, iterations, tolerance);
-}
 std::unique_ptr<AnyStepper> newton_by_gradients(const Scene& scene) {
-    return make<taut::ConjugateGradient<double, 3>>(scene, 60, 1e-11);
+    using System = Plain<double, 3>;
+    std::unique_ptr<AnyStepper> made;
+    visit_system<System>(scene, [&](const System& system) {
+        made = newton_on<System, taut::ConjugateGradient<double, 3>>(system, 60, 1e-11);
+    });
+    return made;
 }
 
 }  // namespace taut_test

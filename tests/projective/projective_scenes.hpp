@@ -24,8 +24,10 @@ struct ProjectiveLimits {
 extern const std::vector<Kind> projective_kinds;
 
 std::unique_ptr<AnyProjective> projective(const Scene& scene, const ProjectiveLimits& limits = {});
-/// With one of Eigen's solvers; of these two kinds.
-constexpr Kind eigen_kinds[] = {{true, 2, Laws::hookean}, {false, 3, Laws::any}};
+/// With one of Eigen's solvers; of these kinds.
+constexpr Kind eigen_kinds[] = {
+    {false, 1, Laws::any}, {false, 2, Laws::any}, {false, 3, Laws::any}, {true, 1}, {true, 2},
+    {true, 3, Laws::any}};
 std::unique_ptr<AnyProjective> projective_by_eigen(const Scene& scene);
 
 }  // namespace taut_test

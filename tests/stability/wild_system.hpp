@@ -33,15 +33,15 @@ taut::SpringSystem<Scalar, Dim> wild_system(Random& random, const WildOptions& o
     return system;
 }
 
-/// visit(text, system, state) for the scenes of stability_cases.
-template <class Scalar, class Visit>
+/// visit(text, system, state) for the scenes of stability_cases of these dimensions.
+template <class Scalar, int... Dims, class Visit>
 void for_each_scene(Visit&& visit) {
     for (const auto& c : stability_cases(std::is_same_v<Scalar, float>, false)) {
-        visit_system<Plain<Scalar, 1>, Plain<Scalar, 2>, Plain<Scalar, 3>>(
-            c.scene, [&](const auto& system) {
-                using State = typename std::decay_t<decltype(system)>::State;
-                visit(c.text, system, from_any<State>(c.state));
-            });
+        if (((c.scene.dim() != Dims) && ...)) continue;
+        visit_system<Plain<Scalar, Dims>...>(c.scene, [&](const auto& system) {
+            using State = typename std::decay_t<decltype(system)>::State;
+            visit(c.text, system, from_any<State>(c.state));
+        });
     }
 }
 

@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#include "scenes.hpp"
+
+namespace taut_test::mass_scaling_test {
+
+TEST_CASE(
+    "mass_scaling: with the mass added the step is certified, and none is where it is already, in "
+    "3d",
+    "[mass_scaling][slow]") {
+    check_scenes<3>();
+}
+
+}  // namespace taut_test::mass_scaling_test
