@@ -36,8 +36,8 @@ public:
 /// Laws::any of double 3d, Laws::strings of float 3d.
 std::unique_ptr<AnyGuard> guarded(const Scene& scene,
                                   const taut::GuardedOptions<double>& options = {});
-/// By a call: Laws::hookean of float 1d, Laws::strings of double 2d, 3d as above and with a
-/// response.
+/// By a call: Laws::hookean of 1d and float 2d, Laws::strings of double 2d and of 3d, Laws::any of
+/// double 3d; with a response in 3d.
 std::unique_ptr<AnyGuard> guarded(const Scene& scene, Trial trial);
 
 constexpr Kind any3{false, 3, Laws::any};

@@ -28,7 +28,8 @@ public:
 
 std::unique_ptr<AnyGuard> guarded(const Scene& scene, Trial trial) {
     std::unique_ptr<AnyGuard> made;
-    visit_system<Plain<float, 1>, Strings<double, 2>, Strings<float, 3>, AnyLaw<double, 3>>(
+    visit_system<Plain<float, 1>, Plain<double, 1>, Plain<float, 2>, Strings<double, 2>,
+                 Strings<float, 3>, Strings<double, 3>, AnyLaw<double, 3>>(
         scene, [&](const auto& system) {
             using System = std::decay_t<decltype(system)>;
             made = std::make_unique<TrialGuard<System>>(system, std::move(trial));

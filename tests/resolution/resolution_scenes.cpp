@@ -10,16 +10,23 @@
 
 namespace taut_test::resolution {
 
-const std::vector<Kind> kinds = {
-    {true, 1},  {true, 2, Laws::mixed},   {true, 3}, {false, 1}, {false, 2},
-    {false, 3}, {false, 3, Laws::strings}};
+const std::vector<Kind> kinds = {{true, 1},
+                                 {true, 2, Laws::mixed},
+                                 {true, 3},
+                                 {true, 2, Laws::strings},
+                                 {false, 1},
+                                 {false, 2},
+                                 {false, 3},
+                                 {false, 3, Laws::strings},
+                                 {false, 3, Laws::mixed}};
 
 namespace {
 
 template <class Visit>
 void visit_kind(const Scene& scene, Visit&& visit) {
     visit_system<Plain<float, 1>, Mixed<float, 2>, Plain<float, 3>, Plain<double, 1>,
-                 Plain<double, 2>, Plain<double, 3>, Strings<double, 3>>(scene, visit);
+                 Plain<double, 2>, Plain<double, 3>, Strings<double, 3>, Strings<float, 2>,
+                 Mixed<double, 3>>(scene, visit);
 }
 
 template <class System>
