@@ -9,8 +9,8 @@
 #include <taut/modal/modal_analysis.hpp>
 #include <taut/equilibrium/equilibrium.hpp>
 #include <taut/modal/modal_dynamics.hpp>
-#include <taut/own_matrices/own_matrices.hpp>
-#include <taut/taut.hpp>
+#include <taut/own_matrices/linearize.hpp>
+#include <taut/scene/cloth.hpp>
 
 int main() {
     taut::ClothOptions options{40, 20};

@@ -17,11 +17,10 @@
 #include "common/matrix_market.hpp"
 #include "common/naming.hpp"
 #include "common/output_text.hpp"
-#include "common/page.hpp"
-#include "common/page_data.hpp"
 #include "common/progress.hpp"
 #include "common/report.hpp"
 #include "common/scene.hpp"
+#include "report/page.hpp"
 
 namespace {
 
@@ -143,17 +142,7 @@ Findings report_on_scene(const Options& options, Progress& progress) {
         found.lammps =
             example::write_lammps_folder("--lammps", options.lammps, scene.system, state);
     }
-    if (!options.html.empty()) {
-        progress.at("stepping the mesh for the page");
-        const auto& mode = *found.limiting_mode;
-        found.page = example::page_data(stability, found, mode, scene.system.rayleigh());
-        example::add_mesh(found.page, scene, stability, mode);
-        example::add_runs(found.page, scene, found.symplectic_euler, mode);
-        if (found.resolution) {
-            progress.at("running the scene and its coarse network for the page");
-            example::add_resolution(found.page, scene, *found.resolution);
-        }
-    }
+    if (!options.html.empty()) example::set_page(found, stability, scene, progress);
     return found;
 }
 
@@ -191,7 +180,7 @@ Findings report_on_matrices(const Options& options, Progress& progress) {
     if (!options.html.empty()) {
         std::optional<taut::RayleighDamping> undamped;
         if (options.damping_matrix.empty()) undamped.emplace();
-        found.page = example::page_data(stability, found, *found.limiting_mode, undamped);
+        example::set_page(found, stability, undamped);
     }
     return found;
 }
@@ -302,10 +291,9 @@ int run(int argc, char** argv) {
         if (!found.lammps.empty()) std::printf("\n%s", found.lammps.c_str());
     }
     if (!options.json.empty())
-        example::write_text(example::to_json(found, options.scene.d0).dump(2), "--json",
-                            options.json);
+        example::write_text(example::json_text(found, options.scene.d0), "--json", options.json);
     if (!options.html.empty())
-        example::write_text(example::page(found, options.scene.d0), "--html", options.html);
+        example::write_text(example::html_text(found, options.scene.d0), "--html", options.html);
     return 0;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "findings.hpp"
+#include "resolution_report.hpp"
 
 // What stability_report found, as a table.
 
