@@ -3,7 +3,8 @@
 #include "chain_modes.hpp"
 
 #include <taut/lattice/chain.hpp>
-#include <taut/own_matrices/own_matrices.hpp>
+
+#include "../support/compiled_once.hpp"
 
 namespace taut_test {
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 // What Stability says of a method that has no Limit.
 #include <taut/stability/stability.hpp>
-#include <taut/tight/tight.hpp>
 
 #include "../support/catch.hpp"
+#include "../support/compiled_once.hpp"
 #include "../support/message.hpp"
 
 namespace taut_test::stability_bdf2_test {

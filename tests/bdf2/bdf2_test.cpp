@@ -15,8 +15,8 @@ namespace {
 constexpr Kind cube{false, 3, Laws::hookean};
 constexpr double declared_order = 2;
 
-SceneOptions damped() {
-    SceneOptions options;
+RandomOptions damped() {
+    RandomOptions options;
     options.rayleigh = true;
     options.dampers = true;
     return options;

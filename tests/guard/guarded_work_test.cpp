@@ -29,7 +29,7 @@ TEST_CASE("guarded_work: it is the same between the steps of a sweep as step by 
         for (std::uint32_t seed = 4400; seed < 4412; ++seed) {
             Random random(seed);
             const bool hangs = kind.dim == 3 && seed % 3 == 0;
-            SceneOptions options;
+            RandomOptions options;
             options.particles = seed % 3 == 1 ? 30 : 700;
             options.springs = options.particles / 2;
             options.pinned = 4;

@@ -15,8 +15,8 @@ namespace {
 /// A third of the springs wholly implicit, a third in part.
 double mixed_share(Index s) { return s % 3 == 0 ? 1 : s % 3 == 1 ? 0.25 : 0; }
 
-SceneOptions many_springs(Index particles, Index springs) {
-    SceneOptions options;
+RandomOptions many_springs(Index particles, Index springs) {
+    RandomOptions options;
     options.particles = particles;
     options.springs = springs;
     options.dampers = true;
@@ -26,7 +26,7 @@ SceneOptions many_springs(Index particles, Index springs) {
 /// Whether steps of h and h/4 are A's formula, of pins that move, too.
 /// @param glued  whether Glue stays: where a tension falls, φ hangs on what is left of a difference
 ///               of energies
-void check_written_out(Random& random, const Kind& kind, const SceneOptions& options, bool forced,
+void check_written_out(Random& random, const Kind& kind, const RandomOptions& options, bool forced,
                        bool glued) {
     auto scene = random_scene(random, kind, options);
     for (Index s = options.springs; kind.laws == Laws::any && !glued && s-- > 0;)
@@ -131,7 +131,7 @@ TEST_CASE("imex: where no spring needs it, it is EnergyStableEuler to the bit", 
         Random random(8720);
         for (int repeat = 0; repeat < 12; ++repeat) {
             INFO(kind << ", scene " << repeat);
-            SceneOptions options;
+            RandomOptions options;
             options.dampers = repeat % 2 == 0;
             options.rayleigh = repeat % 3 == 0;
             const auto scene = random_scene(random, kind, options);

@@ -33,7 +33,7 @@ Real farthest(const Eigen::MatrixXd& found, const RealMatrix& exact) {
 
 /// By the sweep, and by the plain force: the step of the theory's formula.
 void check_written_out(Random& random, const Kind& kind, int repeat) {
-    SceneOptions options;
+    RandomOptions options;
     options.particles = 40;
     options.springs = 60;
     options.dampers = repeat % 3 == 0;

@@ -62,7 +62,7 @@ TEST_CASE("implicit_euler: a step satisfies its own update equation", "[integrat
         for (const double h : {0.001, 0.0625, 2.0}) {
             INFO(kind << ", h " << h);
             Random random(1);
-            SceneOptions options;
+            RandomOptions options;
             options.rayleigh = options.dampers = true;
             Scene scene = random_scene(random, kind, options);
             scene.pin(5);
@@ -95,7 +95,7 @@ TEST_CASE("implicit_euler: on crumpled poses the step matrix is positive definit
                              Kind{false, 3, Laws::any}}) {
         for (std::uint32_t seed = 1; seed <= 20; ++seed) {
             Random random(seed);
-            SceneOptions options;
+            RandomOptions options;
             options.pinned = random.below(3);
             options.dampers = seed % 2 == 0;
             options.rayleigh = seed % 3 == 0;

@@ -29,8 +29,8 @@ StepperBattery battery(Method method, Laws laws, bool matrices = false) {
     return battery;
 }
 
-SceneOptions damped() {
-    SceneOptions options;
+RandomOptions damped() {
+    RandomOptions options;
     options.rayleigh = options.dampers = true;
     return options;
 }
@@ -162,7 +162,7 @@ TEST_CASE("steppers: angular momentum is kept to rounding, axial dampers include
             if (kind.laws == Laws::any && method == Method::symplectic_euler) continue;
             INFO(kind);
             Random random(4);
-            SceneOptions options;
+            RandomOptions options;
             options.pinned = 0;
             options.gravity = false;
             options.dampers = true;

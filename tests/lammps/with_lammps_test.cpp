@@ -109,7 +109,7 @@ TEST_CASE("with_lammps: pins that move, drag, gravity, masses by type and by par
     for (const int dim : {1, 2, 3}) {
         CAPTURE(dim);  // and the seed
         Random random(static_cast<std::uint32_t>(dim));
-        SceneOptions what;
+        RandomOptions what;
         what.particles = 40;
         what.springs = 120;
         Scene scene = random_scene(random, {false, dim}, what);

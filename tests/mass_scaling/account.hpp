@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <taut/mass_scaling/mass_scaling.hpp>
-#include <taut/tight/tight.hpp>
-
 #include "../stability/wild_system.hpp"
 #include "../support/catch.hpp"
+#include "../support/compiled_once.hpp"
 
 namespace taut_test::mass_scaling_test {
 

@@ -149,7 +149,7 @@ TEST_CASE("force: internal forces sum to zero, springs and axial dampers exert n
     for (const Kind& kind : all_kinds()) {
         Random random(6);
         CAPTURE(kind);
-        SceneOptions options;
+        RandomOptions options;
         options.dampers = true;
         options.gravity = false;
         auto scene = random_scene(random, kind, options);
@@ -172,7 +172,7 @@ TEST_CASE("force: damping takes energy away at any velocity", "[model]") {
     for (const Kind& kind : all_kinds()) {
         Random random(8);
         CAPTURE(kind);
-        SceneOptions options;
+        RandomOptions options;
         options.dampers = true;
         options.rayleigh = true;
         const auto scene = random_scene(random, kind, options);
@@ -208,7 +208,7 @@ TEST_CASE("force: float and double agree", "[model]") {
         if (!kind.single) continue;
         for (std::uint32_t seed = 1; seed <= 5; ++seed) {
             CAPTURE(kind, seed);
-            SceneOptions options;
+            RandomOptions options;
             options.dampers = true;
             options.rayleigh = true;
             Random random(seed);

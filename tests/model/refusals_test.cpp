@@ -8,6 +8,7 @@
 #include "../support/catch.hpp"
 #include "../support/laws.hpp"
 #include "../support/message.hpp"
+#include "triangle.hpp"
 
 namespace taut_test::refusals_test {
 
@@ -21,16 +22,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 using System = SpringSystem<double, 2>;
-
-System triangle() {
-    System system;
-    system.add_particle({0, 0}, 1);
-    system.add_particle({3, 0}, 2);
-    system.add_particle({3, 4}, 3);
-    system.add_spring(0, 1, 10);
-    system.add_spring(1, 2, 20, 0.5);
-    return system;
-}
 
 /// All that a failed call must leave as it was.
 std::vector<double> snapshot(const System& system) {

@@ -8,28 +8,13 @@
 #include "../support/catch.hpp"
 #include "../support/laws.hpp"
 #include "../support/random_system.hpp"
+#include "triangle.hpp"
 
 namespace taut_test::spring_system_test {
 
 using taut::Hookean;
 using taut::Spring;
 using taut::SpringSystem;
-
-namespace {
-
-using System = SpringSystem<double, 2>;
-
-System triangle() {
-    System system;
-    system.add_particle({0, 0}, 1);
-    system.add_particle({3, 0}, 2);
-    system.add_particle({3, 4}, 3);
-    system.add_spring(0, 1, 10);
-    system.add_spring(1, 2, 20, 0.5);
-    return system;
-}
-
-}  // namespace
 
 TEST_CASE("spring_system: particles and springs are numbered from 0 in the order of adding",
           "[model]") {

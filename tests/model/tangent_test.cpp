@@ -23,7 +23,7 @@ void for_each_pose(std::uint32_t seeds, const std::vector<Kind>& kinds, Visit&& 
         for (std::uint32_t seed = 1; seed <= seeds; ++seed) {
             CAPTURE(kind, seed);
             Random random(seed);
-            SceneOptions options;
+            RandomOptions options;
             options.springs = kind.laws == Laws::any ? 9 : 14;
             options.pinned = random.below(4);
             options.dampers = seed % 2 == 0;
@@ -190,7 +190,7 @@ TEST_CASE("tangent: Rayleigh's D is d0 M + alpha K+, and semi-definite at crumpl
         for (std::uint32_t seed = 1; seed <= 20; ++seed) {
             CAPTURE(kind, seed);
             Random random(seed);
-            SceneOptions options;
+            RandomOptions options;
             options.rayleigh = true;
             const auto scene = random_scene(random, kind, options);
             auto state = random_state(random, scene);

@@ -33,7 +33,7 @@ TEST_CASE("implicit_newton: a step satisfies the nonlinear equation", "[newton]"
             for (const double h : {0.01, 0.3}) {
                 INFO(kind << ", seed " << seed << ", h " << h);
                 Random random(seed);
-                SceneOptions options;
+                RandomOptions options;
                 options.rayleigh = seed % 2 == 0;
                 options.dampers = seed % 3 != 0;
                 auto scene = random_scene(random, kind, options);

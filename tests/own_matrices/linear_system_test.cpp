@@ -192,7 +192,7 @@ TEST_CASE(
     for (const Kind kind : {Kind{true, 3}, Kind{false, 1}, Kind{false, 2}, Kind{false, 3}}) {
         INFO(kind);
         Random random(4);
-        SceneOptions options;
+        RandomOptions options;
         options.pinned = 0;
         options.dampers = options.rayleigh = true;
         Scene scene = random_scene(random, kind, options);

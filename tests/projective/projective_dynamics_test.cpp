@@ -19,7 +19,7 @@ constexpr Kind cube{false, 3, Laws::hookean};
 
 /// Pins that move, gravity, dampers, Rayleigh damping; an external force with `pushed`.
 Scene draw_scene(Random& random, const Kind& kind, bool pushed = true) {
-    SceneOptions options;
+    RandomOptions options;
     options.dampers = true;
     options.rayleigh = true;
     auto scene = random_scene(random, kind, options);
@@ -101,7 +101,7 @@ TEST_CASE("projective_dynamics: its matrix is no less than any Hessian of the ob
     for (const Kind& kind : eigen_kinds) {
         for (std::uint32_t seed = 1; seed <= 60; ++seed) {
             Random random(seed);
-            SceneOptions options;
+            RandomOptions options;
             options.springs = 3;
             options.rayleigh = seed % 2 == 0;
             auto scene = random_scene(random, kind, options);

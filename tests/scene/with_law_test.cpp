@@ -27,7 +27,7 @@ TEST_CASE(
         for (std::uint32_t seed = 1; seed <= 10; ++seed) {
             CAPTURE(single, seed);
             Random random(seed);
-            SceneOptions options;
+            RandomOptions options;
             options.dampers = options.rayleigh = true;
             const Scene scene = random_scene(random, {single, 3, Laws::strings}, options);
             const Scene same = as_threads(scene);

@@ -112,7 +112,7 @@ TEST_CASE("any_pose: the conditions hold at certified and fail at refuted, of ev
         Random random(401);
         for (int repeat = 0; repeat < 12; ++repeat) {
             INFO(kind << ", system " << repeat << " of seed 401");
-            SceneOptions options;
+            RandomOptions options;
             options.particles = 5;
             options.springs = 4;
             options.pinned = repeat % 3;

@@ -169,7 +169,7 @@ TEST_CASE("limit: springs of every law", "[stability]") {
         Random random(303);
         for (int repeat = 0; repeat < 4; ++repeat) {
             INFO(kind << ", system " << repeat << " of seed 303");
-            SceneOptions options;
+            RandomOptions options;
             options.particles = 4;
             options.springs = 5;
             options.dampers = repeat % 2 == 0;

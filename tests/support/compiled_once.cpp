@@ -3,6 +3,5 @@
 #include "compiled_once.hpp"
 
 namespace taut {
-TAUT_TEST_MATRICES(template)
-TAUT_TEST_TIGHT(template)
+TAUT_TEST_ONCE(template)
 }  // namespace taut

@@ -47,4 +47,14 @@ inline double log_uniform(Random& random, double low, double high) {
     return std::exp2(random.uniform(std::log2(low), std::log2(high)));
 }
 
+/// Of random_like (random_system.hpp) and random_scene (scene.hpp).
+struct RandomOptions {
+    Index particles = 8;
+    Index springs = 14;    ///< of each law
+    Index pinned = 2;      ///< the first ones
+    bool dampers = false;  ///< axial, on every second spring
+    bool rayleigh = false;
+    bool gravity = true;
+};
+
 }  // namespace taut_test

@@ -8,15 +8,6 @@
 
 namespace taut_test {
 
-struct RandomOptions {
-    Index particles = 8;
-    Index springs = 14;    ///< of each law
-    Index pinned = 2;      ///< the first ones
-    bool dampers = false;  ///< axial, on every second spring
-    bool rayleigh = false;
-    bool gravity = true;
-};
-
 /// Springs between random particles, with rest lengths of their own: in most poses some are
 /// compressed and some stretched. Duplicates occur.
 template <class System>

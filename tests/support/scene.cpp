@@ -167,7 +167,7 @@ Eigen::MatrixXd random_points(Random& random, int dim, Index n, double low, doub
     return p;
 }
 
-Scene random_scene(Random& random, const Kind& kind, const SceneOptions& options) {
+Scene random_scene(Random& random, const Kind& kind, const RandomOptions& options) {
     Scene scene(kind);
     for (Index i = 0; i < options.particles; ++i) {
         const auto place = random_vector(random, kind.dim, -1, 1);

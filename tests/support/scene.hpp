@@ -148,17 +148,8 @@ private:
     std::unique_ptr<Base> base_;
 };
 
-struct SceneOptions {
-    Index particles = 8;
-    Index springs = 14;    ///< of each law
-    Index pinned = 2;      ///< the first ones
-    bool dampers = false;  ///< axial, on every second spring
-    bool rayleigh = false;
-    bool gravity = true;
-};
-
 /// What random_like (random_system.hpp) makes, to the bit.
-Scene random_scene(Random& random, const Kind& kind, const SceneOptions& options = {});
+Scene random_scene(Random& random, const Kind& kind, const RandomOptions& options = {});
 /// Parameters of a law, as random_like draws them.
 AnySpring draw_spring(Random& random, LawOf law);
 /// The laws of a kind, in the order of its system.

@@ -20,8 +20,8 @@ AnySpring spring_between(const Scene& scene, Index a, Index b, double stiffness,
     return spring;
 }
 
-SceneOptions damped_options() {
-    SceneOptions options;
+RandomOptions damped_options() {
+    RandomOptions options;
     options.rayleigh = true;
     options.dampers = true;
     return options;
@@ -143,7 +143,7 @@ void check_pins(const StepperBattery& battery, const Kind& kind) {
 
 void check_momentum(const StepperBattery& battery, const Kind& kind) {
     Random random(24);
-    SceneOptions options;
+    RandomOptions options;
     options.pinned = 0;
     options.gravity = false;
     options.dampers = true;
@@ -213,7 +213,7 @@ void check_takes_up(const StepperBattery& battery, const Kind& kind) {
     for (const Change& change : changes) {
         INFO("change " << number++);
         Random random(26);
-        SceneOptions options;
+        RandomOptions options;
         options.rayleigh = true;
         auto scene = random_scene(random, kind, options);
         auto state = random_state(random, scene);
@@ -240,7 +240,7 @@ void check_nothing_free(const StepperBattery& battery, const Kind& kind) {
     CHECK_THAT(state.time, WithinRel(0.03, kind.rounding()));
 
     Random random(27);
-    SceneOptions options;
+    RandomOptions options;
     options.pinned = options.particles;
     const auto pinned = random_scene(random, kind, options);
     auto moving = random_state(random, pinned);

@@ -4,7 +4,7 @@
 #include <taut/tradeoff/tradeoff.hpp>
 
 #include "../support/catch.hpp"
-#include "../support/compiled_modes.hpp"
+#include "../support/compiled_once.hpp"
 
 namespace taut_test::cloth_test {
 

@@ -5,7 +5,7 @@
 #include <taut/tradeoff/tradeoff.hpp>
 
 #include "../support/catch.hpp"
-#include "../support/compiled_modes.hpp"
+#include "../support/compiled_once.hpp"
 #include "../support/message.hpp"
 #include "../support/random.hpp"
 #include "../support/tolerance.hpp"
