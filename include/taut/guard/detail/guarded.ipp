@@ -80,15 +80,15 @@ bool Guarded<Stepper, System>::run(State& state, Frame frame, Kind kind, By& by,
     const bool seen = work_.start(*system_, state, parts_, frame.h, kind);
     const bool stepwise = responds || held || (seen && !shows);
     const Index at_once = stepwise ? 1 : frame.steps;
-    if (stepwise) work_.see(state);
-    const guard_detail::Watching watching(by, seen && !stepwise ? &work_ : nullptr);
+    if (stepwise && !shows) work_.see(state);
+    const guard_detail::Watching watching(by, seen ? &work_ : nullptr);
     for (Index done = 0; done < frame.steps; done += at_once) {
         if (!take(state, frame.h, at_once)) return false;
         if (!detail::fits(state, system_->size()) || !state.finite()) return false;
         if constexpr (held) {
             if (kind != Kind::ahead) work_.add_held(stepper().constraint_forces(), state);
         }
-        if (stepwise) work_.see(state);
+        if (stepwise && !shows) work_.see(state);
         work_.add_constant(state);
         if constexpr (responds) {
             touched_ = state;
@@ -220,6 +220,7 @@ bool Guarded<Stepper, System>::take_again(State& state, Scalar span, bool tried,
         bool stiff = false;
         for (std::size_t p = 0; p < parts_.count(); ++p) {
             if (taken_[p] != Taken::again) continue;
+            if (!end_[p].finite() && !stiff_by_code()) return false;
             slack_[p] = 4 * unit * static_cast<double>(frame.steps) *
                         std::max(begin_[p].terms, end_[p].terms);
             stiff = stiff || !resolved(p);

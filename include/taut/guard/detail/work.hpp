@@ -120,7 +120,7 @@ private:
         Vector x, v, u;  // of the free particle, m, m/s; of the pin, m/s
         Vector p;        // where the pin was, m
         Vector pull;     // of the spring on the pin, without damping, N
-        double given;    // the power of its damper on the free particle, W
+        Vector damper;   // of its damper on the free particle, N
     };
 
     template <class X, class V>
@@ -202,19 +202,20 @@ private:
                 }
                 // What a damper gives the free particle: the rest of its work is heat.
                 const Vector dx = here - p, dv = speed - u, f = pull(spring, dx);
-                const double given = -double((pull(spring, dx, dv, alpha) - f).dot(speed));
+                const Vector damper = f - pull(spring, dx, dv, alpha);
                 if (seen_ > 0 && kind_ != Kind::ahead) {
                     const double pulled = -double(Vector(old.pull + f).dot(p - old.p)) / 2;
-                    const double power =
-                        kind_ == Kind::at_both_ends ? (given + old.given) / 2 : given;
-                    add(parts_->of(old.free), pulled + double(h_) * power);
+                    const Vector held = kind_ == Kind::at_both_ends
+                                            ? Vector((old.damper + damper) / Scalar(2))
+                                            : damper;
+                    add(parts_->of(old.free), pulled + double(held.dot(here - old.x)));
                 }
                 old.x = here;
                 old.v = speed;
                 old.u = u;
                 old.p = p;
                 old.pull = f;
-                old.given = given;
+                old.damper = damper;
             }
         });
     }

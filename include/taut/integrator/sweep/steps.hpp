@@ -162,6 +162,7 @@ private:
     std::vector<int> places_;  // of each particle, if known
     StepWatch<Scalar, Dim>* watch_ = nullptr;
     VectorX<Scalar> acceleration_;  // at the end of the last run_verlet, planes, m/s²
+    Scalar last_h_ = 0;             // its step, s
     Scalar alpha_ = 0;              // of Rayleigh damping, s
 };
 
@@ -281,9 +282,14 @@ bool Steps<Scalar, Dim>::run_verlet(const Forces& forces, AnyState& state, Scala
                                     int threads, bool go_on) {
     using Update = PlaceUpdate<Scalar>;
     if (go_on) {
-        show(forces.layout(), nullptr, nullptr);
         auto x = state_.whole(state_.planes().x);
         auto v = state_.whole(state_.planes().v);
+        if (watch_) {  // the forces here were taken at the last step's v½
+            const VectorX<Scalar> v_end = v;
+            v -= last_h_ / 2 * acceleration_;
+            show(forces.layout(), nullptr, nullptr);
+            v = v_end;
+        }
         v += h / 2 * acceleration_;
         x += h * v;
         outside_.pass(h);
@@ -298,6 +304,7 @@ bool Steps<Scalar, Dim>::run_verlet(const Forces& forces, AnyState& state, Scala
     if (!steps(forces, h, 1, threads, &Update::template move<VerletUpdate<1, true>>)) return false;
     store(forces.layout(), {end_x_.data(), forces.layout().stride()}, h, count, state);
     acceleration_ = state_.whole(state_.planes().x);
+    last_h_ = h;
     return true;
 }
 
