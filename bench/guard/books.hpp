@@ -120,7 +120,8 @@ public:
         over_ = end.energy - allowed_ - report.balance;
         const Real owed =
             report.slack + unseen + (report.taken >= taut::Taken::again ? rounded_ : 0);
-        owing_ = std::max(0.0, report.balance);
+        // The parts' balances are known as a sum, and none is below −0.1 K of its part.
+        owing_ = std::max(Real(0), report.balance + end.kinetic / 10);
         // What forces given as code change in steps that are taken again is owed, too.
         const bool stands = !by_code || report.taken < taut::Taken::again;
         const bool owes = stands && report.balance > owed + grain + 2e-12L * end.kinetic;

@@ -83,6 +83,7 @@ bool Guarded<Stepper, System>::run(State& state, Frame frame, Kind kind, By& by,
     if (stepwise && !shows) work_.see(state);
     const guard_detail::Watching watching(by, seen ? &work_ : nullptr);
     for (Index done = 0; done < frame.steps; done += at_once) {
+        if (shows && stepwise && done > 0) work_.repeat();  // where a call of its own begins
         if (!take(state, frame.h, at_once)) return false;
         if (!detail::fits(state, system_->size()) || !state.finite()) return false;
         if constexpr (held) {

@@ -50,6 +50,7 @@ public:
         if (pins_move_) list_springs();
         works_.assign(parts.count(), {});
         seen_ = 0;
+        repeated_ = false;
         x_ = state.x;
         return code_ || pins_move_;
     }
@@ -76,6 +77,8 @@ public:
         }
         see(x, v, state ? *state : own_, force);
     }
+    /// The next state is seen for the second time.
+    void repeat() { repeated_ = true; }
     /// Forces that held from the last state to this one, N, Dim × n or fewer columns.
     void add_held(const Force& held, const State& state) {
         for (Index i = 0; i < held.cols(); ++i) add(parts_->of(i), along(held, state, i));
@@ -125,7 +128,8 @@ private:
 
     template <class X, class V>
     void see(const X& x, const V& v, const State& state, const Force* force) {
-        add_pins(x, v);
+        add_pins(x, v, seen_ > 0 && !repeated_);
+        repeated_ = false;
         if (code_) add_code(state, force);
         ++seen_;
     }
@@ -184,7 +188,7 @@ private:
     }
     /// By the springs and dampers between a moving pin and a free particle, since the last state.
     template <class X, class V>
-    void add_pins(const X& x, const V& v) {
+    void add_pins(const X& x, const V& v, bool stepped) {
         const auto alpha = static_cast<Scalar>(system_->rayleigh().stiffness_proportional);
         std::size_t law = 0;
         if (!pins_move_) return;
@@ -194,21 +198,26 @@ private:
                 if (u.isZero(0)) continue;
                 const auto spring = set[old.index];
                 const Vector here = x(old.free), p = x(old.pin), speed = v(old.free);
-                if (seen_ > 0 && kind_ == Kind::ahead) {
+                if (stepped && kind_ == Kind::ahead) {
                     // The pin is the end a of a spring turned round.
-                    const Vector f =
-                        pull_ahead(spring, Vector(old.x - old.p), Vector(old.v - old.u), h_, alpha);
-                    add(parts_->of(old.free), -double(f.dot(p - old.p)));
+                    const Vector dx = old.x - old.p, dv = old.v - old.u;
+                    auto undamped = spring;
+                    undamped.damping = 0;
+                    const Vector f = pull_ahead(undamped, dx, dv, h_, Scalar(0));
+                    const Vector damper = pull_ahead(spring, dx, dv, h_, alpha) - f;
+                    add(parts_->of(old.free),
+                        -double(f.dot(p - old.p)) - double(h_) * double(damper.dot(old.u)));
                 }
                 // What a damper gives the free particle: the rest of its work is heat.
                 const Vector dx = here - p, dv = speed - u, f = pull(spring, dx);
                 const Vector damper = f - pull(spring, dx, dv, alpha);
-                if (seen_ > 0 && kind_ != Kind::ahead) {
+                if (stepped && kind_ != Kind::ahead) {
                     const double pulled = -double(Vector(old.pull + f).dot(p - old.p)) / 2;
                     const Vector held = kind_ == Kind::at_both_ends
                                             ? Vector((old.damper + damper) / Scalar(2))
                                             : damper;
-                    add(parts_->of(old.free), pulled + double(held.dot(here - old.x)));
+                    // By speeds: of a short step's ways rounding may leave nothing.
+                    add(parts_->of(old.free), pulled + double(h_) * double(held.dot(speed)));
                 }
                 old.x = here;
                 old.v = speed;
@@ -227,6 +236,7 @@ private:
     bool code_ = false, pins_move_ = false;
     std::uint64_t listed_ = 0;  // the topology_revision() of pulls_, and one
     Index seen_ = 0;
+    bool repeated_ = false;
     std::vector<Work> works_;
     std::vector<std::vector<PinnedSpring>> pulls_;  // of each law
     Force x_;                                       // at the last state, m
