@@ -16,19 +16,23 @@ HEADER = """#pragma once
 #include <cstdlib>
 #include <type_traits>
 namespace taut_mutants {
-inline int asked() {
-    const char* number = std::getenv("TAUT_MUTANT");
-    return number ? std::atoi(number) : 0;
-}
-inline const int chosen = asked();
-inline bool on(int mutant) { return mutant == chosen; }
+namespace {
+struct Chosen {
+    int number = 0;
+    Chosen() {
+        if (const char* asked = std::getenv("TAUT_MUTANT")) number = std::atoi(asked);
+    }
+};
+__attribute__((init_priority(101))) const Chosen chosen;  // before all else that is not constant
+}  // namespace
+constexpr bool on(int mutant) { return !__builtin_is_constant_evaluated() && mutant == chosen.number; }
 template <class New, class Old>
-bool same(int mutant) {
+constexpr bool same(int mutant) {
     static_assert(std::is_same_v<std::decay_t<New>, std::decay_t<Old>>);
     return on(mutant);
 }
 template <class New, class Old>
-bool numbers(int mutant) {
+constexpr bool numbers(int mutant) {
     static_assert(std::is_arithmetic_v<std::decay_t<New>> && std::is_arithmetic_v<std::decay_t<Old>>);
     return on(mutant);
 }
@@ -325,17 +329,17 @@ class Group:
         found += [(b, e, self.as_expression(b, e, "same")) for b, e in expressions]
         found += [(b, e, self.as_expression(b, e, "numbers")) for b, e in expressions
                   if words[b - 1] in ("(", ",", "=") and words[e] in (")", ",", ";")]
-        found += last
-        return found + [without for place in found for without in self.without_constexpr(*place)]
+        return [instead for place in found + last for instead in self.without_constexpr(*place)]
 
     def without_constexpr(self, begin, end, text):
-        """The place together with what stands before it, where that is constexpr, which no switch is."""
+        """The place, or in the value of a constexpr variable, which no switch can change, all but constexpr."""
         words, at = self.old.words, begin - 1
         while at > 0 and words[at] not in (";", "}", "constexpr"):
             at -= 1
-        if words[at] == "constexpr" and words[at - 1] != "if":
-            instead = "" if "{" in words[at:begin] else "const "
-            yield at, end, f"{instead}{self.old.text(at + 1, begin)} {text}"
+        if words[at] == "constexpr" and words[at - 1] != "if" and not any(
+                words[i] == "{" and self.old.is_block(i) for i in range(at, begin)):
+            return [(at, end, f"const {self.old.text(at + 1, begin)} {text}")]
+        return [(begin, end, text)]
 
 
 def rewrite(text, tokens, groups):
