@@ -26,16 +26,16 @@ struct Chosen {
 __attribute__((init_priority(101))) const Chosen chosen;  // before all else that is not constant
 }  // namespace
 constexpr bool on(int mutant) { return !__builtin_is_constant_evaluated() && mutant == chosen.number; }
-template <class New, class Old>
-constexpr bool same(int mutant) {
-    static_assert(std::is_same_v<std::decay_t<New>, std::decay_t<Old>>);
-    return on(mutant);
+inline bool late(int mutant) { return mutant == chosen.number; }  // in no constant, where on() is false
+template <bool allowed>
+constexpr int if_allowed(int mutant) {
+    static_assert(allowed);
+    return mutant;
 }
 template <class New, class Old>
-constexpr bool numbers(int mutant) {
-    static_assert(std::is_arithmetic_v<std::decay_t<New>> && std::is_arithmetic_v<std::decay_t<Old>>);
-    return on(mutant);
-}
+constexpr bool same = std::is_same_v<std::decay_t<New>, std::decay_t<Old>>;
+template <class New, class Old>
+constexpr bool numbers = std::is_arithmetic_v<std::decay_t<New>> && std::is_arithmetic_v<std::decay_t<Old>>;
 }  // namespace taut_mutants
 """
 
@@ -153,7 +153,8 @@ class Group:
         cast = f"static_cast<std::decay_t<decltype({old})>>" if kind == "numbers" else ""
         text = f"({old})"
         for n, words in reversed(new):
-            text = f"(taut_mutants::{kind}<decltype({words}), decltype({old})>({n}) ? {cast}({words}) : {text})"
+            allowed = f"taut_mutants::if_allowed<taut_mutants::{kind}<decltype({words}), decltype({old})>>({n})"
+            text = f"(taut_mutants::on({allowed}) ? {cast}({words}) : {text})"
         return text
 
     def as_value(self, begin, end, of):
@@ -338,7 +339,8 @@ class Group:
             at -= 1
         if words[at] == "constexpr" and words[at - 1] != "if" and not any(
                 words[i] == "{" and self.old.is_block(i) for i in range(at, begin)):
-            return [(at, end, f"const {self.old.text(at + 1, begin)} {text}")]
+            late = text.replace("taut_mutants::on(", "taut_mutants::late(")
+            return [(at, end, f"const {self.old.text(at + 1, begin)} {late}")]
         return [(begin, end, text)]
 
 
