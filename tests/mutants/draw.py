@@ -10,15 +10,12 @@ usage: draw.py [COUNT [SEED]]
 
 import collections
 import hashlib
-import pathlib
 import re
 import sys
 
 sys.dont_write_bytecode = True
-from lists import read_list  # noqa: E402, after the line above
+from lists import HERE, ROOT, read_list, written  # noqa: E402, after the line above
 
-HERE = pathlib.Path(__file__).resolve().parent
-ROOT = HERE.parent.parent
 HEADERS = ROOT / "include/taut"
 
 # (what is replaced, by what). clang-format sets binary operators between blanks, and references, pointers and
@@ -131,11 +128,10 @@ def drawn(count, seed):
 def main():
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 90
     seed = int(sys.argv[2]) if len(sys.argv) > 2 else 1
-    unseen = {(m.file, m.old, m.new): f"# unseen: {m.unseen}\n" for m in read_list("drawn") if m.unseen}
-    blocks = [f"{room} {file}\n{unseen.get((file, old, new), '')}- {old}\n+ {new}\n"
-              for room, file, old, new in drawn(count, seed)]
-    head = f"# Written by draw.py: {count} mutants by seed {seed}. run.py describes the format.\n"
-    (HERE / "drawn.txt").write_text("\n".join([head, *blocks]), encoding="utf-8")
+    unseen = {(m.file, m.old, m.new): f"unseen: {m.unseen}" for m in read_list("drawn") if m.unseen}
+    lines = [written(*mutant, unseen.get(mutant[1:], "")) for mutant in drawn(count, seed)]
+    head = f"# Written by draw.py: {count} mutants by seed {seed}. chosen.txt describes the format.\n"
+    (HERE / "drawn.txt").write_text("\n".join([head, *lines, ""]), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -1,95 +1,77 @@
 # SPDX-FileCopyrightText: 2026 Taut contributors
 # SPDX-License-Identifier: MIT
-"""Reads the lists of mutants; run.py says what is in them."""
+"""Reads and writes the lists of mutants; chosen.txt says what is in them."""
 
 import collections
 import functools
 import hashlib
+import os
 import pathlib
 import re
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
+HEADERS = "include/taut/"
 LISTS = ("chosen", "drawn")
-Mutant = collections.namedtuple("Mutant", "name room file old new at key unseen")
+MARKS = re.compile(r"\[-(.*?)-\]|\{\+(.*?)\+\}")
+Mutant = collections.namedtuple("Mutant", "name room file old new key unseen")
 
 
 def read_list(name):
-    path = HERE / f"{name}.txt"
-    mutants, block, at, unseen = [], [], 0, ""
-    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines() + [""], 1):
-        if line.strip() and not line.startswith("#"):
-            at = at or number
-            block.append(line)
+    mutants = []
+    for line in (HERE / f"{name}.txt").read_text(encoding="utf-8").splitlines():
+        if not line.strip() or line.startswith("#"):
             continue
-        if line.startswith("# unseen: "):
-            unseen = line[len("# unseen: "):]
-        if line.strip() or not block:
-            continue
-        head = block[0].split()
-        if len(block) != 3 or len(head) != 2 or block[1][:1] != "-" or block[2][:1] != "+":
-            sys.exit(f"{path}:{at}: not a block of ROOM FILE, a line '- ' and a line '+ '")
-        old, new = block[1][1:].strip(), block[2][1:].strip()
-        key = hashlib.sha256("\n".join([head[1], old, new]).encode()).hexdigest()[:12]
-        mutants.append(Mutant(f"{name}:{len(mutants) + 1}", head[0], head[1], old, new, at, key, unseen))
-        block, at, unseen = [], 0, ""
+        place, rest = line.split(None, 1)
+        code, _, why = rest.partition("  # ")
+        old, new = MARKS.sub(r"\1", code).strip(), MARKS.sub(r"\2", code).strip()
+        room, _, file = place.rpartition(":")
+        key = hashlib.sha256("\n".join([HEADERS + file, old, new]).encode()).hexdigest()[:12]
+        mutants.append(Mutant(f"{name}:{len(mutants) + 1}", room or file.split("/")[0], HEADERS + file, old, new, key,
+                              why.partition("unseen: ")[2]))
     return mutants
 
 
+def written(room, file, old, new, why=""):
+    """The line of a list, in which whole words go and come."""
+    a, b = (re.findall(r"\w+|\W", text) for text in (old, new))
+    same = len(os.path.commonprefix([a, b]))
+    tail = len(os.path.commonprefix([a[same:][::-1], b[same:][::-1]]))
+    goes, comes = ("".join(words[same:len(words) - tail]) for words in (a, b))
+    marked = (f"[-{goes}-]" if goes else "") + (f"{{+{comes}+}}" if comes else "")
+    file = file[len(HEADERS):]
+    place = file if file.split("/")[0] == room else f"{room}:{file}"
+    return f"{place:40} {''.join(a[:same])}{marked}{''.join(a[len(a) - tail:])}" + (f"  # {why}" if why else "")
+
+
 def broken(text, mutant):
-    """The file with its one line replaced, or None where that line does not occur once."""
-    lines = text.split("\n")
-    found = [n for n, line in enumerate(lines) if line.strip() == mutant.old]
-    if len(found) != 1:
-        return None
-    line = lines[found[0]]
-    lines[found[0]] = line[:len(line) - len(line.lstrip())] + mutant.new
-    return "\n".join(lines)
+    """The file with its one line replaced."""
+    return "\n".join(line.replace(mutant.old, mutant.new) if line.strip() == mutant.old else line
+                     for line in text.split("\n"))
 
 
 def check(mutants):
-    problems, seen, texts = [], {}, {}
+    problems, seen = [], {}
     for m in mutants:
-        where = f"{m.name} (line {m.at} of its list)"
-        path = ROOT / m.file
-        if not path.is_file():
-            problems.append(f"{where}: there is no {m.file}")
-            continue
-        text = texts.setdefault(m.file, path.read_text(encoding="utf-8"))
+        text = (ROOT / m.file).read_text(encoding="utf-8") if (ROOT / m.file).is_file() else ""
         count = sum(line.strip() == m.old for line in text.split("\n"))
-        if count != 1:
-            problems.append(f"{where}: its line occurs {count} times in {m.file}: {m.old}")
-        if m.old == m.new:
-            problems.append(f"{where}: it changes nothing")
-        if m.key in seen:
-            problems.append(f"{where}: the same as {seen[m.key]}")
+        problems += [f"{m.name}: {problem}" for problem in (
+            count != 1 and f"its line occurs {count} times in {m.file}: {m.old}",
+            m.old == m.new and "it changes nothing",
+            m.key in seen and f"the same as {seen.get(m.key)}",
+            not any((ROOT / "tests" / m.room).glob("*_test.cpp")) and f"room {m.room} has no tests") if problem]
         seen[m.key] = m.name
-        if not any((ROOT / "tests" / m.room).glob("*_test.cpp")):
-            problems.append(f"{where}: room {m.room} has no tests")
-    for problem in problems:
-        print(problem)
-    print(f"{len(mutants)} mutants, {len(problems)} problems")
+    print("\n".join([*problems, f"{len(mutants)} mutants, {len(problems)} problems"]))
     return not problems
-
-
-def numbers(text):
-    chosen = set()
-    for part in text.split(","):
-        first, _, last = part.partition("-")
-        chosen.update(range(int(first), int(last or first) + 1))
-    return chosen
 
 
 @functools.lru_cache(None)
 def included(path):
-    found = []
-    for name in re.findall(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', path.read_text(encoding="utf-8"), re.M):
-        for folder in (path.parent, ROOT / "include", ROOT / "tests"):
-            if (folder / name).is_file():
-                found.append((folder / name).resolve())
-                break
-    return found
+    names = re.findall(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', path.read_text(encoding="utf-8"), re.M)
+    found = ([folder / name for folder in (path.parent, ROOT / "include", ROOT / "tests")
+              if (folder / name).is_file()] for name in names)
+    return [paths[0].resolve() for paths in found if paths]
 
 
 def rooms_with_tests():
@@ -100,13 +82,12 @@ def rooms_with_tests():
 
 @functools.lru_cache(None)
 def read_by(room):
-    front = [*(ROOT / "tests" / room).glob("*_test.cpp"), *(ROOT / "tests/support").glob("*.cpp")]
+    front = [*(ROOT / "tests" / room).glob("*.cpp"), *(ROOT / "tests/support").glob("*.cpp")]
     known = set(front)
     while front:
-        for path in included(front.pop()):
-            if path not in known:
-                known.add(path)
-                front.append(path)
+        new = set(included(front.pop())) - known
+        known |= new
+        front += new
     return known
 
 

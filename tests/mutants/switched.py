@@ -4,6 +4,7 @@
 
 import collections
 import json
+import math
 import pathlib
 import re
 import shlex
@@ -12,7 +13,7 @@ import sys
 
 import switches
 from lists import ROOT, broken, rooms_with_tests
-from tree import SURVIVED, Copy, Task, program_of
+from tree import BUILD_LIMIT, SURVIVED, Copy, Task, program_of
 
 HEADER = "include/taut_mutants.hpp"
 
@@ -77,158 +78,137 @@ class Switched(Copy):
     # ---- what compiles ----
 
     def commands(self):
-        """[(source, arguments)] that check the syntax of what is built."""
-        folders = [f"{program_of(room)[0]}.dir/" for room in rooms_with_tests()]
-        listed = json.loads((self.build / "compile_commands.json").read_text(encoding="utf-8"))
+        """[(source, arguments)] that check the syntax of the largest source of each room and of each part of
+        Taut::Compiled; the build checks the rest."""
+        folders = [f"{program_of(room)}.dir/" for room in rooms_with_tests()]
         found = []
-        for entry in listed:
-            words = shlex.split(entry["command"])
-            output = words[words.index("-o") + 1]
-            if not any(f in output for f in (*folders, "TautCompiled.dir/", "test_support.dir/")) \
-                    or entry["file"].endswith((".hxx.cxx", ".hxx")):
-                continue
+        for entry in json.loads((self.build / "compile_commands.json").read_text(encoding="utf-8")):
+            words, source = shlex.split(entry["command"]), pathlib.Path(entry["file"])
             at = words.index("-o")
+            if not any(f in words[at + 1] for f in (*folders, "TautCompiled.dir/", "test_support.dir/")) \
+                    or source.suffix in (".cxx", ".hxx"):
+                continue
             del words[at:at + 2]
             for i, word in enumerate(words):
                 if word.endswith("cmake_pch.hxx"):  # a copy, as it may have been compiled from other text
-                    copy = self.work / "switched" / re.sub(r"\W", "-", word.split("CMakeFiles/")[1]).replace(
-                        "-hxx", ".hxx")
-                    copy.write_text(pathlib.Path(word).read_text(encoding="utf-8"), encoding="utf-8")
-                    words[i] = str(copy)
-            size = pathlib.Path(entry["file"]).stat().st_size
-            found.append((pathlib.Path(entry["file"]), [*words, "-fsyntax-only", "-w"], size))
-        ranks = collections.Counter()
-        order = []  # the two largest of each room and of each part of Taut::Compiled: the build checks the rest
-        for source, words, size in sorted(found, key=lambda f: (-f[2], f[0])):
+                    words[i] = str(self.work / "switched" / re.sub(r"\W", "-", word.split("CMakeFiles/")[1])) + ".hxx"
+                    shutil.copy(word, words[i])
+            found.append((-source.stat().st_size, source, [*words, "-fsyntax-only", "-w"]))
+        largest = {}
+        for _, source, words in sorted(found):
             of = source.stem.split("_")[0] if source.parent.name == "compiled" else source.parent.name
-            ranks[of] += 1
-            if ranks[of] <= 2:
-                order.append((ranks[of], str(source), words))
-        return [(pathlib.Path(source), words) for _, source, words in sorted(order)]
+            largest.setdefault(of, (source, words))
+        return list(largest.values())
 
     def blame(self, text):
         """Groups whose lines the errors of a compiler name, and the errors that name none."""
-        guilty, innocent, context = set(), [], []
-        place = re.compile(r"(include/taut/[\w./]+):(\d+)")
-        lines = text.splitlines()
-        for i, line in enumerate(lines):
-            is_error = re.search(r":\d+:\d+: (fatal )?error:", line) or re.search(r": error: ", line)
-            if re.search(r"required (from|by)|In (instantiation|substitution)|[Rr]equired from", line):
-                context.append(line)
-                continue
-            if not is_error:
-                if re.search(r": (note|warning):", line):
-                    context = []
-                continue
-            after = []
-            for follow in lines[i + 1:]:
-                if ": error:" in follow:
-                    break
-                after.append(follow)
-            for said in (line, *context, *after):
-                groups = [g for file, at in place.findall(said)
-                          for g in self.lines.get(file, {}).get(int(at), [])]
-                if groups:
-                    guilty.add(groups[0])
-                    break
-            else:
-                innocent.append(line)
-            context = []
+        guilty, innocent, lines = set(), [], text.splitlines()
+        errors = [i for i, line in enumerate(lines) if re.search(r": (fatal )?error: ", line)]
+        for i, end in zip(errors, [*errors[1:], len(lines)]):
+            begin = i
+            while begin > 0 and not re.search(r": (note|warning|(fatal )?error):", lines[begin - 1]):
+                begin -= 1
+            context = [line for line in lines[begin:i]
+                       if re.search(r"[Rr]equired (from|by)|In (instantiation|substitution)", line)]
+            groups = [g for said in (lines[i], *context, *lines[i + 1:end])
+                      for file, at in re.findall(r"(include/taut/[\w./]+):(\d+)", said)
+                      for g in self.lines.get(file, {}).get(int(at), [])]
+            guilty.update(groups[:1])
+            innocent += [] if groups else [lines[i]]
         return guilty, innocent
 
-    def next_candidates(self, text, source, moved):
+    def next_candidates(self, log, moved):
         """moved: the groups that were moved on since all were written."""
-        guilty, innocent = self.blame(text)
+        guilty, innocent = self.blame(log.read_text(encoding="utf-8", errors="replace"))
         if not guilty:
-            sys.exit(f"{source} does not compile, and no switch is to blame:\n" + "\n".join(innocent[:10]))
+            sys.exit(f"{log}: this does not compile, and no switch is to blame:\n" + "\n".join(innocent[:10]))
         for group in guilty - moved:
             moved.add(group)
             group.at += 1
             left = len(group.candidates) - group.at
-            print(f"{source.name}: {', '.join(m.name for m, _, _ in group.mutants)}: {left} places left", flush=True)
+            print(f"{log.stem}: {', '.join(m.name for m, _, _ in group.mutants)}: {left} places left", flush=True)
 
     def check(self):
         """Moves groups on to candidates that compile."""
         self.write()
         self.configure("-D", "TAUT_COMPILED=ON", "-D", "CMAKE_CXX_FLAGS=-w",
                        "-D", "CMAKE_EXPORT_COMPILE_COMMANDS=ON")
-        if self.checked == self.digest:
+        if self.checked == self.headers:
             return
-        waiting, jobs = collections.deque(self.commands()), self.options.jobs
+        waiting, jobs = self.commands(), self.options.jobs
         while waiting:
-            batch, moved = {}, set()
-            for _ in range(min(jobs, len(waiting))):
-                source, words = waiting.popleft()
-                batch[str(source)] = (source, words)
-            tasks = [Task(name, words, self.fresh_log(f"syntax-{source.parent.name}-{source.stem}"),
-                          self.options.build_limit, self.build) for name, (source, words) in batch.items()]
+            batch, moved = {str(source): (source, words) for source, words in waiting[:jobs]}, set()
+            tasks = [Task(name, words, self.fresh_log(f"syntax-{source.parent.name}-{source.stem}"), BUILD_LIMIT,
+                          self.build) for name, (source, words) in batch.items()]
+            done = []
             for task, status, _ in self.many(tasks, jobs):
-                if status != 0:
-                    source, words = batch[task.name]
-                    self.next_candidates(task.log.read_text(encoding="utf-8", errors="replace"), source, moved)
-                    waiting.appendleft((source, words))
+                if status == 0:
+                    done.append(task.name)
+                else:
+                    self.next_candidates(task.log, moved)
+            waiting = [w for w in waiting if str(w[0]) not in done]
             self.save()
             self.write()
-        self.checked = self.digest
+        self.checked = self.headers
         self.save()
 
     def compile(self, rooms):
-        targets = sorted({program_of(room)[0] for room in rooms})
         while True:
             log = self.fresh_log("build")
-            status, seconds = self.command(
-                ["cmake", "--build", self.build, "-j", str(self.options.jobs), "--target", *targets, "--", "-k", "0"],
-                log, self.options.build_limit, self.work)
+            status, seconds = self.build_targets(sorted(map(program_of, rooms)), log)
             if status == 0:
-                print(f"{', '.join(targets)}: built in {seconds:.0f} s", flush=True)
+                print(f"{', '.join(sorted(rooms))}: built in {seconds:.0f} s", flush=True)
                 return
-            self.next_candidates(log.read_text(encoding="utf-8", errors="replace"), log, set())
+            self.next_candidates(log, set())
             self.save()
             self.write()
 
     # ---- the runs ----
 
     def run(self, wanted):
-        """wanted: [(mutant, room)], of which those without a switch are left."""
-        wanted = [(m, room) for m, room in wanted if self.has(m)]
+        """wanted: [(mutant, room)], of which those without a switch are left; None: the unbroken program."""
+        wanted = [(m, room) for m, room in wanted if not m or self.has(m)]
         rooms = {room for _, room in wanted}
         if not rooms:
             return
-        free = [self.work / f"switched/run-{i}" for i in range(self.options.jobs)]
         self.compile(rooms)
-        wanted = [w for w in wanted if self.has(w[0])]
-        fresh = [self.test(room, room, self.fresh_log(f"unbroken-{room}"), 3600, self.work)
-                 for room in sorted(rooms) if self.unbroken(room) is None]
-        for task, status, seconds in self.many(self.placed(fresh, free), self.options.jobs):
+        fresh = {room: (self.test(room, room, self.fresh_log(f"unbroken-{room}"), 3600, self.work), ("", room))
+                 for room in sorted(rooms) if self.seconds(room) == math.inf}
+        self.note_all(fresh, f"unbroken-{self.digest}")
+        tasks = {}
+        for m, room in sorted((w for w in wanted if w[0]), key=lambda w: self.numbers[w[0].key]):
+            if self.has(m) and self.seconds(room) < math.inf:
+                name = f"{m.name}-{room}"
+                tasks[name] = (self.test(name, room, self.fresh_log(name), self.time_limit(room), self.work,
+                                         {"TAUT_MUTANT": str(self.numbers[m.key])}), (m, room))
+        self.note_all(tasks)
+
+    def note_all(self, tasks, unbroken=None):
+        """Each is run in an empty folder: tests write files, and ask whether some are not there."""
+        free = [self.work / f"switched/run-{i}" for i in range(self.options.jobs)]
+
+        def placed():
+            for task, _ in tasks.values():
+                folder = free.pop()
+                shutil.rmtree(folder, ignore_errors=True)
+                folder.mkdir()
+                yield task._replace(cwd=folder)
+
+        for task, status, seconds in self.many(placed(), self.options.jobs):
             free.append(task.cwd)
+            m, room = tasks[task.name][1]
             outcome, detail = self.outcome(task, status)
-            self.note(f"unbroken-{self.digest}", task.name, outcome, 0, seconds, "unbroken", detail)
-            if outcome != SURVIVED:
-                print(f"{task.name} does not pass unbroken: {task.log}", flush=True)
-        took = {room: self.unbroken(room) for room in rooms}
-        wanted = [w for w in wanted if took[w[1]] is not None]
-        of, tasks = {}, []
-        for m, room in sorted(wanted, key=lambda w: self.numbers[w[0].key]):
-            name = f"{m.name}-{room}"
-            of[name] = (m, room)
-            tasks.append(self.test(name, room, self.fresh_log(name), max(30.0, 5 * took[room]), self.work,
-                                   {"TAUT_MUTANT": str(self.numbers[m.key])}))
-        for task, status, seconds in self.many(self.placed(tasks, free), self.options.jobs):
-            free.append(task.cwd)
-            m, room = of[task.name]
-            outcome, detail = self.outcome(task, status)
-            self.note(m.key, room, outcome, 0, seconds, m.name, detail)
+            self.note(unbroken or m.key, room, outcome, seconds, "unbroken" if unbroken else m.name, detail)
+            if unbroken and outcome != SURVIVED:
+                print(f"{room} does not pass unbroken: {task.log}", flush=True)
 
     def seconds(self, room):
-        """What its unbroken tests took; those that have not run come last."""
-        known = self.unbroken(room)
-        return float("inf") if known is None else known
+        """What its unbroken tests took; infinity before they have passed."""
+        return min((float(row.run_s) for row in self.known() if row.key == f"unbroken-{self.digest}"
+                    and row.program == room and row.outcome == SURVIVED), default=math.inf)
 
-    @staticmethod
-    def placed(tasks, free):
-        """Each in an empty folder: tests write files, and ask whether some are not there."""
-        for task in tasks:
-            folder = free.pop()
-            shutil.rmtree(folder, ignore_errors=True)
-            folder.mkdir()
-            yield task._replace(cwd=folder)
+    def time_limit(self, room):
+        """Five times that."""
+        if self.seconds(room) == math.inf:
+            self.run([(None, room)])
+        return max(30.0, 5 * self.seconds(room))

@@ -16,22 +16,26 @@ HEADER = """#pragma once
 #include <cstdlib>
 #include <type_traits>
 namespace taut_mutants {
-inline int asked() {
-    const char* number = std::getenv("TAUT_MUTANT");
-    return number ? std::atoi(number) : 0;
+namespace {
+struct Chosen {
+    int number = 0;
+    Chosen() {
+        if (const char* asked = std::getenv("TAUT_MUTANT")) number = std::atoi(asked);
+    }
+};
+__attribute__((init_priority(101))) const Chosen chosen;  // before all else that is not constant
+}  // namespace
+constexpr bool on(int mutant) { return !__builtin_is_constant_evaluated() && mutant == chosen.number; }
+inline bool late(int mutant) { return mutant == chosen.number; }  // in no constant, where on() is false
+template <bool allowed>
+constexpr int if_allowed(int mutant) {
+    static_assert(allowed);
+    return mutant;
 }
-inline const int chosen = asked();
-inline bool on(int mutant) { return mutant == chosen; }
 template <class New, class Old>
-bool same(int mutant) {
-    static_assert(std::is_same_v<std::decay_t<New>, std::decay_t<Old>>);
-    return on(mutant);
-}
+constexpr bool same = std::is_same_v<std::decay_t<New>, std::decay_t<Old>>;
 template <class New, class Old>
-bool numbers(int mutant) {
-    static_assert(std::is_arithmetic_v<std::decay_t<New>> && std::is_arithmetic_v<std::decay_t<Old>>);
-    return on(mutant);
-}
+constexpr bool numbers = std::is_arithmetic_v<std::decay_t<New>> && std::is_arithmetic_v<std::decay_t<Old>>;
 }  // namespace taut_mutants
 """
 
@@ -149,7 +153,8 @@ class Group:
         cast = f"static_cast<std::decay_t<decltype({old})>>" if kind == "numbers" else ""
         text = f"({old})"
         for n, words in reversed(new):
-            text = f"(taut_mutants::{kind}<decltype({words}), decltype({old})>({n}) ? {cast}({words}) : {text})"
+            allowed = f"taut_mutants::if_allowed<taut_mutants::{kind}<decltype({words}), decltype({old})>>({n})"
+            text = f"(taut_mutants::on({allowed}) ? {cast}({words}) : {text})"
         return text
 
     def as_value(self, begin, end, of):
@@ -325,17 +330,18 @@ class Group:
         found += [(b, e, self.as_expression(b, e, "same")) for b, e in expressions]
         found += [(b, e, self.as_expression(b, e, "numbers")) for b, e in expressions
                   if words[b - 1] in ("(", ",", "=") and words[e] in (")", ",", ";")]
-        found += last
-        return found + [without for place in found for without in self.without_constexpr(*place)]
+        return [instead for place in found + last for instead in self.without_constexpr(*place)]
 
     def without_constexpr(self, begin, end, text):
-        """The place together with what stands before it, where that is constexpr, which no switch is."""
+        """The place, or in the value of a constexpr variable, which no switch can change, all but constexpr."""
         words, at = self.old.words, begin - 1
         while at > 0 and words[at] not in (";", "}", "constexpr"):
             at -= 1
-        if words[at] == "constexpr" and words[at - 1] != "if":
-            instead = "" if "{" in words[at:begin] else "const "
-            yield at, end, f"{instead}{self.old.text(at + 1, begin)} {text}"
+        if words[at] == "constexpr" and words[at - 1] != "if" and not any(
+                words[i] == "{" and self.old.is_block(i) for i in range(at, begin)):
+            late = text.replace("taut_mutants::on(", "taut_mutants::late(")
+            return [(at, end, f"const {self.old.text(at + 1, begin)} {late}")]
+        return [(begin, end, text)]
 
 
 def rewrite(text, tokens, groups):

@@ -5,6 +5,7 @@
 import collections
 import posixpath
 
+from lists import written
 from tree import KILLED, NO_BUILD, SURVIVED
 
 ELSEWHERE, NOT_RUN = "elsewhere", "not run"
@@ -39,24 +40,25 @@ def counts(found):
         yield f"{room:14}" + "".join(f"{by_room[room][c]:>18}" for c in COLUMNS)
 
 
+def exceptions(found):
+    """Of each room those that its own tests do not kill."""
+    for room in sorted({m.room for m, outcome, _, _ in found if outcome != KILLED}):
+        yield f"\n{room}"
+        for m, outcome, _, how in found:
+            if m.room == room and outcome != KILLED:
+                unseen = f"unseen: {m.unseen}" if m.unseen else ""
+                yield f"  {m.name:12}{outcome:18}{posixpath.normpath(how) if how else ''}".rstrip()
+                yield f"    {written(*m[1:5], unseen)}"
+
+
 def table(mutants, rows):
     found = list(outcomes(mutants, rows))
-    print("\n" + "\n".join(counts(found)))
-    for m, outcome, room, _ in found:
-        if outcome in (SURVIVED, ELSEWHERE):
-            where = f" its own room, {room} kills it" if outcome == ELSEWHERE else ""
-            unseen = f"\n# unseen: {m.unseen}" if m.unseen else ""
-            print(f"\n{m.name} survived{where}: {m.file}{unseen}\n- {m.old}\n+ {m.new}")
+    print("\n".join(["", *counts(found), *exceptions(found)]))
 
 
 def record(mutants, rows):
     """What results.txt holds: no times, nothing of the machine."""
     found = list(outcomes(mutants, rows))
-    lines = ["# Written by run.py --record: what became of each mutant, and the first check that failed.",
-             "# elsewhere: not in its own room. docs/testing.md says more.", "", *counts(found), ""]
-    for m, outcome, room, how in found:
-        how = posixpath.normpath(how) if how else ""
-        by = "" if room in ("", m.room) or how.startswith(f"tests/{room}/") else f" ({room})"
-        unseen = f"unseen: {m.unseen}" if m.unseen else ""
-        lines.append(f"{m.name:12}{m.room:14}{outcome:18}{how}{by}{unseen}".rstrip())
+    lines = ["# Written by run.py --record: what became of the mutants. elsewhere: the tests of another room kill it.",
+             "", *counts(found), *exceptions(found)]
     return "\n".join(lines) + "\n"
