@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <functional>
 #include <string>
+#include <taut/integrator/implicit_euler.hpp>
 #include <taut/bdf2/bdf2.hpp>
 #include <taut/lattice/chain.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
@@ -264,7 +265,7 @@ void direct_table() {
 /// One iteration of projective dynamics beside a plain local step and three of Eigen's solves.
 void projective() {
     const Cloth cloth = taut::hanging_cloth<double>({100, 100});
-    const Sparse P = taut::SpringPencil<1>::any_pose(cloth).assemble(
+    const Sparse P = taut::Pencil::any_pose(cloth).assemble(
         taut::matrices::M + h * taut::matrices::D + h * h * taut::matrices::K_plus);
     const Eigen::SimplicialLLT<Sparse> llt(P);
     const auto& set = cloth.springs();

@@ -47,7 +47,7 @@ int scale_row(double springs, bool diagonals, const std::string& folder) {
     const auto state = system.initial_state();
     const double scene = peak_megabytes();
     double start = bench::now(bench::process_time);
-    const auto limit = taut::any_pose_limit(system);
+    const auto limit = taut::any_pose_bracket(system);
     const double certify = bench::now(bench::process_time) - start;
     const double certified = peak_megabytes();
     start = bench::now(bench::process_time);
@@ -100,7 +100,7 @@ int limit(const std::string& folder, Index edge, Index steps) {
     const auto lattice = taut::lattice<double>({{edge, edge, edge}});
     const auto rest = lattice.initial_state();
     const taut::Stability<double> stability(lattice, rest);
-    const auto bracket = stability.max_step(taut::Method::velocity_verlet);
+    const auto bracket = stability.bracket(taut::Method::velocity_verlet);
     const auto mode = stability.limiting_mode();
     const double kick = 1e-6 * rest.x.maxCoeff();
     auto state = rest;

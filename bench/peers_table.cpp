@@ -11,6 +11,7 @@
 #include <exception>
 #include <string>
 #include <string_view>
+#include <taut/integrator/implicit_euler.hpp>
 #include <taut/projective/projective.hpp>
 #include <taut/solver/conjugate_gradient.hpp>
 #include <taut/taut.hpp>

@@ -56,9 +56,9 @@ void brackets_by_bounds() {
         });
         taut::StepLimit<double> limit;
         const Times bracket = measure(n > 200 ? 3 : 7, [&] {
-            limit = taut::Stability<double>(cloth, state).max_step(Method::symplectic_euler);
+            limit = taut::Stability<double>(cloth, state).bracket(Method::symplectic_euler);
         });
-        const auto A = scaled_stiffness(taut::SpringPencil<3>::at_pose(cloth, state.x));
+        const auto A = scaled_stiffness(taut::Pencil::at_pose(cloth, state.x));
         const Times spectra = measure(n > 100 ? 1 : 3, [&] { spectra_k_max(A); });
         std::printf("| %lld | %lld | %.3f | %.2f (%.2f) | %.0f | %.0f | %.2f | %.4f |\n",
                     static_cast<long long>(n), static_cast<long long>(cloth.spring_count()),
@@ -106,13 +106,13 @@ void print_peak(double tightness) {
 void memory(const std::string& program) {
     const Cloth cloth = taut::hanging_cloth<double>({100, 100});
     const auto state = cloth.initial_state();
-    const auto K = taut::SpringPencil<3>::at_pose(cloth, state.x).assemble(taut::matrices::K_plus);
+    const auto K = taut::Pencil::at_pose(cloth, state.x).assemble(taut::matrices::K_plus);
     const auto bytes = [](const taut::SparseMatrix<double>& A) {
         return static_cast<double>(A.nonZeros() * 12 + A.cols() * 4);
     };
     const double factor = [&] {
         const Eigen::SimplicialLLT<taut::SparseMatrix<double>> llt(
-            taut::SpringPencil<3>::at_pose(cloth, state.x)
+            taut::Pencil::at_pose(cloth, state.x)
                 .assemble(1e9 * taut::matrices::M + taut::matrices::K_plus));
         const taut::SparseMatrix<double> L = llt.matrixL();
         return bytes(L);

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <taut/integrator/implicit_euler.hpp>
 #include <taut/modal/modal_analysis.hpp>
 #include <taut/bdf2/bdf2.hpp>
 #include <taut/contact/contact.hpp>

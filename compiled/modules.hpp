@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <taut/integrator/implicit_euler.hpp>
 #include <taut/mass_scaling/mass_scaling.hpp>
 #include <taut/taut.hpp>
 #include <taut/tight/tight.hpp>

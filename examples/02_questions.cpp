@@ -17,8 +17,8 @@ int main() {
     taut::Stability<double> stability(cloth, state);
 
     std::printf("How large may my step be?\n");
-    const auto limit = stability.max_step(Method::symplectic_euler);
-    std::printf("  %.3e s is proved stable, %.3e s is not; set by %s\n", limit.certified,
+    const auto limit = stability.bracket(Method::symplectic_euler);
+    std::printf("  %.5e s is proved stable, %.5e s is not; set by %s\n", limit.certified,
                 limit.refuted, name(limit.cause));
 
     std::printf("And to six digits?\n");
@@ -68,7 +68,7 @@ int main() {
     std::printf("May I keep the step when the scene changes?\n");
     cloth.unpin(0);
     std::printf("  %s\n", limit.step_for(cloth, 0.95) ? "yes" : "no: ask again");
-    stability.update(cloth, state);
+    stability = taut::Stability<double>(cloth, state);
     const auto renewed = stability.max_step(Method::symplectic_euler).step_for(cloth, 0.95);
     std::printf("  now %.3e s\n", renewed.value_or(0));
 }

@@ -126,7 +126,7 @@ void require_steps(const char* label, const taut::StepLimit<double>& limit) {
 Limited find_limit(const char* label, const example::System& system, Method method) {
     const auto pose = system.initial_state();
     const taut::Stability<double> stability(system, pose);
-    const auto limit = stability.max_step(method);
+    const auto limit = stability.bracket(method);
     require_steps(label, limit);
     const auto linear = taut::linearize(system, pose);
     return {
@@ -142,7 +142,7 @@ Plan make_plan(example::System& system, double duration) {
         throw std::runtime_error("nothing to try with explicit Euler: no alpha is proved stable: " +
                                  std::string(describe(window.empty)));
     }
-    const auto moving = taut::energy_limit(system);
+    const auto moving = taut::energy_bracket(system);
     require_steps("the moving cloth", moving);
     const double moving_step = moving.certified;
     if (duration / moving_step > 1e7) {

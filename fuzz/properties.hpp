@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <taut/integrator/implicit_euler.hpp>
 #include <taut/bdf2/bdf2.hpp>
 #include <taut/constraints/constraints.hpp>
 #include <taut/modal/modal.hpp>
@@ -35,7 +36,7 @@ void require_sound(const Stability& stability) {
     for (int i = 0; i <= static_cast<int>(Method::last); ++i) {
         const auto method = static_cast<Method>(i);
         if (taut::method::is_limited_by<taut::method::Absent>(method)) continue;
-        const auto bound = stability.max_step(method);
+        const auto bound = stability.bracket(method);
         const auto narrow = taut::max_step(stability, method, 1e-3);
         require_numbers(bound);
         require_numbers(narrow);
@@ -153,7 +154,7 @@ void run(Bytes bytes) {
     accepted([&] {
         const taut::Stability<Scalar> stability(system, state);
         require_sound(stability);
-        const auto any = taut::any_pose_limit(system);
+        const auto any = taut::any_pose_bracket(system);
         const auto narrow_any = taut::any_pose_limit(system, 1e-3);
         require_numbers(any);
         require_numbers(narrow_any);

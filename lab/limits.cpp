@@ -47,7 +47,7 @@ double any_pose(Method method) {
 
 const taut::StepLimit<double>& at_pose(int method) {
     auto& limit = found.at_pose[std::size_t(method)];
-    if (!limit) limit = found.stability->max_step(static_cast<Method>(method));
+    if (!limit) limit = found.stability->bracket(static_cast<Method>(method));
     return *limit;
 }
 
@@ -111,8 +111,8 @@ void take_blamed(const taut::LimitingMode& mode) {
 void lab::forget_limits() { found = {}; }
 
 void lab_analyse_any_pose() {
-    found.any_pose = taut::any_pose_limit(lab::scene().cloth);
-    found.energy_stable = taut::energy_limit(lab::scene().cloth);
+    found.any_pose = taut::any_pose_bracket(lab::scene().cloth);
+    found.energy_stable = taut::energy_bracket(lab::scene().cloth);
 }
 
 void lab_analyse_pose() {

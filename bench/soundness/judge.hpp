@@ -211,7 +211,7 @@ void judge_stability(Draw& draw, Judge& judge, const taut::Stability<Scalar>& st
     for (const Method method :
          {Method::symplectic_euler, Method::explicit_euler, Method::implicit_euler}) {
         const std::string label = taut::name(method);
-        const auto bound = stability.max_step(method);
+        const auto bound = stability.bracket(method);
         const auto narrow = taut::max_step(stability, method, tightness);
         judge.limit(method, label + ", by bounds", bound);
         judge.limit(method, label + ", narrowed", narrow);
@@ -263,7 +263,7 @@ void judge_pose(Draw& draw, Tally& tally, const Scene<System>& scene) {
     if (all.front().kinked || all[1].kinked) tally.scene += ", at a kink";
     Judge judge(tally, sides, near);
     judge_stability(draw, judge, stability);
-    const auto any = taut::any_pose_limit(system);
+    const auto any = taut::any_pose_bracket(system);
     const auto narrow = taut::any_pose_limit(system, std::exp2(draw.uniform(-20, -3)));
     // What holds at every pose holds at this one.
     for (const auto& limit : {any, narrow}) {
@@ -274,7 +274,7 @@ void judge_pose(Draw& draw, Tally& tally, const Scene<System>& scene) {
     Judge laplacians(tally, in_enough_bits({[&s = system] { return exact_laplacians(s); }}));
     laplacians.limit(Method::symplectic_euler, "any pose, by bounds", any);
     laplacians.limit(Method::symplectic_euler, "any pose, narrowed", narrow);
-    laplacians.energy_stable(taut::energy_limit(system));
+    laplacians.energy_stable(taut::energy_bracket(system));
 }
 
 /// A random scene; some of them again with the stiffest mode as near to critical damping,

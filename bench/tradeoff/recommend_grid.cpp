@@ -69,7 +69,7 @@ Net net(const Cell& cell, Index columns, Net::State& rest) {
     result.add_spring(
         taut::Spring<double, taut::Hookean>{prong, handle, {mass * fork * fork}, 0.1});
     // Heavy: the stiffest vibration is damped at five times its critical damping.
-    const double fastest = 2 / taut::any_pose_limit(result).refuted;
+    const double fastest = 2 / taut::any_pose_bracket(result).refuted;
     result.set_rayleigh({cell.heavy ? 5.0 : 0.5, cell.heavy ? 10 / fastest : 0});
     rest = result.initial_state();
     return result;

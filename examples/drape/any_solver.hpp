@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <taut/integrator/implicit_euler.hpp>
 #include <taut/solver/sparse_cholesky.hpp>
 #include <taut/taut.hpp>
 #include <utility>

@@ -4,14 +4,11 @@
 
 #include "integrator/energy_stable_euler.hpp"
 #include "integrator/explicit_euler.hpp"
-#include "integrator/implicit_euler.hpp"
 #include "integrator/symplectic_euler.hpp"
 #include "integrator/velocity_verlet.hpp"
 #include "model/buckling.hpp"
 #include "model/tension_only.hpp"
 #include "scene/cloth.hpp"
-#include "solver/conjugate_gradient.hpp"
-#include "solver/interleaved_llt.hpp"
 #include "stability/any_pose.hpp"
 #include "stability/energy_limit.hpp"
 #include "stability/stability.hpp"
@@ -35,21 +32,10 @@
     KIND SpringSystem<SCALAR, 3> hanging_cloth<SCALAR>(const ClothOptions&); \
     KIND class Stability<SCALAR>;
 
-#define TAUT_COMPILED_SOLVERS(KIND, SCALAR)  \
-    KIND class InterleavedLLT<SCALAR>;       \
-    KIND class TwoLevel<SCALAR, 1>;          \
-    KIND class TwoLevel<SCALAR, 2>;          \
-    KIND class TwoLevel<SCALAR, 3>;          \
-    KIND class ConjugateGradient<SCALAR, 1>; \
-    KIND class ConjugateGradient<SCALAR, 2>; \
-    KIND class ConjugateGradient<SCALAR, 3>;
-
 // What all systems of a dimension share.
 #define TAUT_COMPILED_SPACE(KIND, SCALAR, DIM)                                \
     KIND struct State<SCALAR, DIM>;                                           \
     KIND struct ExternalForces<SCALAR, DIM>;                                  \
-    KIND class TangentMatrix<SCALAR, DIM>;                                    \
-    KIND SparseMatrix<SCALAR> BlockPattern::zero<SCALAR, DIM>() const;        \
     KIND class integrator_detail::StepLoop<State<SCALAR, DIM>>;               \
     KIND Report integrator_detail::StepLoop<State<SCALAR, DIM>>::check_state( \
         Index, const State<SCALAR, DIM>&, SCALAR);
@@ -74,6 +60,8 @@
     TAUT_COMPILED_SWEEP_IN(KIND, SCALAR, 1)                      \
     TAUT_COMPILED_SWEEP_IN(KIND, SCALAR, 2)                      \
     TAUT_COMPILED_SWEEP_IN(KIND, SCALAR, 3)                      \
+    TAUT_COMPILED_SWEEP_BATCHES(KIND, SCALAR, false)             \
+    TAUT_COMPILED_SWEEP_BATCHES(KIND, SCALAR, true)              \
     }
 
 #define TAUT_COMPILED_SWEEP_BY(KIND, SCALAR, ...)                           \
@@ -89,18 +77,16 @@
     KIND bool Steps<SCALAR, DIM>::run(const Forces&, State<SCALAR, DIM>&, SCALAR, Index, int,   \
                                       Move);                                                    \
     KIND bool Steps<SCALAR, DIM>::run_verlet(const Forces&, State<SCALAR, DIM>&, SCALAR, Index, \
-                                             int, bool);                                        \
-    TAUT_COMPILED_SWEEP_BATCHES(KIND, SCALAR, DIM, false)                                       \
-    TAUT_COMPILED_SWEEP_BATCHES(KIND, SCALAR, DIM, true)
+                                             int, bool);
 
-#define TAUT_COMPILED_SWEEP_BATCHES(KIND, SCALAR, DIM, BOTH)         \
-    TAUT_COMPILED_SWEEP_BATCH(KIND, SCALAR, DIM, false, false, BOTH) \
-    TAUT_COMPILED_SWEEP_BATCH(KIND, SCALAR, DIM, true, false, BOTH)  \
-    TAUT_COMPILED_SWEEP_BATCH(KIND, SCALAR, DIM, true, true, BOTH)
+#define TAUT_COMPILED_SWEEP_BATCHES(KIND, SCALAR, BOTH)         \
+    TAUT_COMPILED_SWEEP_BATCH(KIND, SCALAR, false, false, BOTH) \
+    TAUT_COMPILED_SWEEP_BATCH(KIND, SCALAR, true, false, BOTH)  \
+    TAUT_COMPILED_SWEEP_BATCH(KIND, SCALAR, true, true, BOTH)
 
-#define TAUT_COMPILED_SWEEP_BATCH(KIND, SCALAR, DIM, VELOCITIES, RAYLEIGH, BOTH) \
-    KIND void add_batch<SCALAR, DIM, VELOCITIES, RAYLEIGH, BOTH>(                \
-        const PlannedBatches&, const Batch&, const TileView<SCALAR>&,            \
+#define TAUT_COMPILED_SWEEP_BATCH(KIND, SCALAR, VELOCITIES, RAYLEIGH, BOTH) \
+    KIND void add_batch<SCALAR, VELOCITIES, RAYLEIGH, BOTH>(                \
+        const PlannedBatches&, const Batch&, int, const TileView<SCALAR>&,  \
         void (*)(void*, Chunk<SCALAR>&, int), void*);
 
 // The explicit steps of one law's springs; a law that pushes has steps ahead of its own.
@@ -124,9 +110,6 @@
     }
 
 #define TAUT_COMPILED_PENCILS(KIND)                                                         \
-    KIND class SpringPencil<1>;                                                             \
-    KIND class SpringPencil<2>;                                                             \
-    KIND class SpringPencil<3>;                                                             \
     KIND RitzPair largest_ritz_pair<double>(const Pencil&, const Combination&,              \
                                             const LanczosOptions&, const Eigen::VectorXd&); \
     KIND RitzPair leading_pair<double>(const Pencil&, const Combination&, const Eigen::VectorXd&);
@@ -135,28 +118,26 @@
     KIND class __VA_ARGS__;              \
     KIND Report __VA_ARGS__::step(State&, Scalar, Index);
 
-#define TAUT_COMPILED_SYSTEM(KIND, SCALAR, DIM, ...)                                            \
-    KIND void SpringSystem<__VA_ARGS__>::set_gravity(const Vector&);                            \
-    KIND Index SpringSystem<__VA_ARGS__>::add_particle(const Vector&, SCALAR);                  \
-    KIND State<SCALAR, DIM> SpringSystem<__VA_ARGS__>::initial_state() const;                   \
-    KIND void SpringSystem<__VA_ARGS__>::force(const State&, Force&) const;                     \
-    KIND void SpringSystem<__VA_ARGS__>::force_ahead(const State&, SCALAR, Force&) const;       \
-    KIND SCALAR SpringSystem<__VA_ARGS__>::kinetic_energy(const State&) const;                  \
-    KIND SCALAR SpringSystem<__VA_ARGS__>::potential_energy(const State&) const;                \
-    KIND SpringPencil<DIM> SpringPencil<DIM>::at_pose(const SpringSystem<__VA_ARGS__>&,         \
-                                                      const Points<TangentReal<SCALAR>, DIM>&); \
-    KIND SpringPencil<1> SpringPencil<1>::any_pose(const SpringSystem<__VA_ARGS__>&,            \
-                                                   SpringPencil<1>::Damping);                   \
-    KIND void Stability<SCALAR>::update(const SpringSystem<__VA_ARGS__>&,                       \
-                                        const State<SCALAR, DIM>&);                             \
-    KIND StepLimit<SCALAR> any_pose_limit(const SpringSystem<__VA_ARGS__>&);                    \
-    KIND StepLimit<SCALAR> energy_limit(const SpringSystem<__VA_ARGS__>&);                      \
-    KIND class integrator_detail::ExplicitSteps<SpringSystem<__VA_ARGS__>>;                     \
-    TAUT_COMPILED_STEPPER(KIND, SymplecticEuler<SpringSystem<__VA_ARGS__>>)                     \
-    TAUT_COMPILED_STEPPER(KIND, ExplicitEuler<SpringSystem<__VA_ARGS__>>)                       \
-    TAUT_COMPILED_STEPPER(KIND, VelocityVerlet<SpringSystem<__VA_ARGS__>>)                      \
-    TAUT_COMPILED_STEPPER(KIND, EnergyStableEuler<SpringSystem<__VA_ARGS__>>)                   \
-    TAUT_COMPILED_STEPPER(KIND, ImplicitEuler<SpringSystem<__VA_ARGS__>>)
+#define TAUT_COMPILED_SYSTEM(KIND, SCALAR, DIM, ...)                                      \
+    KIND void SpringSystem<__VA_ARGS__>::set_gravity(const Vector&);                      \
+    KIND Index SpringSystem<__VA_ARGS__>::add_particle(const Vector&, SCALAR);            \
+    KIND State<SCALAR, DIM> SpringSystem<__VA_ARGS__>::initial_state() const;             \
+    KIND void SpringSystem<__VA_ARGS__>::force(const State&, Force&) const;               \
+    KIND void SpringSystem<__VA_ARGS__>::force_ahead(const State&, SCALAR, Force&) const; \
+    KIND SCALAR SpringSystem<__VA_ARGS__>::kinetic_energy(const State&) const;            \
+    KIND SCALAR SpringSystem<__VA_ARGS__>::potential_energy(const State&) const;          \
+    KIND Pencil Pencil::at_pose(const SpringSystem<__VA_ARGS__>&,                         \
+                                const Points<TangentReal<SCALAR>, DIM>&);                 \
+    KIND Pencil Pencil::any_pose(const SpringSystem<__VA_ARGS__>&, Pencil::Damping);      \
+    KIND Stability<SCALAR>::Stability(const SpringSystem<__VA_ARGS__>&,                   \
+                                      const State<SCALAR, DIM>&);                         \
+    KIND StepLimit<SCALAR> any_pose_limit(const SpringSystem<__VA_ARGS__>&);              \
+    KIND StepLimit<SCALAR> energy_limit(const SpringSystem<__VA_ARGS__>&);                \
+    KIND class integrator_detail::ExplicitSteps<SpringSystem<__VA_ARGS__>>;               \
+    TAUT_COMPILED_STEPPER(KIND, SymplecticEuler<SpringSystem<__VA_ARGS__>>)               \
+    TAUT_COMPILED_STEPPER(KIND, ExplicitEuler<SpringSystem<__VA_ARGS__>>)                 \
+    TAUT_COMPILED_STEPPER(KIND, VelocityVerlet<SpringSystem<__VA_ARGS__>>)                \
+    TAUT_COMPILED_STEPPER(KIND, EnergyStableEuler<SpringSystem<__VA_ARGS__>>)
 
 #define TAUT_COMPILED_EACH_LAW(KIND, SCALAR, DIM)                     \
     TAUT_COMPILED_SYSTEM(KIND, SCALAR, DIM, SCALAR, DIM)              \
@@ -188,8 +169,6 @@ namespace {
 }  // namespace
 #endif
 TAUT_COMPILED_PENCILS(extern template)
-TAUT_COMPILED_SOLVERS(extern template, float)
-TAUT_COMPILED_SOLVERS(extern template, double)
 TAUT_COMPILED_SWEEP(extern template, float)
 TAUT_COMPILED_SWEEP(extern template, double)
 TAUT_COMPILED_LAWS(extern template, float)

@@ -4,6 +4,7 @@
 
 // What the other files of this folder do wrong, done right: this one must compile.
 #include <Eigen/SparseLU>
+#include <taut/integrator/implicit_euler.hpp>
 #include <taut/constraints/constraints.hpp>
 #include <taut/newton/newton.hpp>
 #include <taut/own_matrices/own_matrices.hpp>

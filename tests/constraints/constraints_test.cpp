@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include <taut/integrator/implicit_euler.hpp>
+
 #include "../support/catch.hpp"
 #include "../support/message.hpp"
 #include "held.hpp"

@@ -4,6 +4,7 @@
 // Compiled with OpenMP: any number of threads gives the same bits, and so does any run: what this
 // prints, same_output.cmake compares.
 
+#include <taut/integrator/implicit_euler.hpp>
 #include <taut/guard/guard.hpp>
 #include <taut/taut.hpp>
 #include <taut/wind/wind.hpp>

@@ -46,7 +46,7 @@ TEST_CASE("long_double: poses are not rounded to double before they are analysed
         system.pin(1);
         system.pin(2);
         const Stability stability(system, system.initial_state());
-        const auto free = stability.max_step(Method::symplectic_euler);
+        const auto free = stability.bracket(Method::symplectic_euler);
         const Long truth = 2 / std::sqrt(k / m);
         CAPTURE(repeat);
         CHECK((free.certified <= truth && free.certified >= truth * (1 - 1e-9L)));
@@ -58,7 +58,7 @@ TEST_CASE("long_double: poses are not rounded to double before they are analysed
         auto state = pressed.initial_state();
         state.x(0, 0) = 1;
         const Long l = state.x(0, 1) - state.x(0, 0);
-        const auto limit = Stability(pressed, state).max_step(Method::symplectic_euler);
+        const auto limit = Stability(pressed, state).bracket(Method::symplectic_euler);
         CHECK_THAT(limit.growth_rate,
                    WithinRel(static_cast<double>(std::sqrt(k * (1 / l - 1) / m)), 1e-6));
         CHECK(limit.cause == taut::Cause::buckling);

@@ -17,8 +17,8 @@ namespace {
 
 namespace sweep = taut::integrator_detail::sweep;
 
-std::vector<sweep::PlacedSpring> random_springs(Random& random, int places, int springs,
-                                                int reach) {
+taut::Buffer<sweep::PlacedSpring> random_springs(Random& random, int places, int springs,
+                                                 int reach) {
     std::vector<int> a, b;
     for (int s = 0; s < springs; ++s) {
         a.push_back(static_cast<int>(random.below(places - 1)));

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include <taut/integrator/implicit_euler.hpp>
+
 #include "stepper_scenes.hpp"
 
 #include "../support/compiled_once.hpp"

@@ -109,14 +109,14 @@ TEST_CASE("mass_scaling: frequencies of a large cloth change as those of a dense
         cloth.add_spring(i, i + 1, 1e5);
     }
     const auto state = deformed(cloth, 1.01, 0, 3);
-    const auto pencil = taut::SpringPencil<3>::at_pose(cloth, state.x);
+    const auto pencil = taut::Pencil::at_pose(cloth, state.x);
     REQUIRE(pencil.size() > taut::stability_detail::dense_low_modes);
     const double h =
         3 * Stability<double>(cloth, state).max_step(Method::symplectic_euler).certified;
     const auto added = added_mass(cloth, state, h);
     REQUIRE(added.frequency_change.size() == 10);
     const auto frequencies = [&](const auto& system) {
-        const taut::DenseAnalysis<> dense(taut::SpringPencil<3>::at_pose(system, state.x));
+        const taut::DenseAnalysis<> dense(taut::Pencil::at_pose(system, state.x));
         std::vector<double> omega;
         for (const double k : dense.stiffness_eigenvalues()) {
             if (k > dense.zero_tolerance()) omega.push_back(std::sqrt(k));

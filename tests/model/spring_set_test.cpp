@@ -24,7 +24,8 @@ TEST_CASE(
     CHECK(set.damping_of(1) == 0);
     set.add({2, 3, {10}, 1, 5});
     set.add({3, 4, {10}, 1});
-    CHECK(set.damping == std::vector<double>{0, 0, 5, 0});
+    CHECK(std::vector<double>(set.damping.begin(), set.damping.end()) ==
+          std::vector<double>{0, 0, 5, 0});
     CHECK(set.damping_of(2) == 5);
     CHECK(set.size() == 4);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "newton_scenes.hpp"
 
+#include <taut/integrator/implicit_euler.hpp>
 #include <taut/solver/conjugate_gradient.hpp>
 
 #include "newton_on.hpp"

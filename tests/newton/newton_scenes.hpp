@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <taut/integrator/implicit_euler.hpp>
+
 #include "../support/scene.hpp"
 
 namespace taut_test {

@@ -46,7 +46,7 @@ AnyLinear general_system(const Matrices& matrices);
 /// Of a plain scene.
 AnyLinear linearized(const Scene& scene, const AnyState& pose);
 
-using AnyPencil = std::shared_ptr<const taut::ScenePencil>;
+using AnyPencil = std::shared_ptr<const taut::Pencil>;
 AnyPencil pencil_of(const Matrices& matrices);
 taut::StepLimit<double> limit_of(const Matrices& matrices, taut::Method method, double tightness);
 

@@ -51,7 +51,6 @@ TEST_CASE("matrix_pencil: upper_bound is never below the largest eigenvalue", "[
                         c.damping());
                 const double bound = pencil->upper_bound(c);
                 CHECK(bound >= all[all.size() - 1] - noise);
-                CHECK(pencil->upper_bound(c, 2 * std::abs(bound)) >= all[all.size() - 1] - noise);
             }
         }
     }
@@ -256,10 +255,10 @@ TEST_CASE("matrix_pencil: scaled() and shares", "[own_matrices]") {
         const double stiffness = over_decades(random, 2), mass = over_decades(random, 2);
         const auto scaled = pencil->scaled(stiffness, mass);
         INFO("repeat " << repeat);
-        CHECK((scaled->mass() == mass * m.mass.cast<double>()));
+        CHECK((scaled.mass() == mass * m.mass.cast<double>()));
         CHECK((pencil->mass() == m.mass.cast<double>()));
         const auto check = [&](const Combination& c, const RealMatrix& expected) {
-            const Eigen::MatrixXd error = scaled->assemble(c) - expected.cast<double>();
+            const Eigen::MatrixXd error = scaled.assemble(c) - expected.cast<double>();
             CHECK(error.cwiseAbs().maxCoeff() <= 64 * 0x1p-52L * expected.cwiseAbs().maxCoeff());
         };
         check(matrices::K_plus, stiffness * m.K);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include <taut/integrator/implicit_euler.hpp>
 #include <taut/bdf2/bdf2.hpp>
 
 #include "../support/catch.hpp"

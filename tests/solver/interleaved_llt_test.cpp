@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include <Eigen/SparseCholesky>
+#include <taut/integrator/implicit_euler.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/solver/block_ordering.hpp>
 #include <taut/solver/interleaved_llt.hpp>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include <limits>
+#include <taut/integrator/implicit_euler.hpp>
 #include <taut/model/tangent_matrix.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/solver/conjugate_gradient.hpp>

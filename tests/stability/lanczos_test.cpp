@@ -18,18 +18,19 @@ namespace {
 constexpr double rounding = 100 * Tolerance<double>::rounding;
 
 /// M⁻¹K with the given eigenvalues, M random.
-MatrixPencil with_modes(Random& random, const Eigen::VectorXd& k) {
+taut::Pencil with_modes(Random& random, const Eigen::VectorXd& k) {
     Eigen::VectorXd mass(k.size());
     for (Index i = 0; i < k.size(); ++i) mass[i] = log_uniform(random, 0.1, 10);
     const Eigen::VectorXd root = mass.cwiseSqrt();
     const Eigen::MatrixXd K = root.asDiagonal() * with_spectrum(random, k) * root.asDiagonal();
     const Eigen::MatrixXd symmetric = 0.5 * (K + K.transpose());
-    return MatrixPencil(taut::LinearSystem<double>(mass, {}, sparse(symmetric)));
+    return MatrixPencil::of(taut::LinearSystem<double>(mass, {}, sparse(symmetric)));
 }
 
-MatrixPencil diagonal(const Eigen::VectorXd& k) {
+taut::Pencil diagonal(const Eigen::VectorXd& k) {
     const Eigen::MatrixXd K = k.asDiagonal();
-    return MatrixPencil(taut::LinearSystem<double>(Eigen::VectorXd::Ones(k.size()), {}, sparse(K)));
+    return MatrixPencil::of(
+        taut::LinearSystem<double>(Eigen::VectorXd::Ones(k.size()), {}, sparse(K)));
 }
 
 void check_consistent(const taut::Pencil& pencil, const Combination& c,
@@ -199,7 +200,8 @@ TEST_CASE("lanczos: an exact eigenvector of a lower mode does not trap it", "[st
         K(i, i) = 2 * k;
         if (i + 1 < 40 && i != 19) K(i, i + 1) = K(i + 1, i) = -k;
     }
-    const MatrixPencil pencil(taut::LinearSystem<double>(Eigen::VectorXd::Ones(40), {}, sparse(K)));
+    const taut::Pencil pencil =
+        MatrixPencil::of(taut::LinearSystem<double>(Eigen::VectorXd::Ones(40), {}, sparse(K)));
     Eigen::VectorXd start = Eigen::VectorXd::Zero(40);
     start.head(20).setOnes();
     LanczosOptions options;

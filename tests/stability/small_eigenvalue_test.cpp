@@ -9,13 +9,27 @@
 
 namespace taut_test::small_eigenvalue_test {
 
-using taut::stability_detail::eigenvalue_upper_bound;
-using taut::stability_detail::proved_above;
-
 namespace {
 
 template <int Dim>
 using Matrix = Eigen::Matrix<double, Dim, Dim>;
+
+template <int Dim>
+taut::stability_detail::SymmetricBlock block(const Matrix<Dim>& A) {
+    taut::stability_detail::SymmetricBlock lower;
+    for (int j = 0; j < Dim; ++j) {
+        for (int i = j; i < Dim; ++i) lower(i, j) = A(i, j);
+    }
+    return lower;
+}
+template <int Dim>
+double eigenvalue_upper_bound(const Matrix<Dim>& A) {
+    return taut::stability_detail::eigenvalue_upper_bound(block<Dim>(A), Dim);
+}
+template <int Dim>
+bool proved_above(const Matrix<Dim>& A, double sigma) {
+    return taut::stability_detail::proved_above(block<Dim>(A), sigma);
+}
 
 /// The largest eigenvalue, by long double Jacobi-quality QR of the matrix divided by its size.
 template <int Dim>

@@ -267,7 +267,7 @@ TEST_CASE("stability: wrong input is refused", "[stability][bad_input]") {
         std::invalid_argument);
 }
 
-TEST_CASE("stability: a change reaches the analysis by update() alone, and the limit then is new",
+TEST_CASE("stability: a change reaches the analysis by a new one alone, and the limit then is new",
           "[stability]") {
     auto cloth = taut::hanging_cloth<double>({16, 14});
     auto state = cloth.initial_state();
@@ -282,15 +282,14 @@ TEST_CASE("stability: a change reaches the analysis by update() alone, and the l
         const auto before = stability.max_step(method);
         make();
         CHECK(stability.max_step(method).certified == before.certified);
-        stability.update(cloth, state);
+        stability = taut::Stability<double>(cloth, state);
         const auto limit = stability.max_step(method);
-        const auto anew = taut::Stability<double>(cloth, state).max_step(method);
+        const auto anew = taut::Stability<double>(cloth, state).bracket(method);
         CHECK(limit.step_for(cloth, 1.0).has_value());
         CHECK(before.step_for(cloth, 0.9).has_value() == (before.revision == cloth.revision()));
-        // Two brackets of one truth.
+        CHECK(std::isinf(limit.refuted));
         CHECK(limit.certified < anew.refuted);
-        CHECK(anew.certified < limit.refuted);
-        CHECK(limit.refuted / limit.certified < 1.06);
+        CHECK(anew.refuted / limit.certified < 1.06);
         CHECK(stability.size() == 3 * (cloth.size() - cloth.pinned_count()));
     };
     check("a spring added", [&] { cloth.add_spring(30, 45, 1e6); });

@@ -65,8 +65,8 @@ double Analysis::min_mass_scale(taut::Method method, double h) const {
 taut::StiffnessSpectrum Analysis::stiffness_spectrum() const {
     return std::visit([](const auto& s) { return s.stiffness_spectrum(); }, of_);
 }
-const taut::ScenePencil& Analysis::pencil() const {
-    return std::visit([](const auto& s) -> const taut::ScenePencil& { return s.pencil(); }, of_);
+const taut::Pencil& Analysis::pencil() const {
+    return std::visit([](const auto& s) -> const taut::Pencil& { return s.pencil(); }, of_);
 }
 
 }  // namespace taut_test

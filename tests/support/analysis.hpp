@@ -41,7 +41,7 @@ public:
     double max_stiffness_scale(taut::Method method, double h) const;
     double min_mass_scale(taut::Method method, double h) const;
     taut::StiffnessSpectrum stiffness_spectrum() const;
-    const taut::ScenePencil& pencil() const;
+    const taut::Pencil& pencil() const;
     const taut::Stability<double>& in_double() const {
         return std::get<taut::Stability<double>>(of_);
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <stdexcept>
+#include <taut/integrator/implicit_euler.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/taut.hpp>
 
@@ -232,13 +233,13 @@ public:
         return static_cast<double>(system.energy(from_any<State>(state)));
     }
     taut::StepLimit<double> any_pose_limit() const override {
-        return to_any(taut::any_pose_limit(system));
+        return to_any(taut::any_pose_bracket(system));
     }
     taut::StepLimit<double> energy_limit() const override {
-        return to_any(taut::energy_limit(system));
+        return to_any(taut::energy_bracket(system));
     }
     taut::StepLimit<double> limit(taut::Method method, const AnyState& state) const override {
-        return to_any(taut::Stability<Scalar>(system, from_any<State>(state)).max_step(method));
+        return to_any(taut::Stability<Scalar>(system, from_any<State>(state)).bracket(method));
     }
     std::unique_ptr<AnyStepper> stepper(taut::Method method, int threads) const override {
         const taut::ExplicitOptions options{threads};

@@ -28,3 +28,13 @@
 #define TAUT_FAIL(message) (std::fputs(message, stderr), std::fputc('\n', stderr), std::abort())
 #endif
 #endif
+
+/// Of what is called once in a while: compiled small, and fast; and of what is never compiled into
+/// its callers.
+#if defined(__GNUC__)
+#define TAUT_COLD __attribute__((cold))
+#define TAUT_NOINLINE __attribute__((noinline))
+#else
+#define TAUT_COLD
+#define TAUT_NOINLINE
+#endif

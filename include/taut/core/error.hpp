@@ -34,7 +34,7 @@ public:
 
 private:
     template <class Number>
-    void write(const char* format, Number number) {
+    TAUT_COLD TAUT_NOINLINE void write(const char* format, Number number) {
         std::snprintf(number_, sizeof number_, format, number);
     }
 
@@ -44,7 +44,7 @@ private:
 
 inline std::string text(const Part& part) { return part.text(); }
 
-[[noreturn]] inline void fail_with(std::initializer_list<Part> parts) {
+[[noreturn]] TAUT_COLD TAUT_NOINLINE inline void fail_with(std::initializer_list<Part> parts) {
     std::string message = "taut::";
     for (const Part& part : parts) message += part.text();
     TAUT_FAIL(message.c_str());

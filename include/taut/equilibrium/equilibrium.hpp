@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../model/tangent_matrix.hpp"
 #include "../core/detail/fits.hpp"
 #include "../core/status.hpp"
 #include "../model/spring_system.hpp"

@@ -11,7 +11,7 @@
 #include "../integrator/detail/explicit_steps.hpp"
 #include "../solver/interleaved_llt.hpp"
 #include "../stability/detail/symplectic_limit.hpp"
-#include "../stability/spring_pencil.hpp"
+#include "../stability/pencil.hpp"
 #include "detail/spring_shares.hpp"
 
 namespace taut {
@@ -136,10 +136,10 @@ void ImexEuler<System>::find_shares() {
     if (!shares.proved()) {
         std::vector<double> parts;
         for (const auto& link : shares.links()) parts.push_back(link.share);
-        const auto laplacian = SpringPencil<1>::any_pose(*system_, SpringPencil<1>::Damping::half);
-        const auto rest = laplacian.explicit_part(parts, 1);
+        const auto laplacian = Pencil::any_pose(*system_, Pencil::Damping::half);
+        const auto rest = laplacian.explicit_part(parts);
         // Half of it: as energy_limit.
-        const double half = stability_detail::certified_symplectic(rest) / 2;
+        const double half = stability_detail::certified_symplectic(rest).h / 2;
         certified = laplacian.lost().empty() ? std::min(certified, half) : 0;
     }
     links_ = shares.links();
@@ -200,13 +200,7 @@ Report ImexEuler<System>::step(AnyState& state, Scalar h, Index count) {
     if (touched() == 0)
         return steps_.run_ahead(*system_, state, h, count, integrator_detail::KickAndDrift{});
     const auto correction = [&](const auto& a, const auto&) { correct(a); };
-    return steps_.run(
-        *system_, state, h, count,
-        [&](auto& sweep, int threads) {
-            return sweep.template run_corrected<true>(*system_, state, h, count, threads,
-                                                      correction);
-        },
-        [&](State& own) { steps_.template corrected_step<true>(*system_, own, h, correction); });
+    return steps_.template run_corrected<true>(*system_, state, h, count, correction);
 }
 
 template <class System>

@@ -71,3 +71,7 @@ Report ImplicitEuler<System, Solver>::step(AnyState& state, Scalar h, Index coun
 }
 
 }  // namespace taut
+
+#if defined(TAUT_COMPILED)
+#include "../compiled_implicit.hpp"
+#endif

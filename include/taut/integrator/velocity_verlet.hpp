@@ -40,36 +40,15 @@ private:
     const System* system_;
     integrator_detail::ExplicitSteps<System> steps_;
     integrator_detail::LastState<State> last_;  // that the kept force belongs to
-    bool last_by_sweep_ = false;                // or by the plain path: who knows it
 };
 
 template <class System>
 template <class AnyState>
 Report VelocityVerlet<System>::step(AnyState& state, Scalar h, Index count) {
     const bool known = last_.is(*system_, state);
-    bool plain_knows = known && !last_by_sweep_;
-    bool swept = false;
-    const Report report = steps_.run(
-        *system_, state, h, count,
-        [&](auto& sweep, int threads) {
-            return swept = sweep.run_verlet(*system_, state, h, count, threads,
-                                            known && last_by_sweep_);
-        },
-        [&](State& own) {
-            if (!plain_knows) steps_.update_force(*system_, own);
-            plain_knows = true;
-            own.v.array() += h / 2 * steps_.acceleration(*system_);
-            own.x += h * own.v;
-            own.time += h;
-            if (!own.finite()) return;  // nobody's force is asked there
-            steps_.update_force(*system_, own);
-            own.v.array() += h / 2 * steps_.acceleration(*system_);
-        });
+    const Report report = steps_.run_verlet(*system_, state, h, count, known);
     if (!report) last_.forget();
-    if (report && report.iterations > 0) {
-        last_.keep(*system_, state);
-        last_by_sweep_ = swept;
-    }
+    if (report && report.iterations > 0) last_.keep(*system_, state);
     return report;
 }
 

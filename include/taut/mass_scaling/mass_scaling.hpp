@@ -8,9 +8,10 @@
 #include <cmath>
 #include <vector>
 
+#include "../model/free_particles.hpp"
 #include "../model/spring_system.hpp"
 #include "detail/low_modes.hpp"
-#include "../stability/spring_pencil.hpp"
+#include "../stability/pencil.hpp"
 
 namespace taut {
 
@@ -45,8 +46,7 @@ AddedMass added_mass(const SpringSystem<Scalar, Dim, Laws...>& system,
     added.mass.assign(static_cast<std::size_t>(system.size()), 0);
     const double budget = 4 - 2 * h * system.rayleigh().mass_proportional;
     if (!(budget > 0)) return added;
-    const auto pencil =
-        SpringPencil<Dim>::at_pose(system, state.x.template cast<TangentReal<Scalar>>());
+    const auto pencil = Pencil::at_pose(system, state.x.template cast<TangentReal<Scalar>>());
     const FreeParticles free(system);
     const auto count = static_cast<std::size_t>(free.count());
     std::vector<double> mass(count);
@@ -91,7 +91,7 @@ AddedMass added_mass(const SpringSystem<Scalar, Dim, Laws...>& system,
                          static_cast<Scalar>(static_cast<double>(system.mass(i)) + added.mass[i]));
     }
     added.frequency_change = stability_detail::frequency_changes(
-        pencil, SpringPencil<Dim>::at_pose(heavier, state.x.template cast<TangentReal<Scalar>>()));
+        pencil, Pencil::at_pose(heavier, state.x.template cast<TangentReal<Scalar>>()));
     return added;
 }
 

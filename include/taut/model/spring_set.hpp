@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "../core/buffer.hpp"
 #include "../core/types.hpp"
 #include "detail/slope_range.hpp"
 #include "spring_mechanics.hpp"
@@ -38,11 +40,13 @@ struct SpringSet {
     using Law = Law_;
     using Parameters = typename Law::template Parameters<Scalar>;
 
-    std::vector<int> a;
-    std::vector<int> b;
-    std::vector<Scalar> rest_length;
-    std::vector<Parameters> parameters;
-    std::vector<Scalar> damping;  ///< empty until a damped spring is added
+    Buffer<int> a;
+    Buffer<int> b;
+    Buffer<Scalar> rest_length;
+    std::conditional_t<std::is_trivially_copyable_v<Parameters>, Buffer<Parameters>,
+                       std::vector<Parameters>>
+        parameters;
+    Buffer<Scalar> damping;  ///< empty until a damped spring is added
 
     /// The number of springs.
     Index size() const { return static_cast<Index>(a.size()); }
@@ -96,15 +100,15 @@ struct SpringSet {
         t.b = spring.b;
         t.bound = spring.stiffness_bound();
         t.damping = spring.damping;
-        t.d = x.col(t.b) - x.col(t.a);
+        for (int k = 0; k < Dim; ++k) t.d[k] = x(k, t.b) - x(k, t.a);
         const Real l2 = t.d.squaredNorm();
         if (l2 >= static_cast<Real>(std::numeric_limits<Scalar>::min()) && std::isfinite(l2)) {
             const Real l = std::sqrt(l2);
-            t.d /= l;
+            for (int k = 0; k < Dim; ++k) t.d[k] /= l;
             t.axial = spring.tension_slope(l);
             t.transverse = spring.tension(l) / l;
         } else {
-            t.d.setZero();
+            for (int k = 0; k < Dim; ++k) t.d[k] = 0;
             t.axial = t.transverse = t.bound;
         }
         return t;
@@ -116,11 +120,20 @@ struct SpringSet {
     template <class Real, int Dim>
     std::pair<Real, Real> axial_range(std::size_t s, const Points<Real, Dim>& x,
                                       const SpringTangent<Real, Dim>& t) const {
-        if (t.d.isZero(0)) return {t.axial, t.axial};
+        Eigen::Matrix<Real, Dim, 1> dx;
+        Real far_a = 0, far_b = 0;
+        bool apart = false;
+        for (int k = 0; k < Dim; ++k) {
+            dx[k] = x(k, t.b) - x(k, t.a);
+            far_a = std::max(far_a, std::abs(x(k, t.a)));
+            far_b = std::max(far_b, std::abs(x(k, t.b)));
+            apart = apart || t.d[k] != 0;
+        }
+        if (!apart) return {t.axial, t.axial};
         const auto p = parameters[s].template cast<Real>();
         const Real L = static_cast<Real>(rest_length[s]);
-        const Real l = (x.col(t.b) - x.col(t.a)).norm();
-        const Real size = x.col(t.a).cwiseAbs().maxCoeff() + x.col(t.b).cwiseAbs().maxCoeff() + L;
+        const Real l = std::sqrt(dx.squaredNorm());
+        const Real size = far_a + far_b + L;
         const Real reach = 8 * static_cast<Real>(std::numeric_limits<Scalar>::epsilon()) * size;
         if (!std::isfinite(l + reach)) return {t.axial, t.axial};
         // Laws are asked for l > 0: below this length the ends coincide [T3].
@@ -143,7 +156,12 @@ private:
         a.resize(count);
         b.resize(count);
         rest_length.resize(count);
-        parameters.erase(parameters.begin() + static_cast<std::ptrdiff_t>(count), parameters.end());
+        if constexpr (std::is_trivially_copyable_v<Parameters>) {
+            parameters.resize(count);
+        } else {
+            parameters.erase(parameters.begin() + static_cast<std::ptrdiff_t>(count),
+                             parameters.end());
+        }
         if (!damping.empty()) damping.resize(count);
     }
 };

@@ -19,7 +19,6 @@
 #include "hookean.hpp"
 #include "spring_set.hpp"
 #include "state.hpp"
-#include "tangent_matrix.hpp"
 
 namespace taut {
 namespace model_detail {
@@ -223,9 +222,9 @@ private:
     template <class Law>
     model_detail::SetOf<Scalar, Law>& set_with(const char* function, Index s);
 
-    std::vector<Vector> position_;      // where add_particle put each particle, m
-    std::vector<Scalar> mass_;          // kg, of pinned particles too
-    std::vector<Scalar> inverse_mass_;  // 1/kg, 0 if pinned
+    Buffer<Scalar> position_;      // where add_particle put each particle, Dim numbers, m
+    Buffer<Scalar> mass_;          // kg, of pinned particles too
+    Buffer<Scalar> inverse_mass_;  // 1/kg, 0 if pinned
     SpringSets sets_;
     Vector gravity_ = Vector::Zero();  // m/s²
     RayleighDamping rayleigh_;

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
+
+#include "../core/detail/finite.hpp"
 #include "../core/types.hpp"
 
 namespace taut {
@@ -11,7 +14,9 @@ namespace model_detail {
 template <class Array>
 Index first_not_finite(const Array& x, const Array& v) {
     for (Index i = 0; i < x.cols(); ++i) {
-        if (!x.col(i).allFinite() || !v.col(i).allFinite()) return i;
+        for (Index d = 0; d < x.rows(); ++d) {
+            if (!std::isfinite(x(d, i)) || !std::isfinite(v(d, i))) return i;
+        }
     }
     return -1;
 }
@@ -32,8 +37,7 @@ struct State {
     static Points<Scalar, Dim> zero(Index n) { return Points<Scalar, Dim>::Zero(Dim, n); }
     /// Whether every coordinate is, of x and v.
     bool finite() const {
-        // x − x is 0, or NaN where x is not finite; and so is the sum, which takes whole registers.
-        return (x - x).sum() == Scalar(0) && (v - v).sum() == Scalar(0);
+        return detail::all_finite(x.data(), x.size()) && detail::all_finite(v.data(), v.size());
     }
     /// Index of the first particle with a coordinate that is not finite, or -1.
     Index first_not_finite() const { return model_detail::first_not_finite(x, v); }

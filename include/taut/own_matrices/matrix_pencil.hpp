@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <optional>
 
 #include "../stability/pencil.hpp"
 #include "../tight/certificate.hpp"
@@ -13,13 +15,13 @@
 
 namespace taut {
 
-/// The pencil of a LinearSystem: bare matrices, without springs behind them.
-/// @tparam Scalar  the system's; all is taken in double
+/// The matrices of a LinearSystem in double, and what is known of them.
+/// @tparam Scalar  the system's
 template <class Scalar>
-class MatrixPencil final : public ScenePencil {
+class MatrixPencil final : public BareMatrices {
 public:
     /// Copies M, D and K.
-    explicit MatrixPencil(const LinearSystem<Scalar>& system);
+    static Pencil of(const LinearSystem<Scalar>& system);
 
     void multiply(const Combination& c, const Eigen::VectorXd& u,
                   Eigen::VectorXd& y) const override {
@@ -28,20 +30,17 @@ public:
         if (c.damping() != 0) y.noalias() += c.damping() * (D_ * u);
     }
     Enclosed quadratic(const Combination& c, const Eigen::VectorXd& u) const override;
-    double upper_bound(const Combination& c, double enough = 0) const override;
-    double deficit(const Combination& c) const override {
-        const double bound = Pencil::deficit(c);
+    double upper_bound(const Combination& c) const override;
+    double deficit(const Pencil& pencil, const Combination& c, double known) const override {
         Prover prover;
-        return std::min(bound, proved_deficit(prover, *this, c, bound));
+        return std::min(known, proved_deficit(prover, pencil, c, known));
     }
     SparseMatrix<double> assemble(const Combination& c) const override;
     double assembly_error(const Combination& c, const Eigen::VectorXd& s) const override;
-    std::vector<SpringShare> spring_shares(const Eigen::VectorXd&) const override { return {}; }
-    std::vector<ParticleShare> particle_shares(const Eigen::VectorXd& u) const override;
-    std::shared_ptr<const ScenePencil> scaled(double stiffness, double mass) const override;
-    bool amend(Method method, stability_detail::UnroundedLimit& limit) const override {
-        stability_detail::amend_for_matrices(method, *this, limit);
-        return true;
+    Pencil scaled(double stiffness, double mass) const override;
+    void amend(Method method, const Pencil& pencil,
+               stability_detail::UnroundedLimit& limit) const override {
+        stability_detail::amend_for_matrices(method, pencil, limit);
     }
 
 private:
@@ -56,42 +55,55 @@ private:
     }
     using Real = TangentReal<Scalar>;
 
+    explicit MatrixPencil(const LinearSystem<Scalar>& system)
+        : K_(system.stiffness().template cast<double>()),
+          D_(system.damping().template cast<double>()),
+          mass_(system.mass().template cast<double>()) {}
+    Index size() const { return mass_.size(); }
+    /// The Rayleigh form of D, if it has one.
+    std::optional<double> mass_proportional() const;
     /// @param check  takes each entry and its row
     template <class Check>
-    static Matrix checked(const SparseMatrix<Scalar>& A, Check&& check);
+    static void for_each_entry(const SparseMatrix<Scalar>& A, Check&& check);
     static bool diagonally_dominant(const SparseMatrix<Real>& A);
     static bool proves_semidefinite(const SparseMatrix<Scalar>& A);
-    void detect_rayleigh();
 
     Matrix K_;
     Matrix D_;
+    Eigen::VectorXd mass_;
+    Pencil::Facts facts_;
+    RayleighDamping rayleigh_;
 };
 
 template <class Scalar>
-MatrixPencil<Scalar>::MatrixPencil(const LinearSystem<Scalar>& system)
-    : K_(checked(system.stiffness(),
-                 [&](Scalar k, Index row) { in_range(k, "stiffness in row", row); })),
-      D_(checked(system.damping(),
-                 [&](Scalar d, Index row) { in_range(d, "damping in row", row); })) {
-    mass_.resize(system.size());
-    for (Index i = 0; i < system.size(); ++i)
-        mass_[i] = in_range(system.mass()[i], "mass in row", i);
-    if (!lost().empty()) return;
-    detect_rayleigh();
-    facts_.stiffness_semidefinite = facts_.projected_semidefinite =
-        proves_semidefinite(system.stiffness());
-    facts_.damping_semidefinite = is_rayleigh() || proves_semidefinite(system.damping());
+Pencil MatrixPencil<Scalar>::of(const LinearSystem<Scalar>& system) {
+    std::shared_ptr<MatrixPencil> own(new MatrixPencil(system));
+    stability_detail::RangeCheck check;
+    for_each_entry(system.stiffness(),
+                   [&](Scalar k, Index row) { check.in_range(k, "stiffness in row", row); });
+    for_each_entry(system.damping(),
+                   [&](Scalar d, Index row) { check.in_range(d, "damping in row", row); });
+    for (Index i = 0; i < system.size(); ++i) check.in_range(system.mass()[i], "mass in row", i);
+    if (check.lost().empty()) {
+        const auto d0 = own->mass_proportional();
+        if (d0) own->rayleigh_.mass_proportional = *d0;
+        Pencil::Facts& facts = own->facts_;
+        facts.is_rayleigh = d0.has_value();
+        facts.stiffness_semidefinite = facts.projected_semidefinite =
+            proves_semidefinite(system.stiffness());
+        facts.damping_semidefinite = facts.is_rayleigh || proves_semidefinite(system.damping());
+    }
+    return {own->mass_, own->rayleigh_, own->facts_, check.lost(), own};
 }
 
 template <class Scalar>
 template <class Check>
-auto MatrixPencil<Scalar>::checked(const SparseMatrix<Scalar>& A, Check&& check) -> Matrix {
+void MatrixPencil<Scalar>::for_each_entry(const SparseMatrix<Scalar>& A, Check&& check) {
     for (Index j = 0; j < A.outerSize(); ++j) {
         for (typename SparseMatrix<Scalar>::InnerIterator entry(A, j); entry; ++entry) {
             check(entry.value(), entry.row());
         }
     }
-    return A.template cast<double>();
 }
 
 /// D = d0·M is the one Rayleigh form that bare matrices show; α·K is not looked for, since rounding
@@ -99,7 +111,7 @@ auto MatrixPencil<Scalar>::checked(const SparseMatrix<Scalar>& A, Check&& check)
 /// product, of a quotient and of both to double. A D that is 0 anywhere on its diagonal, or whose
 /// quotients vanish or overflow, is not of this form.
 template <class Scalar>
-void MatrixPencil<Scalar>::detect_rayleigh() {
+std::optional<double> MatrixPencil<Scalar>::mass_proportional() const {
     constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
     double least = std::numeric_limits<double>::infinity();
     double most = 0;
@@ -117,9 +129,9 @@ void MatrixPencil<Scalar>::detect_rayleigh() {
         least = std::min(least, d != 0 && !std::isnormal(quotient) ? -1 : quotient);
         most = std::max(most, quotient);
     }
-    facts_.is_rayleigh =
-        diagonal && least >= 0 && most <= least * (1 + rounding) && std::isfinite(most);
-    if (is_rayleigh()) rayleigh_.mass_proportional = most;
+    if (diagonal && least >= 0 && most <= least * (1 + rounding) && std::isfinite(most))
+        return most;
+    return std::nullopt;
 }
 
 /// a_ii ≥ Σ|a_ij| in every row; where the sum rounds, with room for it.
@@ -190,7 +202,7 @@ Enclosed MatrixPencil<Scalar>::quadratic(const Combination& c, const Eigen::Vect
 /// Collatz–Wielandt: λ_max(A) ≤ max_i (a_ii + Σ_{j≠i} |a_ij| p_j/p_i) for every p > 0; the power
 /// iteration on |A| improves p.
 template <class Scalar>
-double MatrixPencil<Scalar>::upper_bound(const Combination& c, double enough) const {
+double MatrixPencil<Scalar>::upper_bound(const Combination& c) const {
     constexpr int most_repeats = 60;
     const Matrix S = assemble(c);
     const Matrix sizes = magnitudes(c);
@@ -210,7 +222,7 @@ double MatrixPencil<Scalar>::upper_bound(const Combination& c, double enough) co
     Eigen::VectorXd p = mass_.cwiseSqrt().cwiseInverse();
     Eigen::VectorXd others(size());
     double best = std::numeric_limits<double>::infinity();
-    for (int repeat = 0; repeat < most_repeats && best > enough; ++repeat) {
+    for (int repeat = 0; repeat < most_repeats && best > 0; ++repeat) {
         others.setZero();
         for (Index j = 0; j < size(); ++j) {
             for (Matrix::InnerIterator entry(S, j); entry; ++entry) {
@@ -256,37 +268,26 @@ double MatrixPencil<Scalar>::assembly_error(const Combination& c, const Eigen::V
     return 4 * std::numeric_limits<double>::epsilon() * s.cwiseProduct(row).maxCoeff();
 }
 
-template <class Scalar>
-std::vector<ParticleShare> MatrixPencil<Scalar>::particle_shares(const Eigen::VectorXd& u) const {
-    std::vector<ParticleShare> shares;
-    const double total = mass_.dot(u.cwiseAbs2());
-    for (Index i = 0; i < size(); ++i) {
-        shares.push_back({i, total > 0 ? mass_[i] * u[i] * u[i] / total : 0});
-    }
-    return shares;
-}
-
 /// D has no known part that follows K; its part d0·M follows M where it was recognised.
 template <class Scalar>
-std::shared_ptr<const ScenePencil> MatrixPencil<Scalar>::scaled(double stiffness,
-                                                                double mass) const {
-    auto pencil = std::make_shared<MatrixPencil>(*this);
-    pencil->mass_ *= mass;
+Pencil MatrixPencil<Scalar>::scaled(double stiffness, double mass) const {
+    auto own = std::make_shared<MatrixPencil>(*this);
+    own->mass_ *= mass;
     // An entry that vanished would take the allowance for its row's underflow with it.
     constexpr double least = std::numeric_limits<double>::min();
-    pencil->K_ = K_.unaryExpr([&](double entry) {
+    own->K_ = K_.unaryExpr([&](double entry) {
         const double product = stiffness * entry;
         const bool zero = entry == 0 || stiffness == 0;
         return zero ? 0 : std::copysign(std::max(std::abs(product), least), product);
     });
-    if (is_rayleigh()) pencil->D_ *= mass;
-    return pencil;
+    if (facts_.is_rayleigh) own->D_ *= mass;
+    return {own->mass_, own->rayleigh_, own->facts_, {}, own};
 }
 
 /// By which Stability(system) finds its pencil.
 template <class Scalar>
-std::shared_ptr<const ScenePencil> make_pencil(const LinearSystem<Scalar>& system) {
-    return std::make_shared<MatrixPencil<Scalar>>(system);
+std::shared_ptr<const Pencil> make_pencil(const LinearSystem<Scalar>& system) {
+    return std::make_shared<const Pencil>(MatrixPencil<Scalar>::of(system));
 }
 
 }  // namespace taut

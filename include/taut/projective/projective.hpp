@@ -6,9 +6,10 @@
 
 #include <type_traits>
 
+#include "../model/free_particles.hpp"
 #include "../method/implicit_euler.hpp"
 #include "../solver/interleaved_llt.hpp"
-#include "../stability/spring_pencil.hpp"
+#include "../stability/pencil.hpp"
 #include "../integrator/detail/factor_cache.hpp"
 #include "detail/limited_memory.hpp"
 #include "../integrator/detail/step_loop.hpp"
@@ -132,7 +133,7 @@ Status ProjectiveDynamics<System, Solver>::prepare(Scalar h) {
     if (free_.count() == 0 || factors_.find(h)) return Status::ok;
     const double step = static_cast<double>(h);
     const SparseMatrix<Scalar> P =
-        SpringPencil<1>::any_pose(*system_)
+        Pencil::any_pose(*system_)
             .assemble(matrices::M + step * matrices::D + step * step * matrices::K_plus)
             .template cast<Scalar>();
     return factors_.factorize(P, h) ? Status::ok : Status::not_positive_definite;

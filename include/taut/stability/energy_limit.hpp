@@ -4,30 +4,8 @@
 
 #include "../model/spring_system.hpp"
 #include "detail/symplectic_limit.hpp"
-#include "spring_pencil.hpp"
 
 namespace taut {
-
-namespace stability_detail {
-
-/// M ⪰ h²L_k + ½hD is 4M ⪰ 2H(½D) + H²L_k with H = 2h: half of symplectic Euler's limit at half the
-/// damping.
-template <class Scalar, int Dim, class... Laws>
-StepLimit<Scalar> energy_bracket(const SpringSystem<Scalar, Dim, Laws...>& system, Effort& effort) {
-    const auto laplacian = SpringPencil<1>::any_pose(system, SpringPencil<1>::Damping::half);
-    if (!laplacian.lost().empty()) {
-        return rounded<Scalar>({0, infinity, Cause::overflow}, system.revision());
-    }
-    const auto start = [&](double h) {
-        return leading_pair(laplacian, 2 * h * D + h * h * K_plus).vector;
-    };
-    UnroundedLimit limit = symplectic_limit(laplacian, effort, 0, start);
-    limit.certified /= 2;
-    limit.refuted /= 2;
-    return rounded<Scalar>(limit, system.revision());
-}
-
-}  // namespace stability_detail
 
 /// The steps of EnergyStableEuler that cannot gain energy, at any pose, any speed, for all time
 /// [T42]: those with M ⪰ h²L_k + ½hD. L_k is the graph Laplacian of the laws' stiffness bounds; D
@@ -35,13 +13,24 @@ StepLimit<Scalar> energy_bracket(const SpringSystem<Scalar, Dim, Laws...>& syste
 /// damping it is half of any_pose_limit. By the splitting bound alone, O(springs) for each of a few
 /// passes [T26].
 ///
-/// `certified`, s, is proved; above `refuted` the condition fails. That ends the proof, not the
-/// scene: some motion may gain energy there, most will not. Infinite where nothing is pulled or
-/// damped. External forces bring their work, and no condition. Void like any_pose_limit's answer.
+/// `certified`, s, is proved; `refuted` is not looked for, see energy_bracket. Infinite where
+/// nothing is pulled or damped. External forces bring their work, and no condition. Void like
+/// any_pose_limit's answer.
 template <class Scalar, int Dim, class... Laws>
 StepLimit<Scalar> energy_limit(const SpringSystem<Scalar, Dim, Laws...>& system) {
-    stability_detail::Effort bounds;
-    return stability_detail::energy_bracket(system, bounds);
+    // M ⪰ h²L_k + ½hD is 4M ⪰ 2H(½D) + H²L_k with H = 2h: half of symplectic Euler's limit at half
+    // the damping.
+    return stability_detail::of_laplacians<Scalar>(Pencil::any_pose(system, Pencil::Damping::half),
+                                                   system.revision(), 0.5);
+}
+
+/// energy_limit with `refuted`, s, above which the condition fails. That ends the proof, not the
+/// scene: some motion may gain energy there, most will not.
+template <class Scalar, int Dim, class... Laws>
+StepLimit<Scalar> energy_bracket(const SpringSystem<Scalar, Dim, Laws...>& system) {
+    stability_detail::NoEffort bounds;
+    return stability_detail::bracket_of_laplacians<Scalar>(
+        Pencil::any_pose(system, Pencil::Damping::half), bounds, system.revision(), 0.5);
 }
 
 }  // namespace taut

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <memory>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "../core/error.hpp"
@@ -16,7 +16,9 @@
 #include "../method/method.hpp"
 #include "../model/combination.hpp"
 #include "../model/damping.hpp"
-#include "../model/tangent_matrix.hpp"
+#include "../model/spring_mechanics.hpp"
+#include "detail/range_check.hpp"
+#include "detail/small_eigenvalue.hpp"
 #include "step_limit.hpp"
 
 namespace taut {
@@ -50,12 +52,63 @@ struct ParticleShare {
 template <class Scalar>
 using TangentReal = std::conditional_t<std::is_same_v<Scalar, float>, double, Scalar>;
 
-/// M, D, K of the free degrees of freedom, as the analysis needs them: in double, from springs or
-/// from matrices, as an operator, its quotients and its bounds. S is a sum such as 4M − 2hD − h²K,
-/// see Combination.
+class Pencil;
+
+/// Matrices without springs behind them, in a Pencil's place: see Pencil for the functions.
+class BareMatrices {
+public:
+    virtual ~BareMatrices() = default;
+    virtual void multiply(const Combination& c, const Eigen::VectorXd& u,
+                          Eigen::VectorXd& y) const = 0;
+    virtual Enclosed quadratic(const Combination& c, const Eigen::VectorXd& u) const = 0;
+    virtual double upper_bound(const Combination& c) const = 0;
+    /// By factorisation. @param known  an ε that is proved
+    virtual double deficit(const Pencil& pencil, const Combination& c, double known) const = 0;
+    virtual SparseMatrix<double> assemble(const Combination& c) const = 0;
+    virtual double assembly_error(const Combination& c, const Eigen::VectorXd& s) const = 0;
+    virtual Pencil scaled(double stiffness, double mass) const = 0;
+    /// Weakens a limit that was found as that of springs, with K⁺, D ⪰ 0, where they are not known
+    /// to be so, and tells of growth.
+    virtual void amend(Method method, const Pencil& pencil,
+                       stability_detail::UnroundedLimit& limit) const = 0;
+};
+
+/// M, D, K of the free degrees of freedom, as the analysis needs them: in double, from springs at
+/// one pose or at any (plain arrays, no matrix, whatever the system's scalar, dimension and laws),
+/// or from matrices; as an operator, its quotients and its bounds. S is a sum such as
+/// 4M − 2hD − h²K, see Combination.
 class Pencil {
 public:
-    virtual ~Pencil() = default;
+    /// What of a system's damping a pencil has.
+    enum class Damping { all, half };
+    /// What is known of the matrices, as the functions below tell it.
+    struct Facts {
+        int dim = 1;
+        bool stiffness_semidefinite = false;
+        bool projected_semidefinite = false;
+        bool damping_semidefinite = false;
+        bool is_rayleigh = false;
+        double resolution = 0;
+    };
+
+    /// The tangents of `system` at x, Dim × n, m. A spring that rounding may take across a kink of
+    /// its law has the larger T′ of the two sides; a bound and a proof hold for both.
+    template <class System>
+    static Pencil at_pose(const System& system,
+                          const Points<TangentReal<typename System::Scalar>, int(System::Dim)>& x);
+    /// The graph Laplacians L_k and L_c of theory [T23], of dimension 1 whatever the system's:
+    /// L_k ⊗ I bounds K at every pose.
+    template <class System>
+    static Pencil any_pose(const System& system, Damping counted = Damping::all);
+    /// Of bare matrices. @param mass  N, kg: the diagonal of M   @param lost  see lost()
+    Pencil(Eigen::VectorXd mass, const RayleighDamping& rayleigh, const Facts& facts,
+           std::string lost, std::shared_ptr<const BareMatrices> matrices)
+        : mass_(std::move(mass)),
+          rayleigh_(rayleigh),
+          facts_(facts),
+          lost_(std::move(lost)),
+          matrices_(std::move(matrices)) {}
+    Pencil() = default;
 
     /// N, degrees of freedom.
     Index size() const { return mass_.size(); }
@@ -65,25 +118,58 @@ public:
     int dim() const { return facts_.dim; }
 
     /// y ← S u.
-    virtual void multiply(const Combination& c, const Eigen::VectorXd& u,
-                          Eigen::VectorXd& y) const = 0;
+    void multiply(const Combination& c, const Eigen::VectorXd& u, Eigen::VectorXd& y) const;
     /// uᵀS u with its rounding error.
-    virtual Enclosed quadratic(const Combination& c, const Eigen::VectorXd& u) const = 0;
+    Enclosed quadratic(const Combination& c, const Eigen::VectorXd& u) const;
     /// A proved upper bound on the largest eigenvalue of M⁻¹S, rounding included [T26]. For springs
     /// it is never below the factor of M, the mass-proportional part of D counted.
-    /// @param enough  stop improving the bound once it is at most this
-    virtual double upper_bound(const Combination& c, double enough = 0) const = 0;
+    double upper_bound(const Combination& c) const;
     /// An ε ≥ 0, in the units of M⁻¹S, with S ⪰ −εM proved: by the bound, for bare matrices also by
     /// factorisation.
-    virtual double deficit(const Combination& c) const { return std::max(0.0, upper_bound(-c)); }
+    double deficit(const Combination& c) const {
+        const double bound = std::max(0.0, upper_bound(-c));
+        return matrices_ ? matrices_->deficit(*this, c, bound) : bound;
+    }
     /// S as a sparse matrix, both triangles.
-    virtual SparseMatrix<double> assemble(const Combination& c) const = 0;
+    template <class Real = double>  // a template, as below: only its callers compile it
+    SparseMatrix<Real> assemble(const Combination& c) const {
+        if (matrices_) return matrices_->assemble(c);
+        return assemble_links<Real>(c, [&](const Link& link) { return coefficients(c, link); });
+    }
     /// The same with each spring that may be on either side of a kink on the side where its part of
     /// S is the least, so that a proof of S ≻ 0 holds on both.
-    virtual SparseMatrix<double> assemble_least(const Combination& c) const { return assemble(c); }
+    template <class Real = double>
+    SparseMatrix<Real> assemble_least(const Combination& c) const {
+        if (matrices_) return matrices_->assemble(c);
+        return assemble_links<Real>(
+            c, [&](const Link& link) { return extreme_coefficients(c, link, -1); });
+    }
     /// A bound on max_i Σ_j s_i |E_ij| s_j, E the rounding errors of assemble(c) and of
     /// the tangents.
-    virtual double assembly_error(const Combination& c, const Eigen::VectorXd& s) const = 0;
+    template <class Real = double>
+    Real assembly_error(const Combination& c, const Eigen::VectorXd& s) const;
+    /// The bound of [T26] before the division by the masses: λ_max(Σ_b (1 + p_b/p_i) P_b) of each
+    /// free particle for the springs' part of S, weights p > 0, one for each free particle.
+    template <class Real = double>
+    std::vector<Real> particle_loads(const Combination& c, const std::vector<Real>& p) const;
+
+    /// The springs' shares in the elastic energy of mode u, by K⁺, in no order; empty without
+    /// springs.
+    template <class Real = double>
+    std::vector<SpringShare> spring_shares(const Eigen::VectorXd& u) const;
+    /// The particles' shares in its kinetic energy, in no order; without springs a "particle" is a
+    /// degree of freedom.
+    template <class Real = double>
+    std::vector<ParticleShare> particle_shares(const Eigen::VectorXd& u) const;
+    /// The same scene with K (and αK⁺) times `stiffness` and M (and d0·M) times `mass`; dampers
+    /// stay. What is scaled below the normal numbers keeps its allowance for rounding.
+    template <class Real = double>
+    Pencil scaled(Real stiffness, Real mass) const;
+    /// The pencil of what stays explicit beside implicit shares [T33]: springs times 1 − s.
+    /// @param shares  s of each spring of the system, in index order, 0 …; beyond 1 they take
+    ///                springs away, and only `quadratic` and `multiply` serve, with the true K
+    template <class Real = double>
+    Pencil explicit_part(const std::vector<Real>& shares) const;
 
     /// Whether K is known to be positive semi-definite, up to resolution().
     bool stiffness_semidefinite() const { return facts_.stiffness_semidefinite; }
@@ -104,80 +190,107 @@ public:
         const bool exact = stiffness_semidefinite() && resolution() == 0;
         return exact ? 0 : std::max(0.0, upper_bound(-matrices::K));
     }
+    /// What stands in the place of springs, or null.
+    const BareMatrices* matrices() const { return matrices_.get(); }
     /// Names the first number of the system that is out of the analysis's range, with its value;
     /// empty where there is none. A pencil that lost one says nothing about its system.
     const std::string& lost() const { return lost_; }
-
     /// Fails by that name if there is one.
     void require_range(const char* where) const {
         if (!lost_.empty()) fail(where, ": ", lost_);
     }
 
-protected:
-    /// The value of a mass, a stiffness or a damping in double: 0, or of a size whose square keeps
-    /// its digits. @param what  what it is of particle, spring or row `index`
-    template <class Real>
-    double in_range(Real value, const char* what, Index index) {
-        return within(value, what, index, 1 / square_holds, square_holds);
-    }
-    /// Notes a length, m, whose square overflows.
-    template <class Real>
-    void check_length(Real value, const char* what, Index index) {
-        within(value, what, index, 0, square_holds);
-    }
+private:
+    using Block = stability_detail::SymmetricBlock;
 
-    /// What is known of the matrices, as the functions above tell it.
-    struct Facts {
-        int dim = 1;
-        bool stiffness_semidefinite = false;
-        bool projected_semidefinite = false;
-        bool damping_semidefinite = false;
-        bool is_rayleigh = false;
-        double resolution = 0;
+    struct Link {
+        int a;  // free particle, or −1 when pinned
+        int b;
+        double d[3];        // unit vector, or zero; zero beyond the dimension
+        double axial;       // T′, N/m; at a kink that of the stiffer side
+        double softer;      // and that of the other one; the same elsewhere
+        double transverse;  // T/l, N/m
+        double damping;     // N·s/m, axial
+        double bound;       // of the law, N/m: what rounding errors of the tangent are relative to
     };
+    struct Name {  // of a link, as the system counts
+        int spring, a, b;
+    };
+    struct Coefficients {
+        double axial;
+        double transverse;
+    };
+
+    template <class System>
+    static Pencil of_particles(const System& system, int dim, stability_detail::RangeCheck& check);
+    template <class System, class Tangent>
+    void add_springs(const System& system, stability_detail::RangeCheck& check,
+                     const Tangent& tangent);
+    Coefficients coefficients(const Combination& c, const Link& link) const;
+    /// The largest (sign = 1) or least (−1) on either side of a kink.
+    Coefficients extreme_coefficients(const Combination& c, const Link& link, int sign) const;
+    template <class Real, class CoefficientsOf>
+    SparseMatrix<Real> assemble_links(const Combination& c,
+                                      const CoefficientsOf& coefficients_of) const;
+    template <int Dim, class CoefficientsOf>
+    SparseMatrix<double> assemble_in(const CoefficientsOf& coefficients_of) const;
+    /// What the rounding errors of a link's block are relative to, N/m.
+    double magnitude(const Combination& c, const Link& link) const {
+        const double factor = std::abs(c.stiffness()) + std::abs(c.projected()) +
+                              std::abs(c.damping()) * rayleigh_.stiffness_proportional;
+        return factor * std::max(link.bound, std::abs(link.transverse)) +
+               std::abs(c.damping()) * link.damping;
+    }
+    double mass_coefficient(const Combination& c) const {
+        return c.mass() + c.damping() * rayleigh_.mass_proportional;
+    }
+    double particle_mass(std::size_t i) const { return mass_.data()[i * std::size_t(dim())]; }
+    /// One choice of weights in [T26]: of each free particle the block Σ_b (1 + p_b/p_i) P_b, and a
+    /// bound on its rounding error, N/m.
+    struct Splitting {
+        struct Term {  // a spring's P
+            int a, b;
+            double axial, transverse, size;
+            const double* d;
+        };
+        std::vector<Term> term;
+        std::vector<double> line;  // of one dimension in place of blocks
+        std::vector<Block> block;
+        std::vector<double> rounding;
+    };
+    Splitting splitting(const Combination& c) const;
+    void spread(const std::vector<double>& p, Splitting& split) const;
+    double load(const Splitting& split, std::size_t i) const;
+    double largest_quotient(const Splitting& split) const;
+    double quotient(double load, std::size_t i) const {
+        // A quotient that vanished by underflow is not zero.
+        const double r = load / particle_mass(i);
+        return load > 0 ? std::max(r, std::numeric_limits<double>::min()) : r;
+    }
+    /// u_a − u_b of a link.
+    void difference(const double* u, const Link& link, double du[3]) const {
+        for (int k = 0; k < 3; ++k) du[k] = 0;
+        for (int k = 0; k < dim(); ++k) {
+            const double of_a = link.a < 0 ? 0 : u[dim() * Index(link.a) + k];
+            const double of_b = link.b < 0 ? 0 : u[dim() * Index(link.b) + k];
+            du[k] = of_a - of_b;
+        }
+    }
 
     Eigen::VectorXd mass_;
     RayleighDamping rayleigh_;
     Facts facts_;
-
-private:
-    static constexpr double square_holds = 0x1p500;
-
-    template <class Real>
-    double within(Real value, const char* what, Index index, double least, double most) {
-        const std::common_type_t<Real, double> size = std::abs(value);
-        if (lost_.empty() && size != 0 && !(size >= least && size <= most)) {
-            char text[160];
-            std::snprintf(text, sizeof text,
-                          "the %s %lld is %.9Lg; the analysis is in double and takes 0 and sizes "
-                          "from %.3g to %.3g",
-                          what, static_cast<long long>(index), static_cast<long double>(value),
-                          least, most);
-            lost_ = text;
-        }
-        return static_cast<double>(value);
-    }
-
+    std::vector<int> free_;    // the system's index of each free particle
+    std::vector<int> degree_;  // springs at each free particle
+    std::vector<Link> links_;  // springs with at least one free end
+    std::vector<Name> names_;  // of each link
     std::string lost_;
-};
-
-/// A pencil that knows the scene it came from: whose a mode is, and what other stiffness or mass
-/// would make of it.
-class ScenePencil : public Pencil {
-public:
-    /// The springs' shares in the elastic energy of mode u, by K⁺, in no order; empty without
-    /// springs.
-    virtual std::vector<SpringShare> spring_shares(const Eigen::VectorXd& u) const = 0;
-    /// The particles' shares in its kinetic energy, in no order; without springs a "particle" is a
-    /// degree of freedom.
-    virtual std::vector<ParticleShare> particle_shares(const Eigen::VectorXd& u) const = 0;
-    /// The same scene with K (and αK⁺) times `stiffness` and M (and d0·M) times `mass`; dampers
-    /// stay. What is scaled below the normal numbers keeps its allowance for rounding.
-    virtual std::shared_ptr<const ScenePencil> scaled(double stiffness, double mass) const = 0;
-    /// Weakens a limit that was found as that of springs, with K⁺, D ⪰ 0, where they are not known
-    /// to be so, and tells of growth. @returns false where nothing but springs stands behind K and
-    /// D
-    virtual bool amend(Method, stability_detail::UnroundedLimit&) const { return false; }
+    std::shared_ptr<const BareMatrices> matrices_;
 };
 
 }  // namespace taut
+
+#include "detail/pencil_bound.ipp"
+#include "detail/pencil_matrix.ipp"
+#include "detail/pencil_scene.ipp"
+#include "detail/pencil_shares.ipp"

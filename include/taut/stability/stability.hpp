@@ -16,7 +16,6 @@
 #include "detail/scales.hpp"
 #include "detail/symplectic_limit.hpp"
 #include "rayleigh.hpp"
-#include "spring_pencil.hpp"
 
 namespace taut {
 
@@ -53,10 +52,12 @@ struct LimitingMode {
 /// rounding of a spring's length; what refutes takes the stiffer side. Zero modes never count as
 /// unstable. BDF2, of which nothing is proved beside compressed springs, is refused by name.
 ///
-/// What factorises, or solves a whole eigenvalue problem, is one more header away, tight/tight.hpp:
-/// `max_step(stability, method, tightness)`, `certify`, the eigenvalues of the matrix of a step
-/// under any damping (`spectral_radius`, the limit of explicit Euler), `count_zero_modes`. Systems
-/// of your own matrices are by own_matrices/own_matrices.hpp.
+/// `max_step` and what else names no mode are bounds alone, O(springs) for each of a few passes
+/// [T26]. What refutes and what names a mode searches for vectors: bracket, stiffness_spectrum,
+/// limiting_mode and those after it. What factorises, or solves a whole eigenvalue problem, is one
+/// more header away, tight/tight.hpp: `max_step(stability, method, tightness)`, `certify`, the
+/// eigenvalues of the matrix of a step under any damping (`spectral_radius`, the limit of explicit
+/// Euler), `count_zero_modes`. Systems of your own matrices are by own_matrices/own_matrices.hpp.
 template <class Scalar>
 class Stability {
 public:
@@ -66,28 +67,33 @@ public:
     explicit Stability(const System& system)
         : pencil_(make_pencil(system)), revision_(system.revision()) {
         pencil_->require_range("Stability");
-        stiffest_ = largest_ritz_pair(*pencil_, matrices::K_plus);
     }
 
     /// @param state  the pose; its velocity is taken as zero. Fails unless it is finite and fits.
     template <int Dim, class... Laws>
-    Stability(const SpringSystem<Scalar, Dim, Laws...>& system, const State<Scalar, Dim>& state) {
-        update(system, state);
+    Stability(const SpringSystem<Scalar, Dim, Laws...>& system, const State<Scalar, Dim>& state)
+        : revision_(system.revision()) {
+        detail::require_fits("Stability", state, system.size());
+        if (!state.x.allFinite()) {
+            const State<Scalar, Dim> still{state.x, State<Scalar, Dim>::zero(system.size()), 0};
+            fail("Stability: the position of particle ", still.first_not_finite(),
+                 " is not finite");
+        }
+        pencil_ = std::make_shared<const Pencil>(
+            Pencil::at_pose(system, state.x.template cast<TangentReal<Scalar>>()));
+        pencil_->require_range("Stability");
     }
 
-    /// Takes the system as it is now, or another pose, at the cost of a new analysis but for the
-    /// first search, which begins at the last stiffest mode.
-    template <int Dim, class... Laws>
-    void update(const SpringSystem<Scalar, Dim, Laws...>& system, const State<Scalar, Dim>& state);
-
-    /// The bracket of the largest stable step, s: by bounds alone, O(springs) for each of a few
-    /// passes [T26], and a Ritz vector.
-    StepLimit<Scalar> max_step(Method method) const {
-        stability_detail::Effort bounds;
-        return max_step(method, bounds);
+    /// The largest step that is proved stable, s. `refuted` and growth_rate are not looked for.
+    StepLimit<Scalar> max_step(Method method) const;
+    /// The same with `refuted`, and what compression makes grow: by Ritz vectors.
+    StepLimit<Scalar> bracket(Method method) const {
+        stability_detail::NoEffort bounds;
+        return bracket(method, bounds);
     }
     /// The same with more than bounds, for modules.
-    StepLimit<Scalar> max_step(Method method, stability_detail::Effort& effort) const;
+    template <class Effort>
+    StepLimit<Scalar> bracket(Method method, Effort& effort) const;
     /// The α, s, that make step h stable with D = d0·M + αK⁺ in place of the system's own damping:
     /// proved, since it takes k_max from above and k_min as 0 [T14]–[T16].
     AlphaWindow rayleigh_window(Method method, double h, double d0 = 0) const {
@@ -144,72 +150,81 @@ public:
     /// Free degrees of freedom.
     Index size() const { return pencil_->size(); }
     /// What all answers are computed from.
-    const ScenePencil& pencil() const { return *pencil_; }
+    const Pencil& pencil() const { return *pencil_; }
 
 private:
-    using Effort = stability_detail::Effort;
     using Limit = stability_detail::UnroundedLimit;
 
-    // A method's bracket, by what limits it. Of springs K⁺ ⪰ 0, which is enough for every step of
-    // implicit Euler to be solvable and stable [T20], [T27].
-    Limit limit_by(method::LimitedByDamping, Effort& effort) const {
-        return stability_detail::explicit_limit(*pencil_, effort, stiffest_);
+    // A method's limit, by what limits it: with a stiffest mode as a bracket. Of springs K⁺ ⪰ 0,
+    // which is enough for every step of implicit Euler to be solvable and stable [T20], [T27].
+    Limit limit_by(method::LimitedByDamping) const {
+        return stability_detail::explicit_by_bounds(
+            *pencil_, pencil_->upper_bound(matrices::K_plus), pencil_->upper_bound(matrices::D));
     }
-    Limit limit_by(method::LimitedByStiffness, Effort& effort) const {
-        // A bound within 3 % of the Ritz value's step needs no improvement.
-        return stability_detail::symplectic_limit(*pencil_, effort, 1.06 * stiffest_.value,
-                                                  [this](double) { return stiffest_.vector; });
+    Limit limit_by(method::LimitedByStiffness) const {
+        return stability_detail::symplectic_by_bounds(*pencil_);
     }
-    Limit limit_by(method::LimitedByIndefiniteness, Effort&) const {
+    template <class Effort>
+    Limit limit_by(method::LimitedByDamping, Effort& effort, const RitzPair& stiffest) const {
+        return stability_detail::explicit_bracket(*pencil_, effort, stiffest);
+    }
+    template <class Effort>
+    Limit limit_by(method::LimitedByStiffness, Effort& effort, const RitzPair& stiffest) const {
+        return stability_detail::symplectic_bracket(*pencil_, effort,
+                                                    [&](double) { return stiffest.vector; });
+    }
+    template <class... Search>
+    Limit limit_by(method::LimitedByIndefiniteness, Search&&...) const {
         constexpr double infinity = stability_detail::infinity;
         return {infinity, infinity, Cause::unconditional};
     }
+    /// @param add_growth  of a pencil of springs: add_growth(limit)
+    template <class AddGrowth, class... Search>
+    StepLimit<Scalar> limit_of(Method method, const AddGrowth& add_growth,
+                               Search&&... search) const;
+    RitzPair stiffest() const { return leading_pair(*pencil_, matrices::K_plus); }
 
-    std::shared_ptr<const ScenePencil> pencil_;  // immutable, so copies may share it
+    std::shared_ptr<const Pencil> pencil_;  // immutable, so copies may share it
     std::uint64_t revision_ = 0;
-    RitzPair stiffest_;  // of K⁺: where every search begins
 };
 
 template <class Scalar>
-template <int Dim, class... Laws>
-void Stability<Scalar>::update(const SpringSystem<Scalar, Dim, Laws...>& system,
-                               const State<Scalar, Dim>& state) {
-    detail::require_fits("Stability", state, system.size());
-    if (!state.x.allFinite()) {
-        const State<Scalar, Dim> still{state.x, State<Scalar, Dim>::zero(system.size()), 0};
-        fail("Stability: the position of particle ", still.first_not_finite(), " is not finite");
-    }
-    auto pencil = std::make_shared<SpringPencil<Dim>>(
-        SpringPencil<Dim>::at_pose(system, state.x.template cast<TangentReal<Scalar>>()));
-    pencil->require_range("Stability");
-    if (pencil->size() > 0) {
-        // The old mode alone, where it no longer leads, would be found again and nothing else.
-        Eigen::VectorXd start = stiffest_.vector;
-        if (start.size() > 0) {
-            start *= 4 / start.norm();
-            start += stability_detail::scattered_vector(start.size()).normalized();
-        }
-        stiffest_ = leading_pair(*pencil, matrices::K_plus, start);
-    }
-    pencil_ = std::move(pencil);
-    revision_ = system.revision();
-}
-
-template <class Scalar>
-StepLimit<Scalar> Stability<Scalar>::max_step(Method method, Effort& effort) const {
+template <class AddGrowth, class... Search>
+StepLimit<Scalar> Stability<Scalar>::limit_of(Method method, const AddGrowth& add_growth,
+                                              Search&&... search) const {
     using namespace stability_detail;
     if (size() == 0) {
         return rounded<Scalar>({infinity, infinity, Cause::nothing_to_limit}, revision_);
     }
-    auto limit = method::visit_limited("Stability", method, [&](auto descriptor) {
-        return limit_by(typename decltype(descriptor)::Limit{}, effort);
+    Limit limit = method::visit_limited("Stability", method, [&](auto descriptor) {
+        return limit_by(typename decltype(descriptor)::Limit{}, search...);
     });
     // What no Scalar holds claims nothing.
     for (double* step : {&limit.certified, &limit.certified_up_to}) {
         if (round_down<Scalar>(*step) == 0) *step = 0;
     }
-    if (!pencil_->amend(method, limit)) add_growth(*pencil_, effort, limit);
+    if (const BareMatrices* matrices = pencil_->matrices()) {
+        matrices->amend(method, *pencil_, limit);
+    } else {
+        add_growth(limit);
+    }
     return rounded<Scalar>(limit, revision_);
+}
+
+template <class Scalar>
+StepLimit<Scalar> Stability<Scalar>::max_step(Method method) const {
+    return limit_of(method, [&](Limit& limit) {
+        if (pencil_->stiffness_semidefinite() || !stability_detail::claims(limit)) return;
+        limit.admitted_growth = std::sqrt(pencil_->deficit(matrices::K));
+    });
+}
+
+template <class Scalar>
+template <class Effort>
+StepLimit<Scalar> Stability<Scalar>::bracket(Method method, Effort& effort) const {
+    return limit_of(
+        method, [&](Limit& limit) { stability_detail::add_growth(*pencil_, effort, limit); },
+        effort, size() > 0 ? stiffest() : RitzPair{});
 }
 
 template <class Scalar>
@@ -219,7 +234,7 @@ StiffnessSpectrum Stability<Scalar>::stiffness_spectrum() const {
     const Pencil& pencil = *pencil_;
     spectrum.k_max.upper = std::max(0.0, pencil.upper_bound(matrices::K_plus));
     spectrum.k_max.lower = std::max(
-        0.0, stability_detail::quotients(pencil, stiffest_.vector, matrices::K_plus).k.lower());
+        0.0, stability_detail::quotients(pencil, stiffest().vector, matrices::K_plus).k.lower());
     const RitzPair softest = stability_detail::softest(pencil);
     spectrum.k_min.upper =
         stability_detail::quotients(pencil, softest.vector, matrices::K_plus).k.upper();
@@ -238,7 +253,7 @@ LimitingMode Stability<Scalar>::limiting_mode() const {
     LanczosOptions options;
     options.basis = 60;
     options.tolerance = 1e-6;
-    RitzPair pair = largest_ritz_pair(*pencil_, matrices::K_plus, options, stiffest_.vector);
+    RitzPair pair = largest_ritz_pair(*pencil_, matrices::K_plus, options, stiffest().vector);
     const auto [k, d] = stability_detail::quotients(*pencil_, pair.vector, matrices::K_plus);
     return {k.value, d.value, std::move(pair.vector)};
 }

@@ -29,9 +29,9 @@ namespace taut {
 template <class Scalar>
 StepLimit<Scalar> max_step(const Stability<Scalar>& stability, Method method, double tightness) {
     require_non_negative("max_step", "tightness", tightness);
-    if (tightness == 0) return stability.max_step(method);
+    if (tightness == 0) return stability.bracket(method);
     stability_detail::Factorisations<> effort(tightness);
-    return stability.max_step(method, effort);
+    return stability.bracket(method, effort);
 }
 
 /// any_pose_limit(system), narrowed by factorisations of n × n matrices until refuted/certified ≤
@@ -40,9 +40,10 @@ template <class Scalar, int Dim, class... Laws>
 StepLimit<Scalar> any_pose_limit(const SpringSystem<Scalar, Dim, Laws...>& system,
                                  double tightness) {
     require_non_negative("any_pose_limit", "tightness", tightness);
-    if (tightness == 0) return any_pose_limit(system);
+    if (tightness == 0) return any_pose_bracket(system);
     stability_detail::Factorisations<> effort(tightness);
-    return stability_detail::any_pose_bracket(system, effort);
+    return stability_detail::bracket_of_laplacians<Scalar>(Pencil::any_pose(system), effort,
+                                                           system.revision());
 }
 
 /// energy_limit(system), narrowed as any_pose_limit's bracket is [T22].
@@ -50,9 +51,10 @@ StepLimit<Scalar> any_pose_limit(const SpringSystem<Scalar, Dim, Laws...>& syste
 template <class Scalar, int Dim, class... Laws>
 StepLimit<Scalar> energy_limit(const SpringSystem<Scalar, Dim, Laws...>& system, double tightness) {
     require_non_negative("energy_limit", "tightness", tightness);
-    if (tightness == 0) return energy_limit(system);
+    if (tightness == 0) return energy_bracket(system);
     stability_detail::Factorisations<> effort(tightness);
-    return stability_detail::energy_bracket(system, effort);
+    return stability_detail::bracket_of_laplacians<Scalar>(
+        Pencil::any_pose(system, Pencil::Damping::half), effort, system.revision(), 0.5);
 }
 
 /// Answer of certify().
@@ -67,7 +69,7 @@ template <class Scalar>
 Certificate certify(const Stability<Scalar>& stability, Method method, double h) {
     Certificate certificate{method, h, false};
     require_positive("certify", "h", h);
-    const StepLimit<Scalar> bound = stability.max_step(method);
+    const StepLimit<Scalar> bound = stability.bracket(method);
     certificate.proved = h <= static_cast<double>(bound.certified);
     if (certificate.proved || !(h < static_cast<double>(bound.refuted))) return certificate;
     const Pencil& pencil = stability.pencil();

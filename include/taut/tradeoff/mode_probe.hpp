@@ -12,7 +12,7 @@
 
 #include "../mass_scaling/detail/low_modes.hpp"
 #include "../own_matrices/linear_system.hpp"
-#include "../stability/spring_pencil.hpp"
+#include "../stability/pencil.hpp"
 #include "../accuracy/accuracy.hpp"
 #include "../recommend/candidate.hpp"
 
@@ -60,8 +60,7 @@ std::optional<std::complex<double>> fitted_multiplier(const VectorX<Real>& sampl
 template <class Scalar, int Dim, class... Laws>
 std::vector<Mode> lowest_modes(const SpringSystem<Scalar, Dim, Laws...>& system,
                                const State<Scalar, Dim>& state, Index count) {
-    const auto pencil =
-        SpringPencil<Dim>::at_pose(system, state.x.template cast<TangentReal<Scalar>>());
+    const auto pencil = Pencil::at_pose(system, state.x.template cast<TangentReal<Scalar>>());
     std::vector<Mode> modes;
     const Eigen::MatrixXd shapes = stability_detail::low_modes(pencil);
     Eigen::VectorXd y;

@@ -157,8 +157,7 @@ private:
         return path;
     }
     void find_modes() {
-        const auto pencil =
-            SpringPencil<Dim>::at_pose(system_, start_.x.template cast<TangentReal<Scalar>>());
+        const auto pencil = Pencil::at_pose(system_, start_.x.template cast<TangentReal<Scalar>>());
         if (pencil.size() == 0 || !pencil.stiffness_semidefinite()) return;
         const auto linear = linearize(system_, start_);
         linear_.emplace(linear.mass(), linear.damping(), linear.stiffness());

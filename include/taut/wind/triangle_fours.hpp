@@ -28,7 +28,7 @@ public:
 
     /// Adds the forces of the wind on the tile's triangles.
     void add_forces(const WindView<Scalar>& view) const {
-        constexpr typename Point::All parts;
+        constexpr std::make_integer_sequence<int, Point::parts> parts{};
         const auto tile = static_cast<std::size_t>(view.tile);
         const std::size_t first = tile == 0 ? 0 : end_[tile - 1];
         if (first == end_[tile]) return;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <type_traits>
+#include <utility>
 
 #include "../../model/spring_system.hpp"
 #include "../explicit_options.hpp"
@@ -31,118 +32,123 @@ struct DriftAndKick {
     }
 };
 
-/// Steps of an explicit method: of a SpringSystem by a sweep, of other systems by System::force.
-template <class System>
+inline int checked_threads(const ExplicitOptions& options) {
+    if (options.threads < 1)
+        fail("ExplicitOptions: threads is ", options.threads, "; it must be >= 1");
+    return options.threads;
+}
+
+/// Steps of an explicit method by its force, System::force; those of a SpringSystem are below.
+template <class System, class = void>
 class ExplicitSteps {
 public:
     using Scalar = typename System::Scalar;
     using State = typename System::State;
 
-    explicit ExplicitSteps(const ExplicitOptions& options);
-    ExplicitSteps(const ExplicitSteps&) = default;
-    ExplicitSteps(ExplicitSteps&&) = default;
-    ExplicitSteps& operator=(const ExplicitSteps&) = default;
-    ExplicitSteps& operator=(ExplicitSteps&&) = default;
-    ~ExplicitSteps();
+    explicit ExplicitSteps(const ExplicitOptions& options) { checked_threads(options); }
 
-    /// Steps of a SpringSystem by its sweep are shown to that; null ends it.
-    void watch(sweep::StepWatch<Scalar, System::Dim>* by) { sweep_.watch(by); }
     /// Steps of a method that needs one acceleration.
     /// @param update  update(x, v, a, h): x and v, of one step, by the acceleration a = M⁻¹f(x, v);
     ///                arrays or registers
     template <class AnyState, class Update>
     Report run(const System& system, AnyState& state, Scalar h, Index count, const Update& update) {
-        return run(
-            system, state, h, count,
-            [&](auto& sweep, int threads) {
-                return sweep.run(system, state, h, count, threads, update);
-            },
-            [&](State& own) {
-                update_force(system, own);
-                update(own.x.array(), own.v.array(), acceleration(system), h);
-            });
-    }
-    /// @param by_sweep  bool by_sweep(sweep, threads): all steps at once; where not all is
-    ///                  finite, `state` is not touched
-    /// @param plain     plain(State&): one step in place
-    template <class AnyState, class BySweep, class Plain>
-    Report run(const System& system, AnyState& state, Scalar h, Index count, BySweep&& by_sweep,
-               Plain&& plain) {
-        if constexpr (model_detail::is_spring_system_v<System>) {
-            const Report report = StepLoop<State>::check(system, state, h);
-            if (!report || count <= 0) return report;
-            if (by_sweep(sweep_, options_.threads)) {
-                return {Status::ok, static_cast<int>(count)};
-            }
-            // Not finite: the steps below find out which step and which particle.
-        }
         return loop_.run(system, state, h, count, [&](State& own) -> Report {
-            plain(own);
+            system.force(own, f_);
+            update(own.x.array(), own.v.array(), acceleration(system), h);
             return {};
         });
     }
-    /// The force at a state, by the plain path.
-    void update_force(const System& system, const State& state) { system.force(state, f_); }
-    /// Steps with the springs one step ahead [T42]. @param update  as of run()
-    template <class AnyState, class Update>
-    Report run_ahead(const System& system, AnyState& state, Scalar h, Index count,
-                     const Update& update) {
-        return run(
-            system, state, h, count,
-            [&](auto& sweep, int threads) {
-                return sweep.run_ahead(system, state, h, count, threads, update);
-            },
-            [&](State& own) {
-                system.force_ahead(own, h, f_);
-                update(own.x.array(), own.v.array(), acceleration(system), h);
-            });
+    /// Steps of velocity Verlet. @param go_on  whether state and system are as the last call left
+    /// them
+    template <class AnyState>
+    Report run_verlet(const System& system, AnyState& state, Scalar h, Index count, bool go_on) {
+        return loop_.run(system, state, h, count, [&](State& own) -> Report {
+            if (!std::exchange(go_on, true)) system.force(own, f_);
+            own.v.array() += h / 2 * acceleration(system);
+            own.x += h * own.v;
+            own.time += h;
+            if (!own.finite()) return {};  // nobody's force is asked there
+            system.force(own, f_);
+            own.v.array() += h / 2 * acceleration(system);
+            return {};
+        });
     }
-    /// One step by accelerations that are corrected all together, by the plain path.
-    /// @tparam Ahead   and correct: as of Sweep::run_corrected
-    template <bool Ahead = false, class Correct>
-    void corrected_step(const System& system, State& state, Scalar h, const Correct& correct) {
-        if constexpr (Ahead) {
-            system.force_ahead(state, h, f_);
-        } else {
-            update_force(system, state);
-        }
-        f_ = acceleration(system).matrix().eval();
-        correct(ColumnVectors{f_}, ColumnVectors{state.v});
-        state.v += h * f_;
-        state.x += h * state.v;
-    }
-    /// M⁻¹f of that force, Dim × n, m/s².
+
+private:
+    /// M⁻¹f, Dim × n, m/s².
     auto acceleration(const System& system) const {
         return f_.array().rowwise() * system.inverse_mass().transpose().array();
     }
 
-private:
-    struct None {};
-    /// As sweep::PlaceVectors.
-    struct ColumnVectors {
-        decltype(State::x)& columns;
-
-        auto operator()(Index i) const { return columns.col(i); }
-        template <class Vector>
-        void set(Index i, const Vector& vector) const {
-            columns.col(i) = vector;
-        }
-    };
-
-    ExplicitOptions options_;
-    std::conditional_t<model_detail::is_spring_system_v<System>, sweep::Sweep<System>, None> sweep_;
     StepLoop<State> loop_;
     decltype(State::x) f_;  // force, Dim × n, N
 };
 
+/// Steps of a SpringSystem, by its sweep.
 template <class System>
-ExplicitSteps<System>::ExplicitSteps(const ExplicitOptions& options) : options_(options) {
-    if (options.threads < 1)
-        fail("ExplicitOptions: threads is ", options.threads, "; it must be >= 1");
-}
+class ExplicitSteps<System, std::enable_if_t<model_detail::is_spring_system_v<System>>> {
+public:
+    using Scalar = typename System::Scalar;
+    using State = typename System::State;
 
-template <class System>
-ExplicitSteps<System>::~ExplicitSteps() = default;  // compiled once
+    explicit ExplicitSteps(const ExplicitOptions& options) : threads_(checked_threads(options)) {}
+
+    /// Shows steps to that; null ends it.
+    void watch(sweep::StepWatch<Scalar, System::Dim>* by) { sweep_.watch(by); }
+    /// As above.
+    template <class AnyState, class Update>
+    Report run(const System& system, AnyState& state, Scalar h, Index count, const Update& update) {
+        return sweep_all(system, state, h, count, [&](auto& own, Index steps) {
+            return sweep_.run(system, own, h, steps, threads_, update);
+        });
+    }
+    /// The same with the springs one step ahead [T42].
+    template <class AnyState, class Update>
+    Report run_ahead(const System& system, AnyState& state, Scalar h, Index count,
+                     const Update& update) {
+        return sweep_all(system, state, h, count, [&](auto& own, Index steps) {
+            return sweep_.run_ahead(system, own, h, steps, threads_, update);
+        });
+    }
+    /// As above.
+    template <class AnyState>
+    Report run_verlet(const System& system, AnyState& state, Scalar h, Index count, bool go_on) {
+        return sweep_all(system, state, h, count, [&](auto& own, Index steps) {
+            const bool swept = sweep_.run_verlet(system, own, h, steps, threads_, go_on);
+            go_on = go_on || swept;
+            return swept;
+        });
+    }
+    /// The same as run, by accelerations that are corrected all together.
+    /// @tparam Ahead   and correct: as of Sweep::run_corrected
+    template <bool Ahead, class AnyState, class Correct>
+    Report run_corrected(const System& system, AnyState& state, Scalar h, Index count,
+                         const Correct& correct) {
+        return sweep_all(system, state, h, count, [&](auto& own, Index steps) {
+            return sweep_.template run_corrected<Ahead>(system, own, h, steps, threads_, correct);
+        });
+    }
+
+private:
+    /// @param sweep  bool sweep(state, steps): all of them at once; where not all is finite, the
+    ///               state is not touched
+    template <class AnyState, class Steps>
+    Report sweep_all(const System& system, AnyState& state, Scalar h, Index count,
+                     const Steps& sweep) {
+        const Report report = StepLoop<State>::check(system, state, h);
+        if (!report || count <= 0) return report;
+        if (sweep(state, count)) return {Status::ok, static_cast<int>(count)};
+        // Not finite: which step and which particle, one by one.
+        return loop_.run(system, state, h, count, [&](State& own) -> Report {
+            if (sweep(own, Index(1))) return {};
+            return {Status::diverged, 0, 0, sweep_.first_not_finite()};
+        });
+    }
+
+    int threads_;
+    sweep::Sweep<System> sweep_;
+    StepLoop<State> loop_;
+};
 
 }  // namespace integrator_detail
 }  // namespace taut

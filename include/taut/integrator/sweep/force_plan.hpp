@@ -101,7 +101,7 @@ private:
     };
 
     int reach() const { return outside_ ? std::max(reach_, outside_plan_->reach()) : reach_; }
-    void plan_springs(const System& system);
+    TAUT_COLD void plan_springs(const System& system);
 
     typename PlansOf<typename System::SpringSets>::type plans_;
     Layout<Scalar> layout_;
@@ -131,12 +131,12 @@ bool ForcePlan<System>::update(const System& system) {
 
 template <class System>
 void ForcePlan<System>::plan_springs(const System& system) {
-    std::vector<SpringEnds> ends;
+    Buffer<SpringEnds> ends;
     system.for_each_set([&](const auto& set) { ends.push_back({set.a, set.b}); });
     SpringOrder planned = Planner<Scalar>::order(ends, Blocks(system.size()), Dim > 1);
     reach_ = planned.reach;
     layout_ = {system.size(), Dim, std::move(planned.order), planned.stars};
-    system.for_each_set([&, next = planned.laws.cbegin()](const auto& set) mutable {
+    system.for_each_set([&, next = planned.laws.get()](const auto& set) mutable {
         using Plan = typename PlanOf<std::decay_t<decltype(set)>>::type;
         std::get<Plan>(plans_).renew(set, *next++, layout_.blocks(), planned.stars);
     });

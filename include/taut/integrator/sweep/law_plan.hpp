@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <vector>
 
 #include "star_plan.hpp"
 
@@ -25,62 +24,61 @@ struct Chunk {
 /// Adds the forces of a batch: the same for all laws but for coefficients.
 /// @tparam Both  whether a spring takes its positions ahead and as they are [T42]
 /// @param pull   pull(springs, chunk, count): coefficients of the next springs of the batch
-template <class Scalar, int Dim, bool Velocities, bool Rayleigh, bool Both>
-void add_batch(const PlannedBatches& plan, const Batch& batch, const TileView<Scalar>& view,
+template <class Scalar, bool Velocities, bool Rayleigh, bool Both>
+void add_batch(const PlannedBatches& plan, const Batch& batch, int dim,
+               const TileView<Scalar>& view,
                void (*pull)(void* springs, Chunk<Scalar>& chunk, int count), void* springs) {
-    // One vector, in memory as registers like it.
-    using Vector = Eigen::Array<Scalar, Dim == 3 ? 4 : Dim, 1>;
+    using Vector = Quad<Scalar>;
+    using Factor = typename Vector::Part;
     constexpr int most = Chunk<Scalar>::most;
-    alignas(64) Vector x[most_gathered];
-    alignas(64) Vector here[Both ? most_gathered : 1];
-    alignas(64) Vector v[Velocities ? most_gathered : 1];
-    alignas(64) Vector f[most_gathered];
+    alignas(64) Scalar x[most_gathered][4];
+    alignas(64) Scalar here[Both ? most_gathered : 1][4];
+    alignas(64) Scalar v[Velocities ? most_gathered : 1][4];
+    alignas(64) Scalar f[most_gathered][4];
     const int* places = plan.gathered.data() + batch.first_gathered;
+    const auto gather = [&](Scalar(&to)[4], const Planes<const Scalar>& from, int place) {
+        for (int d = 0; d < 4; ++d) to[d] = d < dim ? from[d][place] : Scalar(0);
+    };
     for (int g = 0; g < batch.gathered; ++g) {
-        x[g].setZero();
-        f[g].setZero();
-        for (int d = 0; d < Dim; ++d) x[g][d] = view.x[d][places[g]];
-        if constexpr (Both) {
-            here[g].setZero();
-            for (int d = 0; d < Dim; ++d) here[g][d] = view.at[d][places[g]];
-        }
-        if constexpr (Velocities) {
-            v[g].setZero();
-            for (int d = 0; d < Dim; ++d) v[g][d] = view.v[d][places[g]];
-        }
+        for (Scalar& axis : f[g]) axis = 0;
+        gather(x[g], view.x, places[g]);
+        if constexpr (Both) gather(here[g], view.at, places[g]);
+        if constexpr (Velocities) gather(v[g], view.v, places[g]);
     }
-    alignas(64) Vector dx[most];
-    alignas(64) Vector old_dx[Both ? most : 1];
-    alignas(64) Vector dv[Velocities ? most : 1];
+    Vector dx[most];
+    Vector old_dx[Both ? most : 1];
+    Vector dv[Velocities ? most : 1];
     Chunk<Scalar> chunk;
     for (int done = 0; done < batch.springs; done += most) {
         const auto* ends = plan.ends.data() + batch.first_spring + done;
         const int count = std::min(most, batch.springs - done);
         for (int s = 0; s < count; ++s) {
-            dx[s] = x[ends[s].b] - x[ends[s].a];
-            chunk.l2[s] = dx[s].square().sum();
+            const auto [a, b] = ends[s];
+            dx[s] = Vector::load(x[b]) - Vector::load(x[a]);
+            chunk.l2[s] = (dx[s] * dx[s]).total();
             if constexpr (Both) {
-                old_dx[s] = here[ends[s].b] - here[ends[s].a];
-                chunk.old_l2[s] = old_dx[s].square().sum();
+                old_dx[s] = Vector::load(here[b]) - Vector::load(here[a]);
+                chunk.old_l2[s] = (old_dx[s] * old_dx[s]).total();
             }
             if constexpr (Velocities) {
-                dv[s] = v[ends[s].b] - v[ends[s].a];
-                chunk.dx_dv[s] = (dx[s] * dv[s]).sum();
+                dv[s] = Vector::load(v[b]) - Vector::load(v[a]);
+                chunk.dx_dv[s] = (dx[s] * dv[s]).total();
             }
         }
         pull(springs, chunk, count);
         for (int s = 0; s < count; ++s) {
-            Vector force = chunk.l2[s] * dx[s];
-            if constexpr (Both) force -= chunk.old_l2[s] * old_dx[s];
-            if constexpr (Rayleigh) force += chunk.dx_dv[s] * dv[s];
-            f[ends[s].a] += force;
-            f[ends[s].b] -= force;
+            Vector force = Factor(chunk.l2[s]) * dx[s];
+            if constexpr (Both) force = force - Factor(chunk.old_l2[s]) * old_dx[s];
+            if constexpr (Rayleigh) force = force + Factor(chunk.dx_dv[s]) * dv[s];
+            const auto [a, b] = ends[s];
+            (Vector::load(f[a]) + force).store(f[a]);
+            (Vector::load(f[b]) - force).store(f[b]);
         }
     }
     for (int g = 0; g < batch.gathered; ++g) {
         const int i = places[g] - view.begin;
         if (i < 0 || i >= view.size) continue;  // another block sees to it
-        for (int d = 0; d < Dim; ++d) view.force_a[d][i] += f[g][d];
+        for (int d = 0; d < dim; ++d) view.force_a[d][i] += f[g][d];
     }
 }
 
@@ -89,8 +87,8 @@ template <class Scalar, int Dim, class Law>
 class LawPlan {
 public:
     /// In place of the last springs.
-    void renew(const SpringSet<Scalar, Law>& set, const SortedSprings& springs,
-               const Blocks& blocks, bool stars);
+    TAUT_COLD void renew(const SpringSet<Scalar, Law>& set, const SortedSprings& springs,
+                         const Blocks& blocks, bool stars);
     /// Whether a spring has a damper of its own.
     bool damped() const { return damped_; }
     /// Adds the forces of the tile's springs on the places of its block.
@@ -140,7 +138,7 @@ void LawPlan<Scalar, Dim, Law>::renew(const SpringSet<Scalar, Law>& set,
         stars_ = {set, springs, blocks};
         return;
     }
-    std::vector<int> index;
+    Buffer<int> index;
     runs_ = Planner<Scalar>::runs(springs, blocks, index);
     batches_ = Planner<Scalar>::batches(springs, blocks, index);
     int first = 0;
@@ -166,8 +164,10 @@ void LawPlan<Scalar, Dim, Law>::add_forces(const TileView<Scalar>& view) const {
 template <class Scalar, int Dim, class Law>
 template <bool Dampers, bool Rayleigh, bool Both>
 void LawPlan<Scalar, Dim, Law>::add(const TileView<Scalar>& view) const {
+    constexpr bool velocities = Dampers || Rayleigh;
     if constexpr (Dim > 1) {
-        if (in_stars_) return stars_.template add_forces<Dampers, Rayleigh, Both>(view);
+        // Beside Rayleigh damping dampers, zeros where there are none, cost less than a kernel.
+        if (in_stars_) return stars_.template add_forces<velocities, Rayleigh, Both>(view);
     }
     const auto begin = [&](const auto& ends) { return view.tile == 0 ? 0 : ends[view.tile - 1]; };
     const int last_segment = runs_.segment_end[view.tile];
@@ -178,8 +178,8 @@ void LawPlan<Scalar, Dim, Law>::add(const TileView<Scalar>& view) const {
     const int last_batch = batches_.batch_end[view.tile];
     for (int b = begin(batches_.batch_end); b < last_batch; ++b) {
         BatchSprings springs{{table_, runs + b, 0}, view.alpha};
-        add_batch<Scalar, Dim, Dampers || Rayleigh, Rayleigh, Both>(
-            batches_, batches_.batches[b], view, pull<Dampers, Rayleigh, Both>, &springs);
+        add_batch<Scalar, velocities, Rayleigh, Both>(batches_, batches_.batches[b], Dim, view,
+                                                      pull<velocities, Rayleigh, Both>, &springs);
     }
 }
 

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
+#include "../../core/buffer.hpp"
+#include "../../core/detail/finite.hpp"
 #include "register.hpp"
 #include "tile.hpp"
 
@@ -18,7 +19,7 @@ public:
     Layout() = default;
     /// @param order  the particle at each place; empty: particle i at place i
     /// @param stars  whether springs are in stars: then one plane holds points, x y z 0
-    Layout(Index size, int dim, std::vector<int> order, bool stars)
+    Layout(Index size, int dim, Buffer<int> order, bool stars)
         : order_(std::move(order)),
           size_(size),
           blocks_(size),
@@ -68,8 +69,8 @@ public:
     }
 
     /// Of each particle.
-    std::vector<int> places() const {
-        std::vector<int> result(static_cast<std::size_t>(size_));
+    Buffer<int> places() const {
+        Buffer<int> result(static_cast<std::size_t>(size_));
         for_each_place([&](Index i, Index place) { result[i] = static_cast<int>(place); });
         return result;
     }
@@ -88,7 +89,7 @@ private:
         }
     }
 
-    std::vector<int> order_;
+    Buffer<int> order_;
     Index size_ = 0;
     Blocks blocks_;
     Index stride_ = 0;
@@ -102,7 +103,7 @@ class PlaceVectors {
 public:
     using Vector = Eigen::Matrix<Scalar, Dim, 1>;
 
-    PlaceVectors(const Layout<Scalar>& layout, const std::vector<int>& places,
+    PlaceVectors(const Layout<Scalar>& layout, const Buffer<int>& places,
                  const Planes<Scalar>& planes)
         : layout_(layout), places_(places), planes_(planes) {}
 
@@ -117,7 +118,7 @@ public:
 
 private:
     const Layout<Scalar>& layout_;
-    const std::vector<int>& places_;
+    const Buffer<int>& places_;
     Planes<Scalar> planes_;
 };
 
@@ -158,39 +159,42 @@ public:
         const Index old_x = looks_ahead ? vectors++ : 0;
         const Index new_x = !looks_ahead ? 1 : read.positions ? vectors++ : old_x;
         const Index new_v = read.velocities ? vectors++ : 2;
-        memory_.resize(vectors * planes * stride);
+        memory_.resize(static_cast<std::size_t>(vectors * planes * stride));
         // The padding takes part in the steps: from rest.
-        const Index padding = stride - size;
-        for (Index end = stride; end <= memory_.size(); end += stride) {
-            memory_.segment(end - padding, padding).setZero();
+        for (Index plane = 0; plane < vectors * planes; ++plane) {
+            detail::set_zero(memory_.data() + plane * stride + size, stride - size);
         }
         planes_ = {vector(old_x), vector(new_x), vector(0), vector(1), vector(2), vector(new_v)};
     }
     /// Sets spring_x to x + ahead·v, with `ahead` in s.
     void look_ahead(Scalar ahead) {
-        whole(planes_.spring_x) = whole(planes_.x) + ahead * whole(planes_.v);
+        const Register step(ahead);
+        for_each_register([&](Index i) {
+            const Register x = Register::load(planes_.x.first + i);
+            (x + step * Register::load(planes_.v.first + i)).store(planes_.spring_x.first + i);
+        });
     }
-    /// A vector's planes one after another, padding included.
-    Eigen::Map<VectorX<Scalar>> whole(const Planes<Scalar>& of) const {
-        return {of.first, planes_of_vector_ * stride_};
+    /// The length of a vector's planes one after another, padding included.
+    Index whole() const { return planes_of_vector_ * stride_; }
+    /// visit(i) for the first scalar of each register of these.
+    template <class Visitor>
+    void for_each_register(Visitor&& visit) const {
+        for (Index i = 0; i < whole(); i += Register::width) visit(i);
     }
-    bool finite() const {
-        // x − x is 0, or NaN where x is not finite; and so is the sum.
-        const auto all = [&](const Planes<Scalar>& of) {
-            Scalar sum = 0;
-            for (int d = 0; d < planes_of_vector_; ++d) {
-                const Eigen::Map<const VectorX<Scalar>> plane(of[d], size_);
-                sum += (plane - plane).sum();
-            }
-            return sum == Scalar(0);
-        };
-        return all(planes_.x) && all(planes_.v);
-    }
+    bool finite() const { return finite(planes_.x) && finite(planes_.v); }
 
     const StatePlanes<Scalar>& planes() const { return planes_; }
     void swap() { planes_.swap(); }
 
 private:
+    using Register = VectorRegister<Scalar>;
+
+    bool finite(const Planes<Scalar>& of) const {
+        for (int d = 0; d < planes_of_vector_; ++d) {
+            if (!detail::all_finite(of[d], size_)) return false;
+        }
+        return true;
+    }
     Planes<Scalar> vector(Index number) {
         return {memory_.data() + number * planes_of_vector_ * stride_, stride_};
     }
@@ -198,7 +202,7 @@ private:
     int planes_of_vector_ = 0;
     Index size_ = 0;
     Index stride_ = 0;
-    VectorX<Scalar> memory_;
+    Buffer<Scalar> memory_;
     StatePlanes<Scalar> planes_;
 };
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <type_traits>
 
 #include "layout.hpp"
 
@@ -41,16 +40,15 @@ public:
 private:
     using Register = VectorRegister<Scalar>;
 
-    template <bool Pins, bool Drag, bool Stars, class Update>
+    template <bool Drag, bool Stars, class Update>
     void move(const TilePlaces<Scalar>& tile, int planes, Scalar h) const;
 
     std::array<Scalar, 4> gravity_{};                  // m/s²
     std::array<Scalar, max_width> gravity_of_points_;  // x y z 0 x y z 0 …
     Planes<Scalar> external_;                          // N
-    VectorX<Scalar> inverse_mass_;                     // a plane, 1/kg, 0 if pinned
+    Buffer<Scalar> inverse_mass_;                      // a plane, 1/kg, 0 if pinned
     Scalar drag_ = 0;                                  // d0, 1/s
     Scalar ahead_ = 0;
-    bool pins_ = false;
 };
 
 template <class Scalar>
@@ -62,11 +60,9 @@ void PlaceUpdate<Scalar>::load(const Layout<Scalar>& layout, const Scalar* gravi
     drag_ = drag;
     ahead_ = ahead;
     const Index size = layout.size() * layout.grain();
-    inverse_mass_.resize(layout.stride());
-    inverse_mass_.tail(layout.stride() - size).setZero();
+    inverse_mass_.resize(static_cast<std::size_t>(layout.stride()));
+    detail::set_zero(inverse_mass_.data() + size, layout.stride() - size);
     layout.to_plane(inverse_mass, inverse_mass_.data());
-    pins_ = std::find(inverse_mass, inverse_mass + layout.size(), Scalar(0)) !=
-            inverse_mass + layout.size();
 }
 
 template <class Scalar>
@@ -74,23 +70,17 @@ template <class Update>
 void PlaceUpdate<Scalar>::move(const Layout<Scalar>& layout, const TilePlaces<Scalar>& tile,
                                Scalar h) const {
     const int planes = layout.planes();
-    const auto move = [&](auto pins, auto drag) {
-        constexpr bool Pins = decltype(pins)::value;
-        constexpr bool Drag = decltype(drag)::value;
-        if (layout.has_stars()) return this->template move<Pins, Drag, true, Update>(tile, 1, h);
-        this->template move<Pins, Drag, false, Update>(tile, planes, h);
-    };
-    constexpr std::true_type yes;
-    constexpr std::false_type no;
     if (drag_ > 0) {
-        pins_ ? move(yes, yes) : move(no, yes);
+        layout.has_stars() ? move<true, true, Update>(tile, 1, h)
+                           : move<true, false, Update>(tile, planes, h);
     } else {
-        pins_ ? move(yes, no) : move(no, no);
+        layout.has_stars() ? move<false, true, Update>(tile, 1, h)
+                           : move<false, false, Update>(tile, planes, h);
     }
 }
 
 template <class Scalar>
-template <bool Pins, bool Drag, bool Stars, class Update>
+template <bool Drag, bool Stars, class Update>
 void PlaceUpdate<Scalar>::move(const TilePlaces<Scalar>& tile, int planes, Scalar h) const {
     // The axis of a lane is the same in each of so many registers in turn.
     constexpr int turns = Stars ? std::max(1, 4 / Register::width) : 1;
@@ -122,7 +112,7 @@ void PlaceUpdate<Scalar>::move(const TilePlaces<Scalar>& tile, int planes, Scala
             Register v = Register::load(vs + i);
             Register free_fall = g;
             if constexpr (Drag) free_fall -= d0 * v;
-            if constexpr (Pins) free_fall = where_less(zero, inverse_mass, free_fall, zero);
+            free_fall = where_less(zero, inverse_mass, free_fall, zero);  // pins do not fall
             Register f = Register::load(forces_a + i);
             zero.store(forces_a + i);
             if constexpr (!Stars) {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "quad.hpp"
 #include "stars.hpp"
@@ -30,9 +30,9 @@ struct PlannedRuns {
         int offset;   // b − a
         int count;    // of its springs and gaps
     };
-    std::vector<Run> runs;
-    std::vector<Segment> segments;  // tile by tile
-    std::vector<int> segment_end;   // of each tile
+    Buffer<Run> runs;
+    Buffer<Segment> segments;  // tile by tile
+    Buffer<int> segment_end;   // of each tile
 };
 
 /// A batch touches so many places at most: as many copies stay in the first cache.
@@ -52,21 +52,21 @@ struct PlannedBatches {
     struct Ends {
         std::uint16_t a, b;
     };
-    std::vector<Batch> batches;  // tile by tile
-    std::vector<int> batch_end;  // of each tile
-    std::vector<Ends> ends;      // of the springs, batch by batch
-    std::vector<int> gathered;   // places, batch by batch
+    Buffer<Batch> batches;  // tile by tile
+    Buffer<int> batch_end;  // of each tile
+    Buffer<Ends> ends;      // of the springs, batch by batch
+    Buffer<int> gathered;   // places, batch by batch
 };
 
 /// Scattered springs tile by tile, one for each block of an end. In a tile, neighbours have
 /// different ends: first one of each a, then another of each. To add to the force just stored would
 /// be to wait for the store.
 struct SpreadSprings {
-    std::vector<int> spring;  // which of all sorted ones
-    std::vector<int> tile;
+    Buffer<int> spring;  // which of all sorted ones
+    Buffer<int> tile;
 
-    SpreadSprings(const SortedSprings& sorted, const Blocks& blocks) {
-        std::vector<int> of, a, tiles;
+    TAUT_COLD SpreadSprings(const SortedSprings& sorted, const Blocks& blocks) {
+        Buffer<int> of, a, tiles;
         for (const int s : sorted.scattered()) {
             const auto& scattered = sorted.all()[s];
             const auto add = [&](int to) {
@@ -80,10 +80,10 @@ struct SpreadSprings {
                 add(blocks.first_tile(block_of_b));
             }
         }
-        std::vector<int> order = numbers(of.size());
+        Buffer<int> order = numbers(of.size());
         sort_by(a, order);
         sort_by(tiles, order);
-        std::vector<int> rank(of.size(), 0);
+        Buffer<int> rank(of.size(), 0);
         for (std::size_t i = 1; i < order.size(); ++i) {
             const int s = order[i], before = order[i - 1];
             if (tiles[s] == tiles[before] && a[s] == a[before]) rank[s] = rank[before] + 1;
@@ -99,33 +99,33 @@ struct SpreadSprings {
 
 /// An order of n particles that brings the ends of springs close together (Cuthill and McKee, 1969,
 /// reversed): particle order[p] of the system goes to place p.
-inline std::vector<int> cache_order(int n, const std::vector<SpringEnds>& laws) {
-    std::vector<int> degree(n, 0);
+TAUT_COLD inline Buffer<int> cache_order(int n, const Buffer<SpringEnds>& laws) {
+    Buffer<int> degree(n, 0);
     const auto for_each_spring = [&](const auto& visit) {
         for (const auto& ends : laws) {
-            for (std::size_t s = 0; s < ends.a.size(); ++s) visit(ends.a[s], ends.b[s]);
+            for (std::size_t s = 0; s < ends.count; ++s) visit(ends.a[s], ends.b[s]);
         }
     };
     for_each_spring([&](int a, int b) { ++degree[a], ++degree[b]; });
-    std::vector<int> first(static_cast<std::size_t>(n) + 1, 0);
+    Buffer<int> first(static_cast<std::size_t>(n) + 1, 0);
     for (int i = 0; i < n; ++i) first[i + 1] = first[i] + degree[i];
-    std::vector<int> neighbour(first[n]);
+    Buffer<int> neighbour(first[n]);
     auto next = first;
     for_each_spring([&](int a, int b) {
         neighbour[next[a]++] = b;
         neighbour[next[b]++] = a;
     });
 
-    std::vector<int> start = numbers(n);
+    Buffer<int> start = numbers(n);
     sort_by(degree, start);
     // Those of each particle in the order of `start`, too.
-    std::vector<int> sorted(neighbour.size());
+    Buffer<int> sorted(neighbour.size());
     next = first;
     for (const int i : start) {
         for (int k = first[i]; k < first[i + 1]; ++k) sorted[next[neighbour[k]]++] = i;
     }
-    std::vector<int> known(n, 0);
-    std::vector<int> order;
+    Buffer<int> known(n, 0);
+    Buffer<int> order;
     order.reserve(n);
     for (const int root : start) {
         if (known[root]) continue;
@@ -144,15 +144,15 @@ inline std::vector<int> cache_order(int n, const std::vector<SpringEnds>& laws) 
 
 /// The springs of a system as a sweep takes them.
 struct SpringOrder {
-    std::vector<SortedSprings> laws;  // the springs of each
-    std::vector<int> order;           // the particle at each place; empty: particle i at place i
-    int reach = 0;                    // the most blocks between the ends of a spring
-    bool stars = false;               // whether all springs are in stars
+    std::unique_ptr<SortedSprings[]> laws;  // the springs of each
+    Buffer<int> order;   // the particle at each place; empty: particle i at place i
+    int reach = 0;       // the most blocks between the ends of a spring
+    bool stars = false;  // whether all springs are in stars
 };
 
 /// The place of each particle of an order, which is not empty.
-inline std::vector<int> places_of(const std::vector<int>& order) {
-    std::vector<int> place(order.size());
+TAUT_COLD inline Buffer<int> places_of(const Buffer<int>& order) {
+    Buffer<int> place(order.size());
     for (std::size_t p = 0; p < order.size(); ++p) place[order[p]] = static_cast<int>(p);
     return place;
 }
@@ -170,32 +170,32 @@ struct Planner {
     static constexpr int group =
         StarRegister::width > star_size ? StarRegister::width / star_size : 1;
 
-    static SpringOrder order(const std::vector<SpringEnds>& laws, const Blocks& blocks,
-                             bool may_have_stars);
+    TAUT_COLD static SpringOrder order(const Buffer<SpringEnds>& laws, const Blocks& blocks,
+                                       bool may_have_stars);
     /// @param index  of these three: gets the springs and gaps that are computed, in their order
-    static PlannedRuns runs(const SortedSprings& springs, const Blocks& blocks,
-                            std::vector<int>& index);
-    static PlannedBatches batches(const SortedSprings& springs, const Blocks& blocks,
-                                  std::vector<int>& index);
-    static StarGroups groups(const SortedSprings& springs, const Blocks& blocks,
-                             std::vector<int>& index);
+    TAUT_COLD static PlannedRuns runs(const SortedSprings& springs, const Blocks& blocks,
+                                      Buffer<int>& index);
+    TAUT_COLD static PlannedBatches batches(const SortedSprings& springs, const Blocks& blocks,
+                                            Buffer<int>& index);
+    TAUT_COLD static StarGroups groups(const SortedSprings& springs, const Blocks& blocks,
+                                       Buffer<int>& index);
 };
 
 template <class Scalar>
-SpringOrder Planner<Scalar>::order(const std::vector<SpringEnds>& laws, const Blocks& blocks,
+SpringOrder Planner<Scalar>::order(const Buffer<SpringEnds>& laws, const Blocks& blocks,
                                    bool may_have_stars) {
     // The share of scattered springs from which on stars were faster, on AMD's and Intel's
     // processors: a scattered spring costs five springs of a run or more, one in a star two, but in
     // registers of 16 bytes hardly more than one.
     constexpr double most_scattered = Register::width * sizeof(Scalar) > 16 ? 0.25 : 0.05;
     SpringOrder result;
-    const auto sort = [&](const std::vector<int>& place) {
-        result.laws.clear();
+    result.laws.reset(new SortedSprings[laws.size()]);
+    const auto sort = [&](const Buffer<int>& place) {
         std::size_t all = 0, scattered = 0;
-        for (const auto& ends : laws) {
-            result.laws.emplace_back(ends, place);
-            all += ends.a.size();
-            scattered += result.laws.back().scattered().size();
+        for (std::size_t law = 0; law < laws.size(); ++law) {
+            result.laws[law] = SortedSprings(laws[law], place);
+            all += laws[law].count;
+            scattered += result.laws[law].scattered().size();
         }
         return static_cast<double>(scattered) > most_scattered * static_cast<double>(all);
     };
@@ -203,8 +203,8 @@ SpringOrder Planner<Scalar>::order(const std::vector<SpringEnds>& laws, const Bl
         result.order = cache_order(blocks.places(), laws);
         result.stars = sort(places_of(result.order)) && may_have_stars;
     }
-    for (const auto& springs : result.laws) {
-        for (const auto& spring : springs.all()) {
+    for (std::size_t law = 0; law < laws.size(); ++law) {
+        for (const auto& spring : result.laws[law].all()) {
             const int reach = blocks.of(spring.b) - blocks.of(spring.a);
             result.reach = std::max(result.reach, reach);
         }
@@ -214,13 +214,13 @@ SpringOrder Planner<Scalar>::order(const std::vector<SpringEnds>& laws, const Bl
 
 template <class Scalar>
 PlannedRuns Planner<Scalar>::runs(const SortedSprings& sorted, const Blocks& blocks,
-                                  std::vector<int>& index) {
+                                  Buffer<int>& index) {
     constexpr int width = Register::width;
     PlannedRuns plan;
     const auto tiles = static_cast<std::size_t>(blocks.tiles());
-    std::vector<Segment> segments;    // run by run
-    std::vector<int> tile_of;         // of each of these
-    std::vector<int> last(tiles, 0);  // behind the last one of each tile
+    Buffer<Segment> segments;    // run by run
+    Buffer<int> tile_of;         // of each of these
+    Buffer<int> last(tiles, 0);  // behind the last one of each tile
     const auto append = [&](int tile, const Segment& segment) {
         if (tile >= blocks.tiles()) return;  // gaps beyond the last place
         Segment* before = last[tile] == 0 ? nullptr : &segments[last[tile] - 1];
@@ -262,7 +262,7 @@ PlannedRuns Planner<Scalar>::runs(const SortedSprings& sorted, const Blocks& blo
             }
         }
     }
-    std::vector<int> order = numbers(segments.size());
+    Buffer<int> order = numbers(segments.size());
     sort_by(tile_of, order);
     plan.segments.reserve(segments.size());
     for (const int s : order) plan.segments.push_back(segments[s]);
@@ -274,11 +274,11 @@ PlannedRuns Planner<Scalar>::runs(const SortedSprings& sorted, const Blocks& blo
 
 template <class Scalar>
 PlannedBatches Planner<Scalar>::batches(const SortedSprings& sorted, const Blocks& blocks,
-                                        std::vector<int>& index) {
+                                        Buffer<int>& index) {
     const SpreadSprings spread(sorted, blocks);
     const std::size_t count = spread.spring.size();
     PlannedBatches plan;
-    std::vector<int> number(count > 0 ? blocks.places() : 0, -1);  // of gathered places
+    Buffer<int> number(count > 0 ? blocks.places() : 0, -1);  // of gathered places
     std::size_t next = 0, end = 0;
     for (int tile = 0; tile < blocks.tiles(); ++tile) {
         while (end < count && spread.tile[end] == tile) ++end;
@@ -311,7 +311,7 @@ PlannedBatches Planner<Scalar>::batches(const SortedSprings& sorted, const Block
 
 template <class Scalar>
 StarGroups Planner<Scalar>::groups(const SortedSprings& sorted, const Blocks& blocks,
-                                   std::vector<int>& index) {
+                                   Buffer<int>& index) {
     const auto by_hub = choose_hubs(sorted.all(), blocks.places());
     const auto stars = plan_stars(by_hub, blocks);
     StarGroups plan;
@@ -327,13 +327,13 @@ StarGroups Planner<Scalar>::groups(const SortedSprings& sorted, const Blocks& bl
         }
         plan.stars.push_back(result);
     };
-    auto next = stars.cbegin();
+    auto next = stars.begin();
     const auto append_all = [&](int tile, bool outer) {
-        for (; next != stars.cend() && next->tile == tile && next->outer == outer; ++next) {
+        for (; next != stars.end() && next->tile == tile && next->outer == outer; ++next) {
             append(*next);
         }
         const int groups = (static_cast<int>(plan.stars.size()) + group - 1) / group;
-        plan.stars.resize(static_cast<std::size_t>(groups * group));
+        plan.stars.resize(static_cast<std::size_t>(groups * group), Star{});
         index.resize(plan.stars.size() * star_size, by_hub.empty() ? 0 : gap(by_hub[0].index));
         return groups;
     };

@@ -10,32 +10,49 @@
 
 namespace taut::integrator_detail::sweep {
 
-/// A vector of one place or spring, x y z 0, in registers. Whatever the compiler's flags, no loop
-/// is left: packs say what loops would.
+/// A vector of one place or spring, x y z 0, in registers.
 template <class Scalar>
 struct Quad {
     using Part = VectorRegister<Scalar, 4>;
     static constexpr int parts = 4 / Part::width;
-    using All = std::make_integer_sequence<int, parts>;
 
     std::array<Part, parts> part;
 
-    static EIGEN_ALWAYS_INLINE Quad load(const Scalar* from) { return load(from, All()); }
-    EIGEN_ALWAYS_INLINE void store(Scalar* to) const { store(to, All()); }
-
+    static EIGEN_ALWAYS_INLINE Quad load(const Scalar* from) {
+        Quad a;
+        for_each_part([&](int i) { a.part[i] = Part::load(from + i * Part::width); });
+        return a;
+    }
+    EIGEN_ALWAYS_INLINE void store(Scalar* to) const {
+        for_each_part([&](int i) { part[i].store(to + i * Part::width); });
+    }
     friend EIGEN_ALWAYS_INLINE Quad operator+(const Quad& a, const Quad& b) {
-        return add(a, b, All());
+        Quad sum;
+        for_each_part([&](int i) { sum.part[i] = a.part[i] + b.part[i]; });
+        return sum;
     }
     friend EIGEN_ALWAYS_INLINE Quad operator-(const Quad& a, const Quad& b) {
-        return subtract(a, b, All());
+        Quad difference;
+        for_each_part([&](int i) { difference.part[i] = a.part[i] - b.part[i]; });
+        return difference;
     }
     friend EIGEN_ALWAYS_INLINE Quad operator*(const Quad& a, const Quad& b) {
-        return multiply(a, b, All());
+        Quad product;
+        for_each_part([&](int i) { product.part[i] = a.part[i] * b.part[i]; });
+        return product;
     }
     friend EIGEN_ALWAYS_INLINE Quad operator*(const Part& factor, const Quad& a) {
-        return scale(factor, a, All());
+        Quad product;
+        for_each_part([&](int i) { product.part[i] = factor * a.part[i]; });
+        return product;
     }
 
+    /// x + y + z, in the order of Eigen's sums.
+    EIGEN_ALWAYS_INLINE Scalar total() const {
+        if constexpr (parts == 1) return Eigen::internal::predux(part[0].packet);
+        if constexpr (parts == 2) return Eigen::internal::predux((part[0] + part[1]).packet);
+        if constexpr (parts == 4) return ((part[0] + part[1]) + (part[2] + part[3])).packet;
+    }
     /// Four factors, each in all lanes.
     static EIGEN_ALWAYS_INLINE std::array<Part, 4> factors(const Scalar* from) {
         if constexpr (Part::width == 4) {
@@ -54,32 +71,12 @@ struct Quad {
                                          const Quad& d);
 
 private:
-    template <int... i>
-    using Parts = std::integer_sequence<int, i...>;
-
-    template <int... i>
-    static EIGEN_ALWAYS_INLINE Quad load(const Scalar* from, Parts<i...>) {
-        return {{Part::load(from + i * Part::width)...}};
-    }
-    template <int... i>
-    EIGEN_ALWAYS_INLINE void store(Scalar* to, Parts<i...>) const {
-        (part[i].store(to + i * Part::width), ...);
-    }
-    template <int... i>
-    static EIGEN_ALWAYS_INLINE Quad add(const Quad& a, const Quad& b, Parts<i...>) {
-        return {{(a.part[i] + b.part[i])...}};
-    }
-    template <int... i>
-    static EIGEN_ALWAYS_INLINE Quad subtract(const Quad& a, const Quad& b, Parts<i...>) {
-        return {{(a.part[i] - b.part[i])...}};
-    }
-    template <int... i>
-    static EIGEN_ALWAYS_INLINE Quad multiply(const Quad& a, const Quad& b, Parts<i...>) {
-        return {{(a.part[i] * b.part[i])...}};
-    }
-    template <int... i>
-    static EIGEN_ALWAYS_INLINE Quad scale(const Part& factor, const Quad& a, Parts<i...>) {
-        return {{(factor * a.part[i])...}};
+    /// visit(i), unrolled whatever the compiler's flags.
+    template <class Visitor>
+    static EIGEN_ALWAYS_INLINE void for_each_part(const Visitor& visit) {
+        visit(0);
+        if constexpr (parts > 1) visit(1);
+        if constexpr (parts > 2) visit(2), visit(3);
     }
     static EIGEN_ALWAYS_INLINE Part sum(const Quad& a) { return a.part[0] + a.part[1] + a.part[2]; }
     static EIGEN_ALWAYS_INLINE Part sums_of_two(Quad a, Quad b) {

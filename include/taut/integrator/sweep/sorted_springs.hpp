@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <utility>
-#include <vector>
 
+#include "../../core/buffer.hpp"
 #include "register.hpp"
 
 namespace taut::integrator_detail::sweep {
@@ -15,20 +15,20 @@ namespace taut::integrator_detail::sweep {
 inline constexpr int shortest_run = 16;
 
 /// The numbers 0 … count − 1.
-inline std::vector<int> numbers(std::size_t count) {
-    std::vector<int> result(count);
+TAUT_COLD inline Buffer<int> numbers(std::size_t count) {
+    Buffer<int> result(count);
     for (std::size_t i = 0; i < count; ++i) result[i] = static_cast<int>(i);
     return result;
 }
 
 /// Sorts items by key[item] ≥ 0; those of one key stay in their order.
-inline void sort_by(const std::vector<int>& key, std::vector<int>& items) {
+TAUT_COLD inline void sort_by(const Buffer<int>& key, Buffer<int>& items) {
     int most = -1;
     for (const int item : items) most = std::max(most, key[item]);
-    std::vector<int> next(static_cast<std::size_t>(most) + 2, 0);
+    Buffer<int> next(static_cast<std::size_t>(most) + 2, 0);
     for (const int item : items) ++next[key[item] + 1];
     for (int i = 0; i <= most; ++i) next[i + 1] += next[i];
-    std::vector<int> sorted(items.size());
+    Buffer<int> sorted(items.size());
     for (const int item : items) sorted[next[key[item]]++] = item;
     items = std::move(sorted);
 }
@@ -47,8 +47,13 @@ inline int gap(int neighbour) { return -1 - neighbour; }
 
 /// The ends of one law's springs, particles.
 struct SpringEnds {
-    const std::vector<int>& a;
-    const std::vector<int>& b;
+    const int* a;
+    const int* b;
+    std::size_t count;
+
+    template <class Numbers>
+    SpringEnds(const Numbers& of_a, const Numbers& of_b)
+        : a(of_a.data()), b(of_b.data()), count(of_a.size()) {}
 };
 
 /// The springs of a set sorted into runs, and the scattered ones that fit none.
@@ -60,16 +65,17 @@ public:
     };
 
     /// @param place  of each particle; empty: particle i at place i
-    explicit SortedSprings(const SpringEnds& ends, const std::vector<int>& place = {}) {
-        const std::size_t count = ends.a.size();
-        std::vector<int> a(count), offset(count);
+    SortedSprings() = default;
+    TAUT_COLD explicit SortedSprings(const SpringEnds& ends, const Buffer<int>& place = {}) {
+        const std::size_t count = ends.count;
+        Buffer<int> a(count), offset(count);
         for (std::size_t s = 0; s < count; ++s) {
             const int p = place.empty() ? ends.a[s] : place[ends.a[s]];
             const int q = place.empty() ? ends.b[s] : place[ends.b[s]];
             a[s] = std::min(p, q);
             offset[s] = std::max(p, q) - a[s];
         }
-        std::vector<int> order = numbers(count);
+        Buffer<int> order = numbers(count);
         sort_by(a, order);
         sort_by(offset, order);
         springs_.reserve(count);
@@ -78,17 +84,17 @@ public:
     }
 
     /// By offset, then by a, then by index.
-    const std::vector<PlacedSpring>& all() const { return springs_; }
-    const std::vector<Run>& runs() const { return runs_; }
+    const Buffer<PlacedSpring>& all() const { return springs_; }
+    const Buffer<Run>& runs() const { return runs_; }
     /// Which of all, in their order.
-    const std::vector<int>& scattered() const { return scattered_; }
+    const Buffer<int>& scattered() const { return scattered_; }
 
 private:
     /// A run goes on over a short gap, such as that between the rows of a grid.
     static bool goes_on(const PlacedSpring& last, const PlacedSpring& next) {
         return next.offset() == last.offset() && next.a > last.a && next.a <= last.a + max_width;
     }
-    void find_runs() {
+    TAUT_COLD void find_runs() {
         const int count = static_cast<int>(springs_.size());
         for (Run run{0, 0}; run.begin < count; run.begin = run.end) {
             run.end = run.begin + 1;
@@ -103,9 +109,9 @@ private:
         }
     }
 
-    std::vector<PlacedSpring> springs_;
-    std::vector<Run> runs_;
-    std::vector<int> scattered_;
+    Buffer<PlacedSpring> springs_;
+    Buffer<Run> runs_;
+    Buffer<int> scattered_;
 };
 
 }  // namespace taut::integrator_detail::sweep

@@ -53,28 +53,28 @@ public:
 
 protected:
     /// Adds a column of springs and gaps.
-    /// @param values  of the set's spring 0, `apart` bytes from those of the next; null for none
+    /// @param values  of the set's spring 0, `apart` bytes from those of the next
     /// @param gaps    whether a gap has −1 in place of its neighbour's
-    void add_column(const void* values, std::size_t apart, const std::vector<int>& index, int first,
-                    int end, bool gaps);
+    TAUT_COLD void add_column(const void* values, std::size_t apart, const Buffer<int>& index,
+                              int first, int end, bool gaps);
     /// Lets the last springs be read a whole register at a time.
-    void finish() {
+    TAUT_COLD void finish() {
         numbers_.resize(numbers_.size() + max_width, Scalar(0));
-        numbers_.shrink_to_fit();
+        numbers_.fit();
     }
 
 private:
-    std::vector<Scalar, Eigen::aligned_allocator<Scalar>> numbers_;  // columns one after another
-    std::vector<Column> columns_;
+    Buffer<Scalar> numbers_;  // columns one after another
+    Buffer<Column> columns_;
     std::size_t shared_ = std::size_t(-1);  // the last column of one value, or none
 };
 
 template <class Scalar>
 void ColumnTable<Scalar>::add_column(const void* values, std::size_t apart,
-                                     const std::vector<int>& index, int first, int end, bool gaps) {
+                                     const Buffer<int>& index, int first, int end, bool gaps) {
     const auto count = static_cast<std::size_t>(end - first);
     columns_.push_back({});
-    if (!values || count == 0) return;
+    if (count == 0) return;
     const std::size_t size = numbers_.size();
     // Aligned like the planes, a register never lies across two cache lines.
     const std::size_t begin = (size + max_width - 1) / max_width * max_width;
@@ -122,10 +122,13 @@ public:
 
     /// Adds springs and gaps of `set`: those of index from `first` to before `end`. Call finish()
     /// after the last addition. A SpringReader knows them by the number of additions before.
-    void add(const SpringSet<Scalar, Law>& set, const std::vector<int>& index, int first, int end) {
-        const auto* damping = set.damping.empty() ? nullptr : set.damping.data();
+    TAUT_COLD void add(const SpringSet<Scalar, Law>& set, const Buffer<int>& index, int first,
+                       int end) {
         this->add_column(set.rest_length.data(), sizeof(Scalar), index, first, end, true);
-        this->add_column(damping, sizeof(Scalar), index, first, end, false);
+        const Scalar none = 0;
+        set.damping.empty()
+            ? this->add_column(&none, 0, index, first, end, false)
+            : this->add_column(set.damping.data(), sizeof(Scalar), index, first, end, false);
         if constexpr (vectorizable) {
             const char* bytes = reinterpret_cast<const char*>(set.parameters.data());
             for (int f = 0; f < fields; ++f) {
@@ -143,10 +146,11 @@ public:
     /// Lets the last springs be read a whole register at a time.
     void finish() {
         ColumnTable<Scalar>::finish();
-        if (!parameters_.empty()) {
-            parameters_.resize(parameters_.size() + max_width, Parameters(parameters_.back()));
+        if constexpr (!vectorizable) {
+            auto& all = parameters_;
+            if (!all.empty()) all.resize(all.size() + max_width, Parameters(all.back()));
+            all.shrink_to_fit();
         }
-        parameters_.shrink_to_fit();
     }
 
 private:
@@ -154,8 +158,9 @@ private:
     friend class SpringReader;
 
     // Of a law that is not vectorizable.
-    std::vector<Parameters> parameters_;
-    std::vector<std::size_t> first_parameters_;  // of each addition
+    struct None {};
+    std::conditional_t<vectorizable, None, std::vector<Parameters>> parameters_;
+    std::conditional_t<vectorizable, None, Buffer<std::size_t>> first_parameters_;  // by addition
 };
 
 /// Goes forward through springs of a table, as many at a time as a register has lanes.

@@ -8,7 +8,6 @@
 #include <tuple>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "planner.hpp"
 #include "spring_table.hpp"
@@ -29,7 +28,7 @@ class StarPlan {
 
 public:
     StarPlan() = default;
-    StarPlan(const Set& set, const SortedSprings& springs, const Blocks& blocks);
+    TAUT_COLD StarPlan(const Set& set, const SortedSprings& springs, const Blocks& blocks);
 
     /// Adds the forces of the tile's stars; then those on its places are complete.
     /// @tparam Both  as of LawPlan::add_forces
@@ -147,7 +146,7 @@ private:
 template <class Scalar, class Law>
 StarPlan<Scalar, Law>::StarPlan(const Set& set, const SortedSprings& springs,
                                 const Blocks& blocks) {
-    std::vector<int> index;
+    Buffer<int> index;
     plan_ = Planner<Scalar>::groups(springs, blocks, index);
     table_.add(set, index, 0, static_cast<int>(index.size()));
     table_.finish();
@@ -163,14 +162,14 @@ void StarPlan<Scalar, Law>::add_forces(const TileView<Scalar>& view) const {
     int g = view.tile == 0 ? 0 : plan_.ends[view.tile - 1].all;
     Reader springs(table_, 0, static_cast<std::size_t>(g * group * star_size));
     const Star* stars = plan_.stars.data();
-    for (const int end = plan_.ends[view.tile].outer; g < end; ++g) {
-        of.stars = stars + g * group;
-        const auto targets = within_block(of.stars, 4 * view.size);
-        of.targets = targets.data();
-        add_group<Dampers, Rayleigh, Both>(view.alpha, springs, of, all);
-    }
-    for (const int end = plan_.ends[view.tile].all; g < end; ++g) {
+    const auto [outer, end] = plan_.ends[view.tile];
+    std::array<Star, group> inside_block;
+    for (; g < end; ++g) {  // one loop: the kernel is most of what a program has of springs
         of.stars = of.targets = stars + g * group;
+        if (g < outer) {
+            inside_block = within_block(of.stars, 4 * view.size);
+            of.targets = inside_block.data();
+        }
         add_group<Dampers, Rayleigh, Both>(view.alpha, springs, of, all);
     }
 }

@@ -6,7 +6,6 @@
 #include <array>
 #include <cstddef>
 #include <utility>
-#include <vector>
 
 #include "sorted_springs.hpp"
 #include "tile.hpp"
@@ -27,16 +26,16 @@ inline constexpr int star_size = 4;
 /// four springs: what is more than that, a place hands to the later ends of its springs.
 /// @param springs  as SortedSprings has them
 /// @returns the springs by hubs, and by tips for each hub
-inline std::vector<HubSpring> choose_hubs(const std::vector<PlacedSpring>& springs, int places) {
+TAUT_COLD inline Buffer<HubSpring> choose_hubs(const Buffer<PlacedSpring>& springs, int places) {
     // By lower ends, and so the springs from each place by their other ends.
-    std::vector<int> a(springs.size());
+    Buffer<int> a(springs.size());
     for (std::size_t s = 0; s < springs.size(); ++s) a[s] = springs[s].a;
-    std::vector<int> later = numbers(springs.size());
+    Buffer<int> later = numbers(springs.size());
     sort_by(a, later);
-    std::vector<HubSpring> result;
+    Buffer<HubSpring> result;
     result.reserve(springs.size());
-    std::vector<int> handed(places, -1);          // the last to each
-    std::vector<int> before(springs.size(), -1);  // the one handed there before
+    Buffer<int> handed(places, -1);          // the last to each
+    Buffer<int> before(springs.size(), -1);  // the one handed there before
     const int count = static_cast<int>(springs.size());
     for (int p = 0, first = 0; p < places; ++p) {
         int last = first;
@@ -70,9 +69,9 @@ struct PlannedStar {
 
 /// The stars of springs by hubs, tile by tile and the outer ones of each tile first. A star is
 /// computed in each block that has one of its places, before any tile with one of them is moved.
-inline std::vector<PlannedStar> plan_stars(const std::vector<HubSpring>& by_hub,
-                                           const Blocks& blocks) {
-    std::vector<PlannedStar> stars;
+TAUT_COLD inline Buffer<PlannedStar> plan_stars(const Buffer<HubSpring>& by_hub,
+                                                const Blocks& blocks) {
+    Buffer<PlannedStar> stars;
     const int springs = static_cast<int>(by_hub.size());
     const auto spring = [&](int s) { return by_hub[static_cast<std::size_t>(s)]; };
     for (int s = 0; s < springs;) {
@@ -96,13 +95,13 @@ inline std::vector<PlannedStar> plan_stars(const std::vector<HubSpring>& by_hub,
     }
     // A star goes no later than those after it, so that springs are read in order.
     int tile = blocks.tiles();
-    for (auto star = stars.rbegin(); star != stars.rend(); ++star) {
-        if (!star->outer) tile = star->tile = std::min(tile, star->tile);
+    for (std::size_t i = stars.size(); i-- > 0;) {
+        if (!stars[i].outer) tile = stars[i].tile = std::min(tile, stars[i].tile);
     }
-    std::vector<int> key(stars.size()), order = numbers(stars.size());
+    Buffer<int> key(stars.size()), order = numbers(stars.size());
     for (std::size_t i = 0; i < key.size(); ++i) key[i] = 2 * stars[i].tile + !stars[i].outer;
     sort_by(key, order);
-    std::vector<PlannedStar> sorted;
+    Buffer<PlannedStar> sorted;
     sorted.reserve(stars.size());
     for (const int i : order) sorted.push_back(stars[i]);
     return sorted;
@@ -121,8 +120,8 @@ struct StarGroups {
     struct Ends {
         int outer, all;
     };
-    std::vector<Star> stars;
-    std::vector<Ends> ends;  // of each tile
+    Buffer<Star> stars;
+    Buffer<Ends> ends;  // of each tile
 };
 
 }  // namespace taut::integrator_detail::sweep

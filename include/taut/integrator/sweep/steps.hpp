@@ -3,7 +3,7 @@
 #pragma once
 
 #include <algorithm>
-#include <vector>
+#include <cmath>
 
 #include "force_plan.hpp"
 #include "place_update.hpp"
@@ -36,8 +36,9 @@ public:
     Planes<Scalar> at_state(const Layout<Scalar>& layout, const StatePlanes<Scalar>& planes) {
         const auto& constant = forces_->constant;
         if (!asks_for_state() && constant.cols() == 0) return {};
-        force_.setZero(Dim, layout.size());
-        force_.leftCols(constant.cols()) += constant;
+        force_.resize(Dim, layout.size());
+        detail::set_zero(force_.data(), force_.size());
+        std::copy_n(constant.data(), constant.size(), force_.data());
         if (asks_for_state()) {
             state_.x.resize(Dim, layout.size());
             state_.v.resize(Dim, layout.size());
@@ -45,8 +46,8 @@ public:
             layout.from_planes(planes.v, state_.v);
             forces_->whole(state_, force_);
         }
-        const Index size = layout.planes() * layout.stride();
-        if (planes_.size() != size) planes_.setZero(size);  // padding takes part in the steps
+        const auto size = static_cast<std::size_t>(layout.planes() * layout.stride());
+        if (planes_.size() != size) planes_.assign(size, Scalar(0));  // padding is stepped, too
         layout.to_planes(force_, {planes_.data(), layout.stride()});
         return {planes_.data(), layout.stride()};
     }
@@ -62,7 +63,7 @@ private:
     const ExternalForces<Scalar, Dim>* forces_ = nullptr;  // the system's
     State<Scalar, Dim> state_;                             // what a force of the whole state sees
     Points<Scalar, Dim> force_;                            // N
-    VectorX<Scalar> planes_;                               // N
+    Buffer<Scalar> planes_;                                // N
 };
 
 /// Sees the states between the steps of a sweep, from the first to the last.
@@ -118,6 +119,18 @@ public:
     template <class AnyState>
     void load(const Surroundings<Scalar, Dim>& surroundings, const Layout<Scalar>& layout,
               bool new_plan, const AnyState& state, Scalar ahead, const ReadAnywhere& read);
+    /// As of Sweep.
+    Index first_not_finite(const Layout<Scalar>& layout) const {
+        const Buffer<int> places = layout.places();
+        for (Index i = 0; i < layout.size(); ++i) {
+            for (int d = 0; d < Dim; ++d) {
+                for (const Planes<Scalar>& of : {state_.planes().x, state_.planes().v}) {
+                    if (!std::isfinite(layout.at(of, d, places[i]))) return i;
+                }
+            }
+        }
+        return -1;
+    }
     template <class AnyState>
     bool run(const Forces& forces, AnyState& state, Scalar h, Index count, int threads, Move move);
     template <class AnyState>
@@ -128,6 +141,7 @@ public:
                        const Correct& correct);
 
 private:
+    using Register = VectorRegister<Scalar>;
     /// Not finite is noticed after so many steps; until then they cost as much as others.
     static constexpr Index steps_between_checks = 64;
     /// A register may begin before its block or end behind it.
@@ -148,6 +162,10 @@ private:
         watch_->see({layout, places_, state_.planes().x}, {layout, places_, state_.planes().v},
                     outside_.time(), state, force);
     }
+    void copy_whole(const Scalar* from, Buffer<Scalar>& to) const {
+        to.resize(static_cast<std::size_t>(state_.whole()));
+        std::copy_n(from, state_.whole(), to.data());
+    }
     /// @returns whether all is finite
     bool steps(const Forces& forces, Scalar h, Index count, int threads, Move move);
     void some_steps(const Forces& forces, Scalar h, Index count, int threads, Move move);
@@ -157,13 +175,13 @@ private:
     StateMemory<Scalar> state_;
     PlaceUpdate<Scalar> update_;
     Outside<Scalar, Dim> outside_;
-    VectorX<Scalar> scratch_;  // forces on one block for each thread, N; 0 between blocks
-    VectorX<Scalar> end_x_;    // of run_verlet, planes, m
-    std::vector<int> places_;  // of each particle, if known
+    Buffer<Scalar> scratch_;  // forces on one block for each thread, N; 0 between blocks
+    Buffer<Scalar> end_x_;    // of run_verlet, planes, m
+    Buffer<int> places_;      // of each particle, if known
     StepWatch<Scalar, Dim>* watch_ = nullptr;
-    VectorX<Scalar> acceleration_;  // at the end of the last run_verlet, planes, m/s²
-    Scalar last_h_ = 0;             // its step, s
-    Scalar alpha_ = 0;              // of Rayleigh damping, s
+    Buffer<Scalar> acceleration_;  // at the end of the last run_verlet, planes, m/s²
+    Scalar last_h_ = 0;            // its step, s
+    Scalar alpha_ = 0;             // of Rayleigh damping, s
 };
 
 template <class Scalar, int Dim>
@@ -174,7 +192,7 @@ void Steps<Scalar, Dim>::load(const Surroundings<Scalar, Dim>& surroundings,
     alpha_ = static_cast<Scalar>(surroundings.rayleigh.stiffness_proportional);
     if (new_plan) places_.clear();
     // A new plan may have other places for what is discarded.
-    if (new_plan) scratch_.setZero();
+    if (new_plan) scratch_.assign(scratch_.size(), Scalar(0));
     state_.resize(layout.planes(), layout.size() * layout.grain(), layout.stride(), ahead > 0,
                   read);
     update_.load(layout, surroundings.gravity.data(), Dim,
@@ -209,8 +227,9 @@ void Steps<Scalar, Dim>::some_steps(const Forces& forces, Scalar h, Index count,
                                     Move move) {
     const Blocks& blocks = forces.layout().blocks();
     threads = blocks.workers(threads);
-    const Index scratch_size = 3 * Dim * scratch_stride;
-    if (scratch_.size() < threads * scratch_size) scratch_.setZero(threads * scratch_size);
+    constexpr Index scratch_size = 3 * Dim * scratch_stride;
+    const auto needed = static_cast<std::size_t>(threads * scratch_size);
+    if (scratch_.size() < needed) scratch_.assign(needed, Scalar(0));
     const auto work = [&](int thread, int workers, const auto& wait) {
         const Waves waves(blocks.count(), forces.reach(), workers);
         waves.run(
@@ -282,16 +301,24 @@ bool Steps<Scalar, Dim>::run_verlet(const Forces& forces, AnyState& state, Scala
                                     int threads, bool go_on) {
     using Update = PlaceUpdate<Scalar>;
     if (go_on) {
-        auto x = state_.whole(state_.planes().x);
-        auto v = state_.whole(state_.planes().v);
+        Scalar *x = state_.planes().x.first, *v = state_.planes().v.first;
+        const auto kick = [&](Scalar by) {
+            const Register factor(by);
+            state_.for_each_register([&](Index i) {
+                const Register a = Register::load(acceleration_.data() + i);
+                (Register::load(v + i) + factor * a).store(v + i);
+            });
+        };
         if (watch_) {  // the forces here were taken at the last step's v½
-            const VectorX<Scalar> v_end = v;
-            v -= last_h_ / 2 * acceleration_;
+            copy_whole(v, end_x_);
+            kick(-last_h_ / 2);
             show(forces.layout(), nullptr, nullptr);
-            v = v_end;
+            std::copy_n(end_x_.data(), state_.whole(), v);
         }
-        v += h / 2 * acceleration_;
-        x += h * v;
+        kick(h / 2);
+        state_.for_each_register([&](Index i) {
+            (Register::load(x + i) + Register(h) * Register::load(v + i)).store(x + i);
+        });
         outside_.pass(h);
         if (!state_.finite()) return false;
     } else if (!steps(forces, h, 1, threads, &Update::template move<VerletUpdate<1, false>>)) {
@@ -300,10 +327,10 @@ bool Steps<Scalar, Dim>::run_verlet(const Forces& forces, AnyState& state, Scala
     if (!steps(forces, h, count - 1, threads, &Update::template move<VerletUpdate<2, false>>)) {
         return false;
     }
-    end_x_ = state_.whole(state_.planes().x);
+    copy_whole(state_.planes().x.first, end_x_);
     if (!steps(forces, h, 1, threads, &Update::template move<VerletUpdate<1, true>>)) return false;
     store(forces.layout(), {end_x_.data(), forces.layout().stride()}, h, count, state);
-    acceleration_ = state_.whole(state_.planes().x);
+    copy_whole(state_.planes().x.first, acceleration_);
     last_h_ = h;
     return true;
 }
@@ -323,10 +350,13 @@ bool Steps<Scalar, Dim>::run_corrected(const Forces& forces, AnyState& state, Sc
         const StatePlanes<Scalar> planes = state_.planes();
         correct(PlaceVectors<Scalar, Dim>(forces.layout(), places_, planes.x),
                 PlaceVectors<Scalar, Dim>(forces.layout(), places_, planes.v));
-        auto x = state_.whole(planes.x);
-        auto v = state_.whole(planes.v);
-        v += h * x;
-        x = state_.whole(planes.new_x) + h * v;
+        const Register step(h);
+        state_.for_each_register([&](Index k) {
+            const Register a = Register::load(planes.x.first + k);
+            const Register v = Register::load(planes.v.first + k) + step * a;
+            v.store(planes.v.first + k);
+            (Register::load(planes.new_x.first + k) + step * v).store(planes.x.first + k);
+        });
         const bool check = one_by_one || i == count || i % steps_between_checks == 0;
         if (check && !state_.finite()) return false;
         outside_.pass(h);

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <algorithm>
-#include <vector>
 
+#include "../../core/buffer.hpp"
 #include "../../model/damping.hpp"
 #include "../../core/types.hpp"
 
@@ -72,7 +72,7 @@ private:
 
 /// Where particles are, for a plan of forces beside the springs'.
 struct PlacedParticles {
-    const std::vector<int>& place;  // of each particle
+    const Buffer<int>& place;  // of each particle
     const Blocks& blocks;
     bool points;  // whether a plane holds points, x y z 0
 };

@@ -6,11 +6,13 @@ namespace taut {
 
 template <class Scalar, int Dim, class... Laws>
 Index SpringSystem<Scalar, Dim, Laws...>::add_particle(const Vector& position, Scalar mass) {
-    if (!position.allFinite()) {
+    bool finite = true;
+    for (int d = 0; d < Dim; ++d) finite = finite && std::isfinite(position[d]);
+    if (!finite) {
         fail("SpringSystem::add_particle: the position of particle ", size(), " is not finite");
     }
     require_mass("add_particle", size(), mass);
-    position_.push_back(position);
+    for (int d = 0; d < Dim; ++d) position_.push_back(position[d]);
     mass_.push_back(mass);
     inverse_mass_.push_back(Scalar(1) / mass);
     ++revision_;
@@ -32,8 +34,13 @@ Index SpringSystem<Scalar, Dim, Laws...>::add_spring(
     require_particle("add_spring", "a", a);
     require_particle("add_spring", "b", b);
     // The same expression as SpringSet::tangent, so that the spring is unstressed to the last bit.
-    const Vector d = position_[b] - position_[a];
-    const Scalar length = d.isZero(0) ? Scalar(0) : spring_length(d);
+    Vector dx;
+    bool apart = false;
+    for (int d = 0; d < Dim; ++d) {
+        dx[d] = position_[Dim * b + d] - position_[Dim * a + d];
+        apart = apart || dx[d] != 0;
+    }
+    const Scalar length = apart ? spring_length(dx) : Scalar(0);
     return add_spring(Spring<Scalar, Law>{a, b, parameters, length, damping});
 }
 
@@ -180,7 +187,7 @@ Index SpringSystem<Scalar, Dim, Laws...>::pinned_count() const {
 template <class Scalar, int Dim, class... Laws>
 auto SpringSystem<Scalar, Dim, Laws...>::initial_state() const -> State {
     State state{State::zero(size()), State::zero(size()), Scalar(0)};
-    for (Index i = 0; i < size(); ++i) state.x.col(i) = position_[i];
+    std::copy_n(position_.data(), position_.size(), state.x.data());
     return state;
 }
 

@@ -14,20 +14,15 @@ struct Bracket {
     Eigen::VectorXd vector;
 };
 
-/// What a search for a limit may spend beyond bounds, and vectors found by products with the
+/// What a search for a bracket may spend beyond bounds and vectors found by products with the
 /// matrices. This one spends nothing; one that factorises narrows what the bounds have left open.
-class Effort {
-public:
-    virtual ~Effort() = default;
-
+struct NoEffort {
     /// Narrows the bracket of symplectic Euler.
-    virtual void narrow_symplectic(const Pencil&, Bracket&) {}
+    void narrow_symplectic(const Pencil&, Bracket&) {}
     /// Narrows the bracket of explicit Euler. @param stiffest  the stiffest mode of K⁺ known
-    virtual void narrow_explicit(const Pencil&, const RitzPair& /*stiffest*/, UnroundedLimit&) {}
+    void narrow_explicit(const Pencil&, const RitzPair& /*stiffest*/, UnroundedLimit&) {}
     /// A smaller ε with S ⪰ −εM proved, or the one given. @param epsilon  one that is known, ≥ 0
-    virtual double narrow_deficit(const Pencil&, const Combination&, double epsilon) {
-        return epsilon;
-    }
+    double narrow_deficit(const Pencil&, const Combination&, double epsilon) { return epsilon; }
 };
 
 }  // namespace taut::stability_detail

@@ -122,30 +122,43 @@ inline bool commutes(const Pencil& pencil) {
            (pencil.stiffness_semidefinite() || pencil.rayleigh().stiffness_proportional == 0);
 }
 
-/// The bracket of the largest stable step. @param stiffest  the stiffest mode of K⁺ known
-template <class Real = double>  // a template: only its callers compile it
-UnroundedLimit explicit_limit(const Pencil& pencil, Effort& effort, const RitzPair& stiffest) {
-    const double k = pencil.upper_bound(K_plus);
-    const double d = pencil.upper_bound(D);
+/// What the answer of explicit Euler is set by. @param k  a bound on k_max, 1/s²
+inline Cause explicit_cause(const UnroundedLimit& limit, double k) {
+    const bool by_damping = k <= 0 || limit.certified * limit.certified * k < 4 * (1 - 1e-3);
+    if (limit.certified > 0) return by_damping ? Cause::damping : Cause::stiffness;
+    return limit.certified_up_to > 0 ? Cause::rounding : Cause::undamped_modes;
+}
+
+/// The certified step by bounds alone; no vector is looked for that refutes.
+/// @param k, d  bounds on k_max, 1/s², and on the largest eigenvalue of D', 1/s
+inline UnroundedLimit explicit_by_bounds(const Pencil& pencil, double k, double d) {
     // A negative K or D of bare matrices is not nothing.
     if (!(k > 0) && !(d > 0) && pencil.upper_bound(-K) <= 0 && pencil.upper_bound(-D) <= 0) {
         return {infinity, infinity, Cause::nothing_to_limit};
     }
     if (!std::isfinite(k) || !std::isfinite(d)) return {0, infinity, Cause::overflow};
-    if (!(d > 0)) {
-        // One mode with k > 0 refutes every step; buckled modes alone do not.
-        const bool vibrates = quotients(pencil, stiffest.vector, K).k.lower() > 0;
-        return {0, vibrates ? 0 : infinity, Cause::undamped};
-    }
+    if (!(d > 0)) return {0, infinity, Cause::undamped};
     UnroundedLimit limit;
     limit.certified = certified_explicit(pencil, k, d);
+    limit.cause = explicit_cause(limit, k);
+    return limit;
+}
+
+/// The bracket of the largest stable step. @param stiffest  the stiffest mode of K⁺ known
+template <class Effort>
+UnroundedLimit explicit_bracket(const Pencil& pencil, Effort& effort, const RitzPair& stiffest) {
+    const double k = pencil.upper_bound(K_plus);
+    UnroundedLimit limit = explicit_by_bounds(pencil, k, pencil.upper_bound(D));
+    if (limit.cause == Cause::nothing_to_limit || limit.cause == Cause::overflow) return limit;
+    if (limit.cause == Cause::undamped) {
+        // One mode with k > 0 refutes every step; buckled modes alone do not.
+        if (quotients(pencil, stiffest.vector, K).k.lower() > 0) limit.refuted = 0;
+        return limit;
+    }
     limit.refuted = refuted_explicit(pencil, stiffest, commutes(pencil));
     effort.narrow_explicit(pencil, stiffest, limit);
-    const bool by_damping = k <= 0 || limit.certified * limit.certified * k < 4 * (1 - 1e-3);
+    limit.cause = explicit_cause(limit, k);
     limit.refuted = std::max(limit.refuted, limit.certified);
-    limit.cause = limit.certified > 0
-                      ? (by_damping ? Cause::damping : Cause::stiffness)
-                      : (limit.certified_up_to > 0 ? Cause::rounding : Cause::undamped_modes);
     return limit;
 }
 

@@ -31,7 +31,7 @@ bool finds_growth(const Pencil& pencil, UnroundedLimit& limit) {
 
 /// Compressed springs: the growth that was found, or what could not be excluded, for then K ⪰ −εM
 /// is what can be said.
-template <class Real = double>
+template <class Effort>
 void add_growth(const Pencil& pencil, Effort& effort, UnroundedLimit& limit) {
     if (pencil.stiffness_semidefinite()) return;
     if (finds_growth(pencil, limit) || !claims(limit)) return;

@@ -33,7 +33,7 @@ inline double certified_by(method::LimitedByDamping, const Pencil& pencil) {
     return k > 0 || d > 0 ? certified_explicit(pencil, k, d) : infinity;
 }
 inline double certified_by(method::LimitedByStiffness, const Pencil& pencil) {
-    return certified_symplectic(pencil);
+    return certified_symplectic(pencil).h;
 }
 inline double certified_by(method::LimitedByIndefiniteness, const Pencil& pencil) {
     const double kappa = std::max(0.0, pencil.upper_bound(-K_plus));
@@ -44,16 +44,16 @@ inline double certified_by(method::LimitedByIndefiniteness, const Pencil& pencil
 inline constexpr double scale_tolerance = 1e-9;
 
 /// The step that the bound certifies after scaling, s.
-inline double certified_when_scaled(Method method, const ScenePencil& pencil, double stiffness,
+inline double certified_when_scaled(Method method, const Pencil& pencil, double stiffness,
                                     double mass) {
     return method::visit_limited("Stability", method, [&](auto descriptor) {
         using Limit = typename decltype(descriptor)::Limit;
-        return certified_by(Limit{}, *pencil.scaled(stiffness, mass));
+        return certified_by(Limit{}, pencil.scaled(stiffness, mass));
     });
 }
 
 /// The largest factor on all stiffness that leaves step h, s, certified.
-inline double max_stiffness_scale(Method method, const ScenePencil& pencil, double h) {
+inline double max_stiffness_scale(Method method, const Pencil& pencil, double h) {
     if (pencil.size() == 0) return infinity;
     if (!pencil.damping_semidefinite()) return 0;
     return detail::last_that_passes(1.0, scale_tolerance, [&](double scale) {
@@ -62,7 +62,7 @@ inline double max_stiffness_scale(Method method, const ScenePencil& pencil, doub
 }
 
 /// The least factor on all masses that makes step h, s, certified.
-inline double min_mass_scale(Method method, const ScenePencil& pencil, double h) {
+inline double min_mass_scale(Method method, const Pencil& pencil, double h) {
     if (pencil.size() == 0) return 0;
     if (!pencil.damping_semidefinite()) return infinity;
     // As far as double holds the masses, and d0·M, as normal numbers.

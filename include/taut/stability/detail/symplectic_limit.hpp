@@ -14,28 +14,42 @@
 namespace taut::stability_detail {
 
 /// The largest step of which 4M − 2hD − h²K⁺ ≻ 0 is proved by the bound [T19], [T23].
-/// @param enough  a bound on k_max, 1/s², that need not be improved
-inline double certified_symplectic(const Pencil& pencil, double enough = 0) {
+struct SymplecticStep {
+    double h = 0;  ///< s
+    double k = 0;  ///< the bound on k_max, 1/s²
+};
+
+inline SymplecticStep certified_symplectic(const Pencil& pencil) {
     if (pencil.is_rayleigh()) {
-        const double k = std::max(0.0, pencil.upper_bound(K_plus, enough));
+        const double k = std::max(0.0, pencil.upper_bound(K_plus));
         const auto& rayleigh = pencil.rayleigh();
-        if (!std::isfinite(k)) return 0;  // overflow: nothing is proved
-        return critical_step(Method::symplectic_euler, k,
-                             rayleigh.mass_proportional + rayleigh.stiffness_proportional * k);
+        if (!std::isfinite(k)) return {0, k};  // overflow: nothing is proved
+        const double d = rayleigh.mass_proportional + rayleigh.stiffness_proportional * k;
+        return {critical_step(Method::symplectic_euler, k, d), k};
     }
     // g(h) bounds M⁻¹(2hD + h²K⁺)/4 and is convex with g(0) = 0: from h the step h/√g is safe as
     // well, and larger, until g = 1.
     const auto g = [&](double h) { return pencil.upper_bound(2 * h * D + h * h * K_plus) / 4; };
     const double k = std::max(0.0, pencil.upper_bound(K_plus));
     const double d = std::max(0.0, pencil.upper_bound(D));
-    if (!std::isfinite(k) || !std::isfinite(d)) return 0;
+    if (!std::isfinite(k) || !std::isfinite(d)) return {0, k};
     double h = critical_step(Method::symplectic_euler, k, d);
     for (int repeat = 0; repeat < 8 && std::isfinite(h); ++repeat) {
         const double larger = h / std::sqrt(g(h));
         if (!(larger > h * (1 + 1e-4))) break;
         h = larger;
     }
-    return h;
+    return {h, k};
+}
+
+/// The certified step by bounds alone; no vector is looked for that refutes.
+inline UnroundedLimit symplectic_by_bounds(const Pencil& pencil) {
+    const auto [h, k] =
+        pencil.size() == 0 ? SymplecticStep{infinity, 0} : certified_symplectic(pencil);
+    if (!std::isfinite(h)) return {infinity, infinity, Cause::nothing_to_limit};
+    if (!(h > 0)) return {0, infinity, Cause::overflow};
+    // Of 4 = 2hd + h²k at the limit damping has more than half where stiffness cannot have it.
+    return {h, infinity, h * h * k < 2 ? Cause::damping : Cause::stiffness};
 }
 
 /// The step that u refutes for symplectic Euler: the root of uᵀ(4M − 2hD − h²K)u. For an indefinite
@@ -88,20 +102,40 @@ inline Cause symplectic_cause(const Pencil& pencil, double h, const Eigen::Vecto
 }
 
 /// The bracket of the largest stable step.
-/// @param enough  a bound on k_max, 1/s², that need not be improved
 /// @param start   start(h): N, near the vector on which 2hD + h²K⁺ is largest, to begin a search
-template <class Start>
-UnroundedLimit symplectic_limit(const Pencil& pencil, Effort& effort, double enough,
-                                Start&& start) {
+template <class Effort, class Start>
+UnroundedLimit symplectic_bracket(const Pencil& pencil, Effort& effort, Start&& start) {
+    const UnroundedLimit limit = symplectic_by_bounds(pencil);
+    if (!(limit.certified > 0) || !std::isfinite(limit.certified)) return limit;
     Bracket bracket;
-    bracket.certified = pencil.size() == 0 ? infinity : certified_symplectic(pencil, enough);
-    if (!std::isfinite(bracket.certified)) return {infinity, infinity, Cause::nothing_to_limit};
-    if (!(bracket.certified > 0)) return {0, infinity, Cause::overflow};
+    bracket.certified = limit.certified;
     bracket.vector = start(bracket.certified);
     bracket.refuted = refuted_symplectic(pencil, bracket.vector);
     effort.narrow_symplectic(pencil, bracket);
     return {bracket.certified, bracket.refuted,
             symplectic_cause(pencil, bracket.certified, bracket.vector)};
+}
+
+/// A limit on the graph Laplacians of a system. @param part  of it that is answered
+template <class Scalar>
+StepLimit<Scalar> of_laplacians(const Pencil& laplacian, std::uint64_t revision, double part = 1) {
+    UnroundedLimit limit{0, infinity, Cause::overflow};
+    if (laplacian.lost().empty()) limit = symplectic_by_bounds(laplacian);
+    limit.certified *= part;
+    return rounded<Scalar>(limit, revision);
+}
+template <class Scalar, class Effort>
+StepLimit<Scalar> bracket_of_laplacians(const Pencil& laplacian, Effort& effort,
+                                        std::uint64_t revision, double part = 1) {
+    UnroundedLimit limit{0, infinity, Cause::overflow};
+    if (laplacian.lost().empty()) {
+        limit = symplectic_bracket(laplacian, effort, [&](double h) {
+            return leading_pair(laplacian, 2 * h * D + h * h * K_plus).vector;
+        });
+    }
+    limit.certified *= part;
+    limit.refuted *= part;
+    return rounded<Scalar>(limit, revision);
 }
 
 }  // namespace taut::stability_detail

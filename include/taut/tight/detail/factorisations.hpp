@@ -140,19 +140,18 @@ void narrow_dampers(const Pencil& pencil, Prover& prover, double tightness, doub
 /// Sparse factorisations, until the bracket is as narrow as `tightness` asks; of small systems
 /// dense eigensolvers as well.
 template <class Real = double>  // a template: only its callers compile the factorisations
-class Factorisations final : public Effort {
+class Factorisations {
 public:
     explicit Factorisations(Real tightness) : tightness_(tightness) {}
 
-    void narrow_symplectic(const Pencil& pencil, Bracket& bracket) override {
+    void narrow_symplectic(const Pencil& pencil, Bracket& bracket) {
         const auto sharpen = [&](Bracket& b, double share) {
             sharpen_symplectic(pencil, sharp(share), 0.1 * share, b.refuted, b.vector);
         };
         narrow(bracket, tightness_, sharpen,
                [&](double h) { return proves_symplectic(pencil, prover_, h); });
     }
-    void narrow_explicit(const Pencil& pencil, const RitzPair& stiffest,
-                         UnroundedLimit& limit) override {
+    void narrow_explicit(const Pencil& pencil, const RitzPair& stiffest, UnroundedLimit& limit) {
         const double k = pencil.upper_bound(K_plus);
         const double d = pencil.upper_bound(D);
         const bool commuting = commutes(pencil);
@@ -172,7 +171,7 @@ public:
             narrow_dampers(pencil, prover_, tightness_, k, high, limit);
         }
     }
-    double narrow_deficit(const Pencil& pencil, const Combination& c, double epsilon) override {
+    double narrow_deficit(const Pencil& pencil, const Combination& c, double epsilon) {
         return std::min(epsilon, proved_deficit(prover_, pencil, c, epsilon));
     }
 

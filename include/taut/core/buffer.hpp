@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <type_traits>
+#include <utility>
+
+#include "assert.hpp"
+
+namespace taut {
+namespace detail {
+
+/// Memory for `bytes`, as Eigen aligns it, that begins with what `old` held, and which takes the
+/// place of `old`. Plain: all element types share it.
+TAUT_COLD inline void* regrow(void* old, std::size_t used, std::size_t bytes) {
+    void* grown = bytes > 0 ? Eigen::internal::aligned_malloc(bytes) : nullptr;
+    if (used > 0) std::memcpy(grown, old, used);
+    Eigen::internal::aligned_free(old);
+    return grown;
+}
+
+/// Sets numbers to 0.
+template <class Number>
+void set_zero(Number* numbers, Eigen::Index count) {
+    static_assert(std::is_arithmetic_v<Number>);
+    if (count > 0) std::memset(numbers, 0, static_cast<std::size_t>(count) * sizeof(Number));
+}
+
+}  // namespace detail
+
+/// A std::vector of plain numbers, as far as plans need one; it costs a program a tenth of the
+/// code. Elements that are added without a value hold anything.
+template <class T>
+class Buffer {
+    static_assert(std::is_trivially_copyable_v<T>);
+
+public:
+    Buffer() = default;
+    explicit Buffer(std::size_t size) { resize(size); }
+    Buffer(std::size_t size, const T& value) { assign(size, value); }
+    Buffer(const Buffer& other) { copy(other); }
+    Buffer(Buffer&& other) noexcept { swap(other); }
+    Buffer& operator=(const Buffer& other) {
+        if (this != &other) copy(other);
+        return *this;
+    }
+    Buffer& operator=(Buffer&& other) noexcept {
+        swap(other);
+        return *this;
+    }
+    ~Buffer() { Eigen::internal::aligned_free(data_); }
+
+    std::size_t size() const { return size_; }
+    bool empty() const { return size_ == 0; }
+    T* data() { return data_; }
+    const T* data() const { return data_; }
+    T* begin() { return data_; }
+    T* end() { return data_ + size_; }
+    const T* begin() const { return data_; }
+    const T* end() const { return data_ + size_; }
+    template <class Number>  // whatever counts
+    T& operator[](Number i) {
+        eigen_assert(static_cast<std::size_t>(i) < size_);
+        return data_[i];
+    }
+    template <class Number>
+    const T& operator[](Number i) const {
+        eigen_assert(static_cast<std::size_t>(i) < size_);
+        return data_[i];
+    }
+    const T& back() const { return (*this)[size_ - 1]; }
+    T& back() { return (*this)[size_ - 1]; }
+
+    void reserve(std::size_t capacity) {
+        if (capacity > capacity_) set_capacity(capacity);
+    }
+    void resize(std::size_t size) {
+        reserve(size);
+        size_ = size;
+    }
+    void resize(std::size_t size, const T& value) {
+        const T all = value;  // which may lie in this buffer
+        const std::size_t old = size_;
+        if (size > capacity_) set_capacity(std::max(size, 2 * capacity_));
+        size_ = size;
+        if (size > old) std::fill(data_ + old, data_ + size, all);
+    }
+    void assign(std::size_t size, const T& value) {
+        const T all = value;
+        size_ = 0;
+        resize(size, all);
+    }
+    void push_back(const T& value) {
+        const T added = value;
+        if (size_ == capacity_) set_capacity(2 * capacity_ + 8);
+        data_[size_++] = added;
+    }
+    void clear() { size_ = 0; }
+    /// Gives back what is not used.
+    void fit() {
+        if (size_ < capacity_) set_capacity(size_);
+    }
+
+private:
+    TAUT_COLD TAUT_NOINLINE void set_capacity(std::size_t capacity) {
+        data_ = static_cast<T*>(detail::regrow(data_, size_ * sizeof(T), capacity * sizeof(T)));
+        capacity_ = capacity;
+    }
+    void copy(const Buffer& other) {
+        resize(other.size_);
+        if (size_ > 0) std::memcpy(static_cast<void*>(data_), other.data_, size_ * sizeof(T));
+    }
+    void swap(Buffer& other) noexcept {
+        std::swap(data_, other.data_);
+        std::swap(size_, other.size_);
+        std::swap(capacity_, other.capacity_);
+    }
+
+    T* data_ = nullptr;
+    std::size_t size_ = 0;
+    std::size_t capacity_ = 0;
+};
+
+}  // namespace taut

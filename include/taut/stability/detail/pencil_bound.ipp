@@ -1,0 +1,210 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The products of a Pencil and its weighted splitting bound [T26]. Plain loops: what is no template
+// is compiled wherever it is included.
+
+namespace taut {
+
+inline auto Pencil::coefficients(const Combination& c, const Link& link) const -> Coefficients {
+    const double on_plus = c.projected() + c.damping() * rayleigh_.stiffness_proportional;
+    const auto elastic = [&](double slope) {
+        return c.stiffness() * slope + on_plus * (slope < 0 ? 0 : slope);
+    };
+    return {elastic(link.axial) + c.damping() * link.damping, elastic(link.transverse)};
+}
+
+inline auto Pencil::extreme_coefficients(const Combination& c, const Link& link, int sign) const
+    -> Coefficients {
+    Coefficients extreme = coefficients(c, link);
+    if (link.softer == link.axial) return extreme;
+    Link other = link;
+    // Between the two the factor bends at most where K⁺ does, at 0.
+    for (const double axial : {link.softer, std::clamp(0.0, link.softer, link.axial)}) {
+        other.axial = axial;
+        const double factor = coefficients(c, other).axial;
+        if (sign * factor > sign * extreme.axial) extreme.axial = factor;
+    }
+    return extreme;
+}
+
+inline void Pencil::multiply(const Combination& c, const Eigen::VectorXd& u,
+                             Eigen::VectorXd& y) const {
+    if (matrices_) return matrices_->multiply(c, u, y);
+    y.resize(size());
+    const double on_mass = mass_coefficient(c);
+    const double *from = u.data(), *mass = mass_.data();
+    double* to = y.data();
+    for (Index i = 0; i < size(); ++i) to[i] = on_mass * (mass[i] * from[i]);
+    for (const Link& link : links_) {
+        const auto [axial, transverse] = coefficients(c, link);
+        const double* d = link.d;
+        double du[3];
+        difference(from, link, du);
+        const double along = (axial - transverse) * (d[0] * du[0] + (d[1] * du[1] + d[2] * du[2]));
+        for (int k = 0; k < dim(); ++k) {
+            const double pull = transverse * du[k] + along * d[k];
+            if (link.a >= 0) to[dim() * Index(link.a) + k] += pull;
+            if (link.b >= 0) to[dim() * Index(link.b) + k] -= pull;
+        }
+    }
+}
+
+inline Enclosed Pencil::quadratic(const Combination& c, const Eigen::VectorXd& u) const {
+    if (matrices_) return matrices_->quadratic(c, u);
+    // As a sum over springs the form loses nothing to cancellation between neighbours.
+    Enclosed sum;
+    const double on_mass = mass_coefficient(c);
+    for (Index i = 0; i < size(); ++i) {
+        const double term = mass_.data()[i] * u.data()[i] * u.data()[i];
+        sum.value += on_mass * term;
+        sum.error += std::abs(on_mass) * term;
+    }
+    const bool springs =
+        c.stiffness() != 0 || c.projected() != 0 ||
+        (c.damping() != 0 && (!is_rayleigh() || rayleigh_.stiffness_proportional > 0));
+    for (std::size_t s = 0; springs && s < links_.size(); ++s) {
+        const Link& link = links_[s];
+        const auto [axial, transverse] = coefficients(c, link);
+        const double* d = link.d;
+        double du[3], across[3];
+        difference(u.data(), link, du);
+        const auto squared = [](const double* r) {
+            return r[0] * r[0] + (r[1] * r[1] + r[2] * r[2]);
+        };
+        const double along = d[0] * du[0] + (d[1] * du[1] + d[2] * du[2]);
+        for (int k = 0; k < 3; ++k) across[k] = du[k] - along * d[k];
+        sum.value += axial * along * along + transverse * squared(across);
+        sum.error += magnitude(c, link) * squared(du);
+    }
+    // Each term carries ≤ 32 roundings, the sum one more for each term; √terms would be typical.
+    const double terms = static_cast<double>(size()) + static_cast<double>(links_.size()) + 32;
+    sum.error *= terms * std::numeric_limits<double>::epsilon();
+    return sum;
+}
+
+/// The springs' part of S, as far as it may be positive.
+inline auto Pencil::splitting(const Combination& c) const -> Splitting {
+    Splitting split;
+    split.term.reserve(links_.size());
+    split.rounding.resize(degree_.size());
+    if (dim() == 1) split.line.resize(degree_.size());
+    if (dim() > 1) split.block.resize(degree_.size());
+    // The factor of every K⁺: where it is not positive, neither is any transverse coefficient,
+    // whatever the rounding of the tangents.
+    const double factor = c.projected() + c.damping() * rayleigh_.stiffness_proportional;
+    const double eps = std::numeric_limits<double>::epsilon();
+    for (const Link& link : links_) {
+        const auto [axial, transverse] = extreme_coefficients(c, link, 1);
+        const double size = magnitude(c, link);
+        if (c.stiffness() == 0 && factor <= 0 && (c.damping() <= 0 || axial < -64 * eps * size)) {
+            continue;  // not positive for certain
+        }
+        split.term.push_back(
+            {link.a, link.b, std::max(axial, 0.0), std::max(transverse, 0.0), size, link.d});
+    }
+    return split;
+}
+
+/// Gives each particle its parts of the springs, by weights p.
+inline void Pencil::spread(const std::vector<double>& p, Splitting& split) const {
+    std::fill(split.line.begin(), split.line.end(), 0.0);
+    std::fill(split.block.begin(), split.block.end(), Block{});
+    std::fill(split.rounding.begin(), split.rounding.end(), 0.0);
+    const auto for_each_end = [&](const Splitting::Term& t, const auto& add) {
+        const auto a = static_cast<std::size_t>(t.a), b = static_cast<std::size_t>(t.b);
+        const bool both = t.a >= 0 && t.b >= 0;
+        const auto give = [&](std::size_t i, double weight) {
+            split.rounding[i] += weight * t.size;
+            add(i, weight);
+        };
+        if (t.a >= 0) give(a, both ? 1 + p[b] / p[a] : 1);
+        if (t.b >= 0) give(b, both ? 1 + p[a] / p[b] : 1);
+    };
+    for (const auto& t : split.term) {
+        const double* d = t.d;
+        if (dim() == 1) {
+            const double k = d[0] * d[0] * (t.axial - t.transverse) + t.transverse;
+            for_each_end(t, [&](std::size_t i, double weight) { split.line[i] += weight * k; });
+            continue;
+        }
+        Block P;
+        for (int j = 0; j < dim(); ++j) {
+            for (int i = j; i < dim(); ++i) P(i, j) = d[i] * d[j] * (t.axial - t.transverse);
+            P(j, j) += t.transverse;
+        }
+        for_each_end(t, [&](std::size_t i, double weight) {
+            for (int e = 0; e < 6; ++e) split.block[i].entry[e] += weight * P.entry[e];
+        });
+    }
+    const double eps = std::numeric_limits<double>::epsilon();
+    for (std::size_t i = 0; i < split.rounding.size(); ++i) {
+        double& size = split.rounding[i];
+        if (size > 0) {
+            size = std::max(size * (degree_[i] + 64) * eps, std::numeric_limits<double>::min());
+        }
+    }
+}
+
+/// An upper bound on the largest eigenvalue of a particle's block, N/m.
+inline double Pencil::load(const Splitting& split, std::size_t i) const {
+    constexpr double margin = 1 + 64 * std::numeric_limits<double>::epsilon();
+    if (dim() == 1) return split.line[i] * margin + split.rounding[i];
+    return stability_detail::eigenvalue_upper_bound(split.block[i], dim()) + split.rounding[i];
+}
+
+/// The largest load over mass, 1/s². One small factorisation settles most particles of a
+/// regular scene.
+inline double Pencil::largest_quotient(const Splitting& split) const {
+    double largest = 0;
+    for (std::size_t i = 0; i < split.rounding.size(); ++i) {
+        const double below = largest * particle_mass(i) * (1 - 1e-15) - split.rounding[i];
+        if (dim() > 1 && stability_detail::proved_above(split.block[i], below)) continue;
+        const double r = quotient(load(split, i), i);
+        if (!(r <= largest)) largest = r;  // NaN and infinity stay
+    }
+    return largest;
+}
+
+template <class Real>
+std::vector<Real> Pencil::particle_loads(const Combination& c, const std::vector<Real>& p) const {
+    Splitting split = splitting(c);
+    spread(p, split);
+    std::vector<Real> loads(p.size());
+    for (std::size_t i = 0; i < p.size(); ++i) loads[i] = load(split, i);
+    return loads;
+}
+
+inline double Pencil::upper_bound(const Combination& c) const {
+    if (matrices_) return matrices_->upper_bound(c);
+    constexpr int most_repeats = 40;
+    constexpr double worth_repeating = 1e-3;  // of the bound, over five repeats
+    std::vector<double> p(degree_.size());
+    for (std::size_t i = 0; i < p.size(); ++i) p[i] = 1 / std::sqrt(particle_mass(i));
+    Splitting split = splitting(c);
+    spread(p, split);
+    double best = largest_quotient(split);
+    if (!std::isfinite(best)) return std::numeric_limits<double>::infinity();
+    double earlier = best;
+    std::vector<double> r(p.size());
+    for (int repeat = 1; repeat <= most_repeats && best > 0; ++repeat) {
+        // A particle whose bound is far below the largest must not lose all its weight at once.
+        for (std::size_t i = 0; i < r.size(); ++i) r[i] = quotient(load(split, i), i);
+        const double largest = *std::max_element(r.begin(), r.end());
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            p[i] *= std::sqrt(std::max(r[i] / largest, 1e-4));
+        }
+        spread(p, split);
+        best = std::min(best, largest_quotient(split));
+        if (repeat % 5 == 0) {
+            if (best > earlier * (1 - worth_repeating)) break;
+            earlier = best;
+        }
+    }
+    const double rounding = 1 + 16 * std::numeric_limits<double>::epsilon();
+    return best * rounding +
+           mass_coefficient(c) * (mass_coefficient(c) > 0 ? rounding : 1 / rounding);
+}
+
+}  // namespace taut
