@@ -133,6 +133,42 @@ TEST_CASE("static_equilibrium: crumpled scenes of several laws find a pose witho
     }
 }
 
+TEST_CASE("static_equilibrium: metres or millionths of one are the same to it", "[equilibrium]") {
+    const auto in_units = [](std::uint32_t seed, double unit) {
+        Random random(seed);
+        taut::SpringSystem<double, 3> net;
+        for (int i = 0; i < 12; ++i) {
+            const Eigen::Vector3d x = random.vector<double, 3>(-1, 1);
+            net.add_particle(unit * x, random.uniform(0.5, 2));
+        }
+        for (Index i = 0; i < 12; ++i) {
+            for (const Index step : {1, 4}) {
+                net.add_spring(
+                    taut::Spring<double, taut::Hookean>{i,
+                                                        (i + step) % 12,
+                                                        {random.uniform(20, 200)},
+                                                        unit * random.uniform(0.2, 1.4)});
+            }
+        }
+        net.pin(0);
+        net.set_gravity({0, 0, -10 * unit});
+        return net;
+    };
+    for (std::uint32_t seed = 170; seed < 180; ++seed) {
+        INFO("seed " << seed);
+        const auto net = in_units(seed, 1);
+        auto state = net.initial_state();
+        const Report report = static_equilibrium(net, state);
+        REQUIRE(report);
+        for (const double unit : {0x1p-20, 0x1p20}) {  // powers of 2 change no digit
+            const auto other = in_units(seed, unit);
+            auto pose = other.initial_state();
+            CHECK(static_equilibrium(other, pose).iterations == report.iterations);
+            CHECK((pose.x == unit * state.x));
+        }
+    }
+}
+
 TEST_CASE("static_equilibrium: an external force is balanced", "[equilibrium]") {
     auto system = taut::chain<double, 2>({3, ChainEnds::fixed_fixed, 1, 100, 0.5});
     system.set_external_force([](const auto&, auto& f) { f.row(1).leftCols(3).array() += 20; });

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include <cmath>
+#include <taut/projective/detail/limited_memory.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/decompositions.hpp"
@@ -222,6 +223,26 @@ TEST_CASE("projective_dynamics: wrong options are refused by name", "[projective
     CHECK(missing(message({0, 0, 5}), {"iterations is 0", ">= 1"}) == "");
     CHECK(missing(message({10, 0, -1}), {"window is -1", ">= 0"}) == "");
     CHECK(missing(message({10, -1, 5}), {"tolerance is -1"}) == "");
+}
+
+TEST_CASE("projective_dynamics: whatever pairs it is given, what is remembered goes downhill",
+          "[projective]") {
+    Random random(4711);
+    for (int repeat = 0; repeat < 200; ++repeat) {
+        INFO("repeat " << repeat << " of seed 4711");
+        const Index n = 2 + random.below(5);
+        taut::integrator_detail::LimitedMemory<Eigen::VectorXd> memory(1 + int(random.below(4)));
+        for (int pair = 0; pair < 6; ++pair) {
+            const Eigen::VectorXd move = random_vector(random, int(n), -1, 1);
+            Eigen::VectorXd change = move + random_vector(random, int(n), -1, 1);
+            if (random.below(3) == 0) change = -change;
+            memory.add(move, change);
+            const Eigen::VectorXd slope = random_vector(random, int(n), -1, 1);
+            Eigen::VectorXd step = slope;
+            memory.apply(step, [](Eigen::VectorXd&) {});
+            REQUIRE(step.dot(slope) > 0);
+        }
+    }
 }
 
 }  // namespace taut_test::projective_dynamics_test

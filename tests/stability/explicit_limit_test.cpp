@@ -53,7 +53,7 @@ void check_around(const Analysis& analysis, Real truth, double sharp) {
 
 }  // namespace
 
-TEST_CASE("explicit_limit: a mode's limit is enclosed, at critical damping as well",
+TEST_CASE("explicit_limit: a mode's limit is enclosed, at critical damping and by rounded numbers",
           "[stability]") {
     Random random(1301);
     for (int repeat = 0; repeat < 20'000; ++repeat) {
@@ -64,10 +64,16 @@ TEST_CASE("explicit_limit: a mode's limit is enclosed, at critical damping as we
         if (!(k > 0)) continue;
         CAPTURE(k, d);
         const auto limit = taut::stability_detail::explicit_mode_limit(k, d);
-        const Real truth = exact_limit(k, d);
-        REQUIRE(limit.lower <= truth);
-        REQUIRE(limit.upper >= truth);
         REQUIRE(limit.upper <= limit.lower * (1 + 1e-6));
+        // Of any numbers that round to these by 3 ulp.
+        const Real ulps = 3 * static_cast<Real>(std::numeric_limits<double>::epsilon());
+        for (const int of_k : {-1, 0, 1}) {
+            for (const int of_d : {-1, 0, 1}) {
+                const Real truth = exact_limit(k * (1 + of_k * ulps), d * (1 + of_d * ulps));
+                REQUIRE(limit.lower <= truth);
+                REQUIRE(limit.upper >= truth);
+            }
+        }
     }
 }
 
@@ -210,6 +216,37 @@ TEST_CASE("explicit_limit: one mode near critical damping is not judged falsely"
         const Real truth = exact_limit(exact, d0 + static_cast<Real>(alpha) * exact);
         CAPTURE(m, stiffness, d0, alpha);
         check_around(Analysis(scene, scene.initial_state()), truth, 1e-9);
+    }
+}
+
+TEST_CASE("explicit_limit: a compression of a few ulp, which counts as none, certifies no step",
+          "[stability]") {
+    // 4 − 2hd0 − h²κ ≥ 0 across the spring, while along it no damping is better.
+    for (const int dim : {2, 3}) {
+        Random random(1313);
+        for (int repeat = 0; repeat < 100; ++repeat) {
+            const double m = log_uniform(random, 0.1, 10), k = log_uniform(random, 1, 1e4);
+            const double omega = std::sqrt(k / m),
+                         short_by = static_cast<double>(20 + random.below(11)) * 0x1p-53;
+            const double d0 = omega * random.uniform(1.01, 1.1);
+            Scene scene({false, dim});
+            scene.add_particle(Eigen::VectorXd::Unit(dim, 0) * (1 - short_by), m);
+            scene.add_particle(Eigen::VectorXd::Zero(dim), 1);
+            scene.pin(1);
+            scene.add_spring({0, 1, k, 1});
+            scene.set_rayleigh(d0, 0.999 * (2 * omega - d0) / (omega * omega));
+            INFO(dim << " dimensions, repeat " << repeat << " of seed 1313");
+            const Analysis analysis(scene, scene.initial_state());
+            REQUIRE(analysis.pencil().stiffness_semidefinite());
+            const Real kappa =
+                static_cast<Real>(k) / m * short_by / (1 - static_cast<Real>(short_by));
+            for (const double tightness : {0.0, 1e-6}) {
+                const auto limit = analysis.max_step(Method::explicit_euler, tightness);
+                const Real h = limit.certified;
+                CHECK(4 - 2 * h * d0 - h * h * kappa >= 0);
+                CHECK(limit.certified >= (1 - 1e-12) * 2 / d0);
+            }
+        }
     }
 }
 

@@ -176,6 +176,33 @@ TEST_CASE("lanczos: from below, and it converges", "[stability]") {
     }
 }
 
+TEST_CASE("lanczos: a restart that raised nothing is the last", "[stability]") {
+    Random random(808);
+    int settled = 0;
+    for (int repeat = 0; repeat < 30; ++repeat) {
+        INFO("repeat " << repeat << " of seed 808");
+        Eigen::VectorXd k(20 + random.below(40));
+        for (Index i = 0; i < k.size(); ++i) k[i] = random.uniform(0, 1);
+        const auto pencil = with_modes(random, k);
+        LanczosOptions options;
+        options.tolerance = 0;
+        options.basis = 8;
+        taut::RitzPair before;
+        for (options.restarts = 0; options.restarts < 60; ++options.restarts) {
+            const auto pair = largest_ritz_pair(pencil, matrices::K_plus, options);
+            if (options.restarts > 0 && !(pair.value > before.value)) {
+                ++settled;
+                options.restarts = 1000;
+                CHECK(largest_ritz_pair(pencil, matrices::K_plus, options).products ==
+                      pair.products);
+                break;
+            }
+            before = pair;
+        }
+    }
+    CHECK(settled > 20);
+}
+
 TEST_CASE("lanczos: an exact eigenvector of a lower mode does not trap it", "[stability]") {
     Random random(802);
     for (const Index n : {2, 3, 10, 24, 40, 80}) {

@@ -233,4 +233,32 @@ TEST_CASE("limit: the tightness is what was asked for", "[stability][bad_input]"
         CHECK_THROWS_AS(analysis.proves(Method::symplectic_euler, h), std::invalid_argument);
 }
 
+// A spring whose tension falls, T' < 0, takes nothing from its damper.
+TEST_CASE("limit: by the bound a step of symplectic Euler is that of K+ [T19]", "[stability]") {
+    for (const Kind& kind : kinds_of(Laws::any)) {
+        Random random(1320);
+        for (int repeat = 0; repeat < 40; ++repeat) {
+            AnySpring glue{0, 1, log_uniform(random, 1, 1e3), 1};
+            glue.law = LawOf::glue;
+            glue.second = random.uniform(0.1, 1);
+            const double l = 1 + glue.second * random.uniform(0.8, 1.5);
+            const double falls = static_cast<double>(-law_at(glue, l).slope);
+            const double m = log_uniform(random, 0.1, 10);
+            glue.damping = std::sqrt(m * falls) * random.uniform(2.2, 5);
+            Scene scene(kind);
+            scene.add_particle(Eigen::VectorXd::Zero(kind.dim), 1);
+            scene.add_particle(Eigen::VectorXd::Unit(kind.dim, 0) * l, m);
+            scene.add_spring(glue);
+            scene.pin(0);
+            INFO(kind << ", repeat " << repeat << " of seed 1320");
+            const auto state = scene.initial_state();
+            const double certified =
+                Analysis(scene, state).max_step(Method::symplectic_euler).certified;
+            const double truth = definite_limit(exact_matrices(scene, state.x), 1, true);
+            CHECK(certified <= truth);
+            CHECK(certified >= 0.9 * truth);
+        }
+    }
+}
+
 }  // namespace taut_test::limit_test

@@ -172,4 +172,32 @@ TEST_CASE("narrow: with an indefinite K and dampers across it nothing above the 
     }
 }
 
+// Along x a spring far compressed, which pushes across, and along each other axis one at its
+// length: K = k − t there, K⁺ = k, and the certificate of explicit Euler is that of K⁺ [T17].
+TEST_CASE("narrow: what compression takes from the stiffness across certifies no explicit step",
+          "[stability]") {
+    for (const Kind& kind : kinds_of(Laws::hookean)) {
+        if (kind.dim == 1) continue;
+        Random random(1312);
+        for (int repeat = 0; repeat < 40; ++repeat) {
+            const double m = log_uniform(random, 0.1, 10), k = log_uniform(random, 1, 1e4);
+            const double c = std::sqrt(k * m) * random.uniform(0.01, 0.2);
+            Scene scene(kind);
+            scene.add_particle(Eigen::VectorXd::Zero(kind.dim), m);
+            for (Index i = 0; i < kind.dim; ++i) {
+                scene.add_particle(Eigen::VectorXd::Unit(kind.dim, i), 1);
+                scene.pin(i + 1);
+                if (i == 0) scene.add_spring({0, 1, 0.1 * k, 1 + random.uniform(2, 6), c});
+                if (i > 0) scene.add_spring({0, i + 1, k, 1, c});
+            }
+            INFO(kind << ", repeat " << repeat << " of seed 1312");
+            const AnySpring held = scene.springs()[1];
+            const auto limit =
+                Analysis(scene, scene.initial_state()).max_step(Method::explicit_euler, 1e-3);
+            CHECK(limit.certified <= held.damping / held.stiffness);
+            CHECK(limit.certified >= 0.99 * held.damping / held.stiffness);
+        }
+    }
+}
+
 }  // namespace taut_test::narrow_test
