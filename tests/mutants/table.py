@@ -47,8 +47,8 @@ def exceptions(found):
         for m, outcome, _, how in found:
             if m.room == room and outcome != KILLED:
                 unseen = f"unseen: {m.unseen}" if m.unseen else ""
-                yield f"  {m.name:12}{outcome:18}{posixpath.normpath(how) if how else ''}".rstrip()
-                yield f"    {written(*m[1:5], unseen)}"
+                place = f"{posixpath.normpath(how)}  " if how else ""
+                yield f"  {m.name:12}{outcome:17} {place}{' '.join(written(*m[1:5], unseen).split())}"
 
 
 def table(mutants, rows):
@@ -59,6 +59,6 @@ def table(mutants, rows):
 def record(mutants, rows):
     """What results.txt holds: no times, nothing of the machine."""
     found = list(outcomes(mutants, rows))
-    lines = ["# Written by run.py --record: what became of the mutants. elsewhere: the tests of another room kill it.",
-             "", *counts(found), *exceptions(found)]
+    lines = ["# Written by run.py --record: how many were killed, and those that the tests of their own room do not kill.",
+             "# elsewhere: another room's do, by the check that is named.", "", *counts(found), *exceptions(found)]
     return "\n".join(lines) + "\n"
