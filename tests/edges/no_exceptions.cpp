@@ -10,6 +10,10 @@
 #error "this unit must be compiled without exceptions and RTTI: the flags were lost"
 #endif
 
+#if defined(__GNUC__) && __cplusplus < 202002L
+#error "this unit must be compiled as C++20: the flag was lost"
+#endif
+
 #if defined(_GLIBCXX_IOSTREAM) || defined(_LIBCPP_IOSTREAM)
 #error "a header includes <iostream>, whose static constructors every unit would pay for"
 #endif
