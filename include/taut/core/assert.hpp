@@ -29,12 +29,16 @@
 #endif
 #endif
 
-/// Of what is called once in a while: compiled small, and fast; and of what is never compiled into
-/// its callers.
+/// Of what is called once in a while: compiled small, and fast.
 #if defined(__GNUC__)
 #define TAUT_COLD __attribute__((cold))
-#define TAUT_NOINLINE __attribute__((noinline))
 #else
 #define TAUT_COLD
+#endif
+
+/// Of what is not compiled into its callers.
+#if defined(__GNUC__)
+#define TAUT_NOINLINE __attribute__((noinline))
+#else
 #define TAUT_NOINLINE
 #endif

@@ -40,48 +40,69 @@ class Buffer {
 
 public:
     Buffer() = default;
+    /// `size` elements that hold anything.
     explicit Buffer(std::size_t size) { resize(size); }
+    /// `size` elements, each `value`.
     Buffer(std::size_t size, const T& value) { assign(size, value); }
+    /// The same elements.
     Buffer(const Buffer& other) { copy(other); }
+    /// Takes the elements of `other`.
     Buffer(Buffer&& other) noexcept { swap(other); }
+    /// The same elements, in place of these.
     Buffer& operator=(const Buffer& other) {
         if (this != &other) copy(other);
         return *this;
     }
+    /// Exchanges the elements with those of `other`.
     Buffer& operator=(Buffer&& other) noexcept {
         swap(other);
         return *this;
     }
     ~Buffer() { Eigen::internal::aligned_free(data_); }
 
+    /// The number of elements.
     std::size_t size() const { return size_; }
+    /// Whether there is none.
     bool empty() const { return size_ == 0; }
+    /// The first of them, in one piece.
     T* data() { return data_; }
+    /// The first of them, in one piece.
     const T* data() const { return data_; }
+    /// For loops over them.
     T* begin() { return data_; }
+    /// Behind the last one.
     T* end() { return data_ + size_; }
+    /// For loops over them.
     const T* begin() const { return data_; }
+    /// Behind the last one.
     const T* end() const { return data_ + size_; }
-    template <class Number>  // whatever counts
+    /// Element i, counted by whatever integer; not checked but by eigen_assert.
+    template <class Number>
     T& operator[](Number i) {
         eigen_assert(static_cast<std::size_t>(i) < size_);
         return data_[i];
     }
+    /// Element i.
     template <class Number>
     const T& operator[](Number i) const {
         eigen_assert(static_cast<std::size_t>(i) < size_);
         return data_[i];
     }
+    /// The last one.
     const T& back() const { return (*this)[size_ - 1]; }
+    /// The last one.
     T& back() { return (*this)[size_ - 1]; }
 
+    /// Takes memory for `capacity` elements.
     void reserve(std::size_t capacity) {
         if (capacity > capacity_) set_capacity(capacity);
     }
+    /// Has `size` elements; those that are new hold anything.
     void resize(std::size_t size) {
         reserve(size);
         size_ = size;
     }
+    /// Has `size` elements; those that are new are `value`.
     void resize(std::size_t size, const T& value) {
         const T all = value;  // which may lie in this buffer
         const std::size_t old = size_;
@@ -89,16 +110,19 @@ public:
         size_ = size;
         if (size > old) std::fill(data_ + old, data_ + size, all);
     }
+    /// `size` elements, each `value`, in place of these.
     void assign(std::size_t size, const T& value) {
         const T all = value;
         size_ = 0;
         resize(size, all);
     }
+    /// Adds an element behind the last one.
     void push_back(const T& value) {
         const T added = value;
         if (size_ == capacity_) set_capacity(2 * capacity_ + 8);
         data_[size_++] = added;
     }
+    /// Removes all, and keeps their memory.
     void clear() { size_ = 0; }
     /// Gives back what is not used.
     void fit() {

@@ -58,14 +58,20 @@ class Pencil;
 class BareMatrices {
 public:
     virtual ~BareMatrices() = default;
+    /// y ← S u.
     virtual void multiply(const Combination& c, const Eigen::VectorXd& u,
                           Eigen::VectorXd& y) const = 0;
+    /// uᵀS u with its rounding error.
     virtual Enclosed quadratic(const Combination& c, const Eigen::VectorXd& u) const = 0;
+    /// A proved upper bound on the largest eigenvalue of M⁻¹S.
     virtual double upper_bound(const Combination& c) const = 0;
     /// By factorisation. @param known  an ε that is proved
     virtual double deficit(const Pencil& pencil, const Combination& c, double known) const = 0;
+    /// S as a sparse matrix, both triangles.
     virtual SparseMatrix<double> assemble(const Combination& c) const = 0;
+    /// A bound on max_i Σ_j s_i |E_ij| s_j, E the rounding errors of assemble(c).
     virtual double assembly_error(const Combination& c, const Eigen::VectorXd& s) const = 0;
+    /// The same with K times `stiffness` and M times `mass`.
     virtual Pencil scaled(double stiffness, double mass) const = 0;
     /// Weakens a limit that was found as that of springs, with K⁺, D ⪰ 0, where they are not known
     /// to be so, and tells of growth.
@@ -248,7 +254,8 @@ private:
     /// One choice of weights in [T26]: of each free particle the block Σ_b (1 + p_b/p_i) P_b, and a
     /// bound on its rounding error, N/m.
     struct Splitting {
-        struct Term {  // a spring's P
+        /// A spring's P.
+        struct Term {
             int a, b;
             double axial, transverse, size;
             const double* d;
