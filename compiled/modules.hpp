@@ -11,8 +11,9 @@
 // What the modules tight and mass_scaling do in double, of whatever system: many seconds to
 // compile, and once for the programs and tests of this project, which parse this with taut.hpp.
 
+#define TAUT_TIGHT_EIGENVALUES(KIND) KIND class DenseAnalysis<double>;
+
 #define TAUT_TIGHT(KIND)                                                                   \
-    KIND class DenseAnalysis<double>;                                                      \
     KIND double explicit_estimate<double>(const Pencil&, double);                          \
     KIND DefinitenessProof prove<double>(Prover&, const Pencil&, const Combination&);      \
     KIND DefinitenessProof proves_positive_definite<double>(const SparseMatrix<double>&);  \
@@ -29,6 +30,7 @@
                                                                          const Pencil&);
 
 namespace taut {
+TAUT_TIGHT_EIGENVALUES(extern template)
 TAUT_TIGHT(extern template)
 TAUT_MASS_SCALING(extern template)
 }  // namespace taut
