@@ -10,8 +10,8 @@
 #include <cstdlib>
 #include <functional>
 #include <string>
-#include <taut/integrator/implicit_euler.hpp>
 #include <taut/bdf2/bdf2.hpp>
+#include <taut/integrator/implicit_euler.hpp>
 #include <taut/lattice/chain.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/projective/projective.hpp>

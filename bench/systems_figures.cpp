@@ -10,10 +10,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <string>
-#include <taut/integrator/implicit_euler.hpp>
-#include <taut/modal/modal_analysis.hpp>
 #include <taut/bdf2/bdf2.hpp>
 #include <taut/contact/contact.hpp>
+#include <taut/integrator/implicit_euler.hpp>
+#include <taut/modal/modal_analysis.hpp>
 #include <taut/modal/modal_dynamics.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/projective/projective.hpp>

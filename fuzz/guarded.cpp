@@ -9,9 +9,9 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <taut/integrator/implicit_euler.hpp>
 #include <taut/bdf2/bdf2.hpp>
 #include <taut/guard/guard.hpp>
+#include <taut/integrator/implicit_euler.hpp>
 #include <taut/model/buckling.hpp>
 #include <taut/model/tension_only.hpp>
 

@@ -3,16 +3,16 @@
 #pragma once
 
 #include <memory>
-#include <taut/integrator/implicit_euler.hpp>
 #include <taut/bdf2/bdf2.hpp>
 #include <taut/constraints/constraints.hpp>
-#include <taut/modal/modal.hpp>
-#include <taut/newton/newton.hpp>
 #include <taut/equilibrium/equilibrium.hpp>
 #include <taut/guard/guard.hpp>
+#include <taut/integrator/implicit_euler.hpp>
 #include <taut/mass_scaling/mass_scaling.hpp>
-#include <taut/projective/projective.hpp>
+#include <taut/modal/modal.hpp>
+#include <taut/newton/newton.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
+#include <taut/projective/projective.hpp>
 #include <taut/tight/tight.hpp>
 
 #include "soup.hpp"

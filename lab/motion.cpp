@@ -9,8 +9,8 @@
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/integrator/velocity_verlet.hpp>
 #include <taut/method/visit.hpp>
-#include <taut/solver/conjugate_gradient.hpp>
 #include <taut/recommend/candidate.hpp>
+#include <taut/solver/conjugate_gradient.hpp>
 #include <variant>
 
 #include "lab.hpp"

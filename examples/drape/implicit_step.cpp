@@ -4,8 +4,8 @@
 // The steppers that solve linear systems, compiled beside those that do not.
 
 #include <memory>
-#include <taut/integrator/implicit_euler.hpp>
 #include <taut/bdf2/bdf2.hpp>
+#include <taut/integrator/implicit_euler.hpp>
 #include <taut/newton/newton.hpp>
 #include <taut/projective/projective.hpp>
 

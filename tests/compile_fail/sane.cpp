@@ -4,8 +4,8 @@
 
 // What the other files of this folder do wrong, done right: this one must compile.
 #include <Eigen/SparseLU>
-#include <taut/integrator/implicit_euler.hpp>
 #include <taut/constraints/constraints.hpp>
+#include <taut/integrator/implicit_euler.hpp>
 #include <taut/newton/newton.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/taut.hpp>

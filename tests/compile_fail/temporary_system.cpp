@@ -4,10 +4,10 @@
 // TIMES: 11
 // What a stepper keeps a reference to must not be a temporary.
 
-#include <taut/integrator/implicit_euler.hpp>
 #include <taut/bdf2/bdf2.hpp>
 #include <taut/constraints/constraints.hpp>
 #include <taut/guard/guard.hpp>
+#include <taut/integrator/implicit_euler.hpp>
 #include <taut/newton/newton.hpp>
 #include <taut/projective/projective.hpp>
 #include <taut/taut.hpp>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
-#include <taut/integrator/implicit_euler.hpp>
 #include <taut/guard/guard.hpp>
+#include <taut/integrator/implicit_euler.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/taut.hpp>
 

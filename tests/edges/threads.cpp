@@ -4,8 +4,8 @@
 // Compiled with OpenMP: any number of threads gives the same bits, and so does any run: what this
 // prints, same_output.cmake compares. With an argument it steps a second of play alone.
 
-#include <taut/integrator/implicit_euler.hpp>
 #include <taut/guard/guard.hpp>
+#include <taut/integrator/implicit_euler.hpp>
 #include <taut/taut.hpp>
 #include <taut/wind/wind.hpp>
 

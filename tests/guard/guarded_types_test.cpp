@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include <limits>
-#include <taut/integrator/implicit_euler.hpp>
 #include <taut/bdf2/bdf2.hpp>
 #include <taut/guard/guard.hpp>
+#include <taut/integrator/implicit_euler.hpp>
 #include <taut/model/state_view.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/scene/with_law.hpp>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include <taut/integrator/implicit_euler.hpp>
 #include <taut/bdf2/bdf2.hpp>
+#include <taut/integrator/implicit_euler.hpp>
 #include <taut/projective/projective.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/taut.hpp>

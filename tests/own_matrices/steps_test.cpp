@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include <taut/integrator/implicit_euler.hpp>
 #include <taut/bdf2/bdf2.hpp>
+#include <taut/integrator/implicit_euler.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/compiled_once.hpp"

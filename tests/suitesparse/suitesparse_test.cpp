@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include <taut/integrator/implicit_euler.hpp>
-#include <taut/taut.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/suitesparse/suitesparse.hpp>
+#include <taut/taut.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/decompositions.hpp"

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 
-#include "../model/tangent_matrix.hpp"
 #include "../core/detail/fits.hpp"
 #include "../core/status.hpp"
 #include "../model/spring_system.hpp"
+#include "../model/tangent_matrix.hpp"
 
 namespace taut {
 

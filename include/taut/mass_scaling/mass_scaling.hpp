@@ -10,8 +10,8 @@
 
 #include "../model/free_particles.hpp"
 #include "../model/spring_system.hpp"
-#include "detail/low_modes.hpp"
 #include "../stability/pencil.hpp"
+#include "detail/low_modes.hpp"
 
 namespace taut {
 

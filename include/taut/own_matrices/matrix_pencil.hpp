@@ -37,7 +37,8 @@ public:
     }
     SparseMatrix<double> assemble(const Combination& c) const override;
     double assembly_error(const Combination& c, const Eigen::VectorXd& s) const override;
-    Pencil scaled(double stiffness, double mass) const override;
+    std::shared_ptr<const BareMatrices> scaled(double stiffness, double mass,
+                                               bool rayleigh) const override;
     void amend(Method method, const Pencil& pencil,
                stability_detail::UnroundedLimit& limit) const override {
         stability_detail::amend_for_matrices(method, pencil, limit);
@@ -71,8 +72,6 @@ private:
     Matrix K_;
     Matrix D_;
     Eigen::VectorXd mass_;
-    Pencil::Facts facts_;
-    RayleighDamping rayleigh_;
 };
 
 template <class Scalar>
@@ -84,16 +83,17 @@ Pencil MatrixPencil<Scalar>::of(const LinearSystem<Scalar>& system) {
     for_each_entry(system.damping(),
                    [&](Scalar d, Index row) { check.in_range(d, "damping in row", row); });
     for (Index i = 0; i < system.size(); ++i) check.in_range(system.mass()[i], "mass in row", i);
+    Pencil::Facts facts;
+    RayleighDamping rayleigh;
     if (check.lost().empty()) {
         const auto d0 = own->mass_proportional();
-        if (d0) own->rayleigh_.mass_proportional = *d0;
-        Pencil::Facts& facts = own->facts_;
+        if (d0) rayleigh.mass_proportional = *d0;
         facts.is_rayleigh = d0.has_value();
         facts.stiffness_semidefinite = facts.projected_semidefinite =
             proves_semidefinite(system.stiffness());
         facts.damping_semidefinite = facts.is_rayleigh || proves_semidefinite(system.damping());
     }
-    return {own->mass_, own->rayleigh_, own->facts_, check.lost(), own};
+    return {own->mass_, rayleigh, facts, check.lost(), own};
 }
 
 template <class Scalar>
@@ -270,7 +270,8 @@ double MatrixPencil<Scalar>::assembly_error(const Combination& c, const Eigen::V
 
 /// D has no known part that follows K; its part d0·M follows M where it was recognised.
 template <class Scalar>
-Pencil MatrixPencil<Scalar>::scaled(double stiffness, double mass) const {
+std::shared_ptr<const BareMatrices> MatrixPencil<Scalar>::scaled(double stiffness, double mass,
+                                                                 bool rayleigh) const {
     auto own = std::make_shared<MatrixPencil>(*this);
     own->mass_ *= mass;
     // An entry that vanished would take the allowance for its row's underflow with it.
@@ -280,8 +281,8 @@ Pencil MatrixPencil<Scalar>::scaled(double stiffness, double mass) const {
         const bool zero = entry == 0 || stiffness == 0;
         return zero ? 0 : std::copysign(std::max(std::abs(product), least), product);
     });
-    if (facts_.is_rayleigh) own->D_ *= mass;
-    return {own->mass_, own->rayleigh_, own->facts_, {}, own};
+    if (rayleigh) own->D_ *= mass;
+    return own;
 }
 
 /// By which Stability(system) finds its pencil.

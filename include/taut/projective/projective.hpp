@@ -6,14 +6,14 @@
 
 #include <type_traits>
 
-#include "../model/free_particles.hpp"
+#include "../integrator/detail/factor_cache.hpp"
+#include "../integrator/detail/step_loop.hpp"
 #include "../method/implicit_euler.hpp"
+#include "../model/free_particles.hpp"
+#include "../newton/detail/step_objective.hpp"
 #include "../solver/interleaved_llt.hpp"
 #include "../stability/pencil.hpp"
-#include "../integrator/detail/factor_cache.hpp"
 #include "detail/limited_memory.hpp"
-#include "../integrator/detail/step_loop.hpp"
-#include "../newton/detail/step_objective.hpp"
 
 namespace taut {
 /// Implicit Euler with the true, nonlinear spring forces, approached by iterations that share one

@@ -71,8 +71,9 @@ public:
     virtual SparseMatrix<double> assemble(const Combination& c) const = 0;
     /// A bound on max_i Σ_j s_i |E_ij| s_j, E the rounding errors of assemble(c).
     virtual double assembly_error(const Combination& c, const Eigen::VectorXd& s) const = 0;
-    /// The same with K times `stiffness` and M times `mass`.
-    virtual Pencil scaled(double stiffness, double mass) const = 0;
+    /// The same with K times `stiffness` and M times `mass`. @param rayleigh  whether D follows M
+    virtual std::shared_ptr<const BareMatrices> scaled(double stiffness, double mass,
+                                                       bool rayleigh) const = 0;
     /// Weakens a limit that was found as that of springs, with K⁺, D ⪰ 0, where they are not known
     /// to be so, and tells of growth.
     virtual void amend(Method method, const Pencil& pencil,
@@ -273,6 +274,10 @@ private:
         // A quotient that vanished by underflow is not zero.
         const double r = load / particle_mass(i);
         return load > 0 ? std::max(r, std::numeric_limits<double>::min()) : r;
+    }
+    /// In the order of Eigen's sums.
+    static double dot(const double* a, const double* b) {
+        return a[0] * b[0] + (a[1] * b[1] + a[2] * b[2]);
     }
     /// u_a − u_b of a link.
     void difference(const double* u, const Link& link, double du[3]) const {

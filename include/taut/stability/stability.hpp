@@ -165,13 +165,13 @@ private:
         return stability_detail::symplectic_by_bounds(*pencil_);
     }
     template <class Effort>
-    Limit limit_by(method::LimitedByDamping, Effort& effort, const RitzPair& stiffest) const {
-        return stability_detail::explicit_bracket(*pencil_, effort, stiffest);
+    Limit limit_by(method::LimitedByDamping, Effort& effort) const {
+        return stability_detail::explicit_bracket(*pencil_, effort, stiffest());
     }
     template <class Effort>
-    Limit limit_by(method::LimitedByStiffness, Effort& effort, const RitzPair& stiffest) const {
+    Limit limit_by(method::LimitedByStiffness, Effort& effort) const {
         return stability_detail::symplectic_bracket(*pencil_, effort,
-                                                    [&](double) { return stiffest.vector; });
+                                                    [&](double) { return stiffest().vector; });
     }
     template <class... Search>
     Limit limit_by(method::LimitedByIndefiniteness, Search&&...) const {
@@ -224,7 +224,7 @@ template <class Effort>
 StepLimit<Scalar> Stability<Scalar>::bracket(Method method, Effort& effort) const {
     return limit_of(
         method, [&](Limit& limit) { stability_detail::add_growth(*pencil_, effort, limit); },
-        effort, size() > 0 ? stiffest() : RitzPair{});
+        effort);
 }
 
 template <class Scalar>

@@ -69,9 +69,10 @@ template <class Scalar>
 Certificate certify(const Stability<Scalar>& stability, Method method, double h) {
     Certificate certificate{method, h, false};
     require_positive("certify", "h", h);
+    certificate.proved = h <= static_cast<double>(stability.max_step(method).certified);
+    if (certificate.proved) return certificate;
     const StepLimit<Scalar> bound = stability.bracket(method);
-    certificate.proved = h <= static_cast<double>(bound.certified);
-    if (certificate.proved || !(h < static_cast<double>(bound.refuted))) return certificate;
+    if (!(h < static_cast<double>(bound.refuted))) return certificate;
     const Pencil& pencil = stability.pencil();
     const double wide = h * (1 + stability_detail::step_rounding<Scalar>);
     // An h² that underflows would leave the stiffness out.

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "../../core/buffer.hpp"
-#include "../../model/damping.hpp"
 #include "../../core/types.hpp"
+#include "../../model/damping.hpp"
 
 namespace taut::integrator_detail::sweep {
 

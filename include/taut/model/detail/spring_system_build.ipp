@@ -6,9 +6,7 @@ namespace taut {
 
 template <class Scalar, int Dim, class... Laws>
 Index SpringSystem<Scalar, Dim, Laws...>::add_particle(const Vector& position, Scalar mass) {
-    bool finite = true;
-    for (int d = 0; d < Dim; ++d) finite = finite && std::isfinite(position[d]);
-    if (!finite) {
+    if (!detail::all_finite(position.data(), Dim)) {
         fail("SpringSystem::add_particle: the position of particle ", size(), " is not finite");
     }
     require_mass("add_particle", size(), mass);

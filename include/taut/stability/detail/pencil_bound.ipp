@@ -10,7 +10,7 @@ namespace taut {
 inline auto Pencil::coefficients(const Combination& c, const Link& link) const -> Coefficients {
     const double on_plus = c.projected() + c.damping() * rayleigh_.stiffness_proportional;
     const auto elastic = [&](double slope) {
-        return c.stiffness() * slope + on_plus * (slope < 0 ? 0 : slope);
+        return c.stiffness() * slope + on_plus * k_plus(slope);
     };
     return {elastic(link.axial) + c.damping() * link.damping, elastic(link.transverse)};
 }
@@ -42,7 +42,7 @@ inline void Pencil::multiply(const Combination& c, const Eigen::VectorXd& u,
         const double* d = link.d;
         double du[3];
         difference(from, link, du);
-        const double along = (axial - transverse) * (d[0] * du[0] + (d[1] * du[1] + d[2] * du[2]));
+        const double along = (axial - transverse) * dot(d, du);
         for (int k = 0; k < dim(); ++k) {
             const double pull = transverse * du[k] + along * d[k];
             if (link.a >= 0) to[dim() * Index(link.a) + k] += pull;
@@ -70,13 +70,10 @@ inline Enclosed Pencil::quadratic(const Combination& c, const Eigen::VectorXd& u
         const double* d = link.d;
         double du[3], across[3];
         difference(u.data(), link, du);
-        const auto squared = [](const double* r) {
-            return r[0] * r[0] + (r[1] * r[1] + r[2] * r[2]);
-        };
-        const double along = d[0] * du[0] + (d[1] * du[1] + d[2] * du[2]);
+        const double along = dot(d, du);
         for (int k = 0; k < 3; ++k) across[k] = du[k] - along * d[k];
-        sum.value += axial * along * along + transverse * squared(across);
-        sum.error += magnitude(c, link) * squared(du);
+        sum.value += axial * along * along + transverse * dot(across, across);
+        sum.error += magnitude(c, link) * dot(du, du);
     }
     // Each term carries ≤ 32 roundings, the sum one more for each term; √terms would be typical.
     const double terms = static_cast<double>(size()) + static_cast<double>(links_.size()) + 32;

@@ -15,7 +15,7 @@ std::vector<SpringShare> Pencil::spring_shares(const Eigen::VectorXd& u) const {
         const double* d = links_[s].d;
         double du[3];
         difference(u.data(), links_[s], du);
-        const double along = d[0] * du[0] + (d[1] * du[1] + d[2] * du[2]);
+        const double along = dot(d, du);
         double energy = axial * along * along;
         for (int k = 0; k < 3; ++k) energy += transverse * std::pow(du[k] - along * d[k], 2);
         const auto [index, a, b] = names_[s];
@@ -60,10 +60,10 @@ Pencil Pencil::explicit_part(const std::vector<Real>& shares) const {
 
 template <class Real>
 Pencil Pencil::scaled(Real stiffness, Real mass) const {
-    if (matrices_) return matrices_->scaled(stiffness, mass);
     constexpr double least = std::numeric_limits<double>::min();
     Pencil pencil = *this;
     pencil.mass_ *= mass;
+    if (matrices_) pencil.matrices_ = matrices_->scaled(stiffness, mass, is_rayleigh());
     for (Link& link : pencil.links_) {
         link.axial *= stiffness;
         link.softer *= stiffness;
