@@ -8,6 +8,8 @@
 #include <taut/tight/tight.hpp>
 #include <vector>
 
+#include "dense.hpp"
+
 // What the modules tight and mass_scaling do in double, of whatever system: many seconds to
 // compile, and once for the programs and tests of this project, which parse this with taut.hpp.
 

@@ -19,6 +19,8 @@
 
 namespace {
 
+constexpr taut::Index steps = 24;  // several of those that threads take between two waits
+
 template <template <class...> class Stepper, class System>
 bool same_bits(const System& system) {
     using Scalar = typename System::Scalar;
@@ -26,11 +28,11 @@ bool same_bits(const System& system) {
     expected.v.setRandom();
     const auto start = expected;
     Stepper<System> one(system, {1});
-    if (!one.step(expected, Scalar(1e-5), 70)) return false;
+    if (!one.step(expected, Scalar(1e-5), steps)) return false;
     for (const int threads : {2, 3, 8}) {
         auto state = start;
         Stepper<System> many(system, {threads});
-        if (!many.step(state, Scalar(1e-5), 70)) return false;
+        if (!many.step(state, Scalar(1e-5), steps)) return false;
         if (state.x != expected.x || state.v != expected.v) {
             std::fprintf(stderr, "%d threads give other bits than one\n", threads);
             return false;

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <taut/integrator/sweep/force_plan.hpp>
 #include <taut/scene/cloth.hpp>
+#include <vector>
 
 #include "../support/catch.hpp"
 #include "../support/random_system.hpp"
@@ -48,6 +50,44 @@ TEST_CASE("force_plan: springs without order are in stars, those of grids and ch
     CHECK_FALSE(stars(random_system<double, 1>(random, options)));
     CHECK_FALSE(stars(taut::hanging_cloth<double>({30, 40})));
     CHECK_FALSE(stars(taut::SpringSystem<double, 3>()));
+}
+
+TEST_CASE("force_plan: no batch gathers more places than fit, and some are full", "[integrator]") {
+    namespace sweep = taut::integrator_detail::sweep;
+    Random random(55);
+    const int places = 5000, springs = 20001;
+    std::vector<int> a, b;
+    for (int s = 0; s < springs; ++s) {
+        a.push_back(static_cast<int>(random.below(places)));
+        b.push_back((a.back() + 1 + static_cast<int>(random.below(places - 1))) % places);
+    }
+    const sweep::SortedSprings sorted({a, b});
+    taut::Buffer<int> index;
+    const auto plan = sweep::Planner<float>::batches(sorted, sweep::Blocks(places), index);
+    REQUIRE(index.size() >= static_cast<std::size_t>(springs));  // twice between two blocks
+    int most = 0, all = 0;
+    for (const auto& batch : plan.batches) {
+        most = std::max(most, batch.gathered);
+        all += batch.springs;
+        for (int s = 0; s < batch.springs; ++s) {
+            const auto& ends = plan.ends[static_cast<std::size_t>(batch.first_spring + s)];
+            CHECK(std::max(ends.a, ends.b) < batch.gathered);
+        }
+    }
+    CHECK(static_cast<std::size_t>(all) == index.size());
+    CHECK(most <= sweep::most_gathered);
+    CHECK(most >= sweep::most_gathered - 1);
+}
+
+TEST_CASE("force_plan: stars come in the least groups that fill whole registers", "[integrator]") {
+    const auto check = [](auto scalar) {
+        using Planner = taut::integrator_detail::sweep::Planner<decltype(scalar)>;
+        const int stars = Planner::group * taut::integrator_detail::sweep::star_size;
+        CHECK(stars == std::max<int>(Planner::StarRegister::width,
+                                     taut::integrator_detail::sweep::star_size));
+    };
+    check(0.f);
+    check(0.0);
 }
 
 TEST_CASE("force_plan: it changes with the springs and not with masses or damping",

@@ -251,6 +251,22 @@ TEST_CASE("steppers: velocity Verlet is undone by steps with the velocity turned
     }
 }
 
+TEST_CASE("steppers: velocity Verlet that goes on with a step that overflows says so",
+          "[integrator]") {
+    for (const Kind& kind : kinds_of(Laws::hookean)) {
+        Scene scene(kind);  // its velocity, of a force that there is not, is all that moves it
+        scene.add_particle(Eigen::VectorXd::Zero(kind.dim), 1);
+        auto state = scene.initial_state();
+        state.v.setConstant(1e5);
+        const auto stepper = scene.stepper(Method::velocity_verlet);
+        REQUIRE(stepper->step(state, scene.rounded(0.01), 3));
+        const auto before = state;
+        const auto report = stepper->step(state, kind.single ? 1e36 : 1e306, 1);
+        CHECK(report.status == taut::Status::diverged);
+        CHECK(state == before);
+    }
+}
+
 TEST_CASE("steppers: velocity Verlet's force is evaluated once a step, and again if it was edited",
           "[integrator]") {
     Random random(3);

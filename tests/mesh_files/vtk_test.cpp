@@ -60,6 +60,7 @@ Document read(const TemporaryFile& file) {
             for (auto& p : document.points) in >> p[0] >> p[1] >> p[2];
         } else if (word == "LINES") {
             in >> count >> numbers;
+            if (numbers != 3 * count) return document;
             document.lines.resize(count);
             for (auto& ends : document.lines) {
                 in >> numbers >> ends[0] >> ends[1];

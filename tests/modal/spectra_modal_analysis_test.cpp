@@ -15,6 +15,9 @@
 #include "../support/decompositions.hpp"
 #include "../support/message.hpp"
 #include "../support/tolerance.hpp"
+#if defined(TAUT_COMPILED)
+#include "../../compiled/modal.hpp"
+#endif
 
 namespace taut_test::spectra_modal_analysis_test {
 

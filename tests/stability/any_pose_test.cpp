@@ -1,5 +1,9 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include <cmath>
+#include <taut/model/spring_system.hpp>
+#include <taut/stability/energy_limit.hpp>
+
 #include "../support/catch.hpp"
 #include "../support/stability_scenes.hpp"
 
@@ -105,6 +109,20 @@ void check_poses(Random& random, const Scene& scene, int poses) {
 }
 
 }  // namespace
+
+TEST_CASE("any_pose: the energy limit of one damped spring is the root of 2kh^2 + ch = m",
+          "[stability]") {
+    for (const double c : {0.0, 0.1, 3.0, 200.0}) {
+        taut::SpringSystem<double, 2> pair;
+        pair.add_particle({0, 0}, 0.5);
+        pair.add_particle({1, 0}, 0.5);
+        pair.add_spring(0, 1, 40, c);
+        const double root = 1 / (c + std::sqrt(c * c + 4 * 2 * 40 * 0.5));  // m = 0.5, k = 40
+        CHECK_THAT(taut::energy_limit(pair).certified, WithinRel(root, 1e-9));
+        CHECK(taut::energy_limit(pair).certified <= root);
+        CHECK_THAT(taut::energy_bracket(pair).refuted, WithinRel(root, 1e-9));
+    }
+}
 
 TEST_CASE("any_pose: the conditions hold at certified and fail at refuted, of every kind",
           "[stability]") {

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include "support/decompositions.hpp"
-
 #include <Eigen/Dense>
+
+#include "../../compiled/dense.hpp"
+#include "support/decompositions.hpp"
 
 namespace taut_test {
 

@@ -29,79 +29,107 @@ struct ModalOptions {
 
 namespace solver_detail {
 
+/// A bound of all |eigenvalues| of A, after Gershgorin.
+template <class Real>
+Real gershgorin_bound(const SparseMatrix<Real>& A) {
+    VectorX<Real> row = VectorX<Real>::Zero(A.rows());
+    for (Index j = 0; j < A.outerSize(); ++j) {
+        for (typename SparseMatrix<Real>::InnerIterator entry(A, j); entry; ++entry) {
+            row[entry.row()] += std::abs(entry.value());
+        }
+    }
+    return std::max(row.maxCoeff(), std::numeric_limits<Real>::min() * Real(1e20));
+}
+
 /// (A + σI)⁻¹ for A = M^-½ K M^-½, as Spectra asks for an operator. σ > 0 keeps the matrix definite
 /// where K has zero modes, and grows until it is where K is indefinite.
+template <class Real>
 class ShiftedInverse {
 public:
-    using Scalar = double;
+    using Scalar = Real;
 
-    explicit ShiftedInverse(const SparseMatrix<double>& A) : A_(A) {
-        Eigen::VectorXd row = Eigen::VectorXd::Zero(A.rows());
-        for (Index j = 0; j < A.outerSize(); ++j) {
-            for (SparseMatrix<double>::InnerIterator entry(A, j); entry; ++entry) {
-                row[entry.row()] += std::abs(entry.value());
-            }
-        }
-        bound_ = std::max(row.maxCoeff(), std::numeric_limits<double>::min() * 1e20);
-    }
-    /// Whether A + σI could be factorised, σ being 1e-9 of the bound or the least power of 30 above
-    /// it that makes the matrix definite.
-    bool factorize() {
-        SparseMatrix<double> identity(A_.rows(), A_.rows());
+    /// σ is 1e-9 of the bound of A or the least power of 30 above it that makes the matrix
+    /// definite.
+    ShiftedInverse(const SparseMatrix<Real>& A, Real bound) {
+        SparseMatrix<Real> identity(A.rows(), A.rows());
         identity.setIdentity();
-        for (sigma_ = 1e-9 * bound_; sigma_ < 100 * bound_; sigma_ *= 30) {
-            llt_.compute(SparseMatrix<double>(A_ + sigma_ * identity));
-            if (llt_.info() == Eigen::Success) return true;
+        for (sigma_ = Real(1e-9) * bound; sigma_ < 100 * bound; sigma_ *= 30) {
+            llt_.compute(SparseMatrix<Real>(A + sigma_ * identity));
+            if (definite()) return;
         }
-        return false;
     }
-    double sigma() const { return sigma_; }
-    /// Of all |eigenvalues| of A, after Gershgorin, 1/s².
-    double bound() const { return bound_; }
+    /// Whether there is such a σ.
+    bool definite() const { return llt_.info() == Eigen::Success; }
+    Real sigma() const { return sigma_; }
 
-    Index rows() const { return A_.rows(); }
-    Index cols() const { return A_.cols(); }
-    void set_shift(double) const {}
-    void perform_op(const double* x, double* y) const {
-        Eigen::Map<Eigen::VectorXd>(y, rows()) =
-            llt_.solve(Eigen::Map<const Eigen::VectorXd>(x, rows()));
+    Index rows() const { return llt_.rows(); }
+    Index cols() const { return llt_.cols(); }
+    void set_shift(Real) const {}
+    void perform_op(const Real* x, Real* y) const {
+        Eigen::Map<VectorX<Real>>(y, rows()) =
+            llt_.solve(Eigen::Map<const VectorX<Real>>(x, rows()));
     }
 
 private:
-    const SparseMatrix<double>& A_;
-    Eigen::SimplicialLLT<SparseMatrix<double>> llt_;
-    double bound_ = 0;
-    double sigma_ = 0;
+    Eigen::SimplicialLLT<SparseMatrix<Real>> llt_;
+    Real sigma_ = 0;
 };
 
-/// The `count` lowest eigenpairs of A, ascending: dense where most of them are asked for.
-inline Status lowest_eigenpairs(const SparseMatrix<double>& A, Index count,
-                                const ModalOptions& options, Report& report, ModalBasis& basis) {
+/// Lanczos vectors of the `count` lowest eigenvalues of A, to the tolerance; dense where most of
+/// them are asked for. @param bound  of A's eigenvalues
+template <class Real>
+Report lanczos_vectors(const SparseMatrix<Real>& A, Index count, const ModalOptions& options,
+                       Real bound, MatrixX<Real>& vectors) {
+    Report report;
     const Index N = A.rows();
     constexpr Index dense_size = 120;
     if (N <= dense_size || 3 * count > N) {
-        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> dense{Eigen::MatrixXd(A)};
-        if (dense.info() != Eigen::Success) return Status::not_converged;
-        basis.k = dense.eigenvalues().head(count);
-        basis.shapes = dense.eigenvectors().leftCols(count);
-        return Status::ok;
+        const Eigen::SelfAdjointEigenSolver<MatrixX<Real>> dense{MatrixX<Real>(A)};
+        if (dense.info() != Eigen::Success) return {Status::not_converged};
+        vectors = dense.eigenvectors().leftCols(count);
+        return report;
     }
-    ShiftedInverse inverse(A);
-    if (!inverse.factorize()) return Status::not_positive_definite;
+    ShiftedInverse<Real> inverse(A, bound);
+    if (!inverse.definite()) return {Status::not_positive_definite};
     try {
         const Index space = std::min(N, 2 * count + 20);
-        Spectra::SymEigsShiftSolver<ShiftedInverse> solver(inverse, count, space, -inverse.sigma());
+        Spectra::SymEigsShiftSolver<ShiftedInverse<Real>> solver(inverse, count, space,
+                                                                 -inverse.sigma());
         solver.init();
-        solver.compute(Spectra::SortRule::LargestMagn, options.max_iterations, options.tolerance,
-                       Spectra::SortRule::SmallestAlge);
+        solver.compute(Spectra::SortRule::LargestMagn, options.max_iterations,
+                       Real(options.tolerance), Spectra::SortRule::SmallestAlge);
         report.iterations = static_cast<int>(solver.num_iterations());
-        if (solver.info() != Spectra::CompInfo::Successful) return Status::not_converged;
-        basis.k = solver.eigenvalues();
-        basis.shapes = solver.eigenvectors();
+        if (solver.info() != Spectra::CompInfo::Successful) report.status = Status::not_converged;
+        vectors = solver.eigenvectors();
     } catch (const std::exception&) {
-        return Status::solver_failed;
+        report.status = Status::solver_failed;
     }
-    return Status::ok;
+    return report;
+}
+
+/// The `count` lowest eigenvalues k of A, ascending, and their vectors, orthonormal to rounding.
+/// The report's residual is the largest ‖Aφ − kφ‖, relative to A's stiffest mode.
+template <class Real>
+Report lowest_modes(const SparseMatrix<Real>& A, Index count, const ModalOptions& options,
+                    VectorX<Real>& k, MatrixX<Real>& vectors) {
+    const Real bound = gershgorin_bound(A);
+    MatrixX<Real> found;
+    Report report = lanczos_vectors(A, count, options, bound, found);
+    if (!report) return report;
+    // Lanczos vectors are orthonormal up to its tolerance; Rayleigh and Ritz make them so to
+    // rounding, and the eigenvalues twice as accurate.
+    MatrixX<Real> Q = MatrixX<Real>::Identity(A.rows(), count);
+    Q = Eigen::HouseholderQR<MatrixX<Real>>(found).householderQ() * Q;
+    const Eigen::SelfAdjointEigenSolver<MatrixX<Real>> ritz{MatrixX<Real>(Q.transpose() * (A * Q))};
+    if (ritz.info() != Eigen::Success) return {Status::not_converged, report.iterations};
+    k = ritz.eigenvalues();
+    vectors = Q * ritz.eigenvectors();
+    const MatrixX<Real> left = A * vectors - vectors * k.asDiagonal();
+    report.residual = static_cast<double>(left.colwise().norm().maxCoeff() / bound);
+    const Real rounding =
+        std::sqrt(static_cast<Real>(A.rows())) * std::numeric_limits<Real>::epsilon();
+    k = (k.array().abs() <= 16 * rounding * bound).select(0, k);
+    return report;
 }
 
 }  // namespace solver_detail
@@ -127,24 +155,8 @@ Report modal_analysis(const LinearSystem<Scalar>& system, Index count, ModalBasi
     const SparseMatrix<double> D = system.damping().template cast<double>();
     const SparseMatrix<double> A = scale.asDiagonal() * K * scale.asDiagonal();
     ModalBasis found;
-    Report report;
-    report.status = solver_detail::lowest_eigenpairs(A, count, options, report, found);
+    const Report report = solver_detail::lowest_modes(A, count, options, found.k, found.shapes);
     if (!report) return report;
-    // Lanczos vectors are orthonormal up to its tolerance; Rayleigh and Ritz make them so to
-    // rounding, and the eigenvalues twice as accurate.
-    Eigen::MatrixXd Q = Eigen::MatrixXd::Identity(system.size(), count);
-    Q = Eigen::HouseholderQR<Eigen::MatrixXd>(found.shapes).householderQ() * Q;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz{
-        Eigen::MatrixXd(Q.transpose() * (A * Q))};
-    if (ritz.info() != Eigen::Success) return {Status::not_converged, report.iterations};
-    found.k = ritz.eigenvalues();
-    found.shapes = Q * ritz.eigenvectors();
-    const double bound = solver_detail::ShiftedInverse(A).bound();
-    const Eigen::MatrixXd left = A * found.shapes - found.shapes * found.k.asDiagonal();
-    report.residual = left.colwise().norm().maxCoeff() / bound;
-    const double rounding =
-        std::sqrt(static_cast<double>(system.size())) * std::numeric_limits<double>::epsilon();
-    found.k = (found.k.array().abs() <= 16 * rounding * bound).select(0, found.k);
     found.shapes = scale.asDiagonal() * found.shapes;
     found.d = found.shapes.cwiseProduct(D * found.shapes).colwise().sum().transpose();
     found.p = found.shapes.transpose() * system.load().template cast<double>();

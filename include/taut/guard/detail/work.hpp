@@ -85,7 +85,7 @@ public:
     }
     /// All constant forces, unless see() has counted them, once all steps are taken or after each.
     void add_constant(const State& state) {
-        if (!code_) add_held(system_->external_forces().constant, state);
+        add_held(system_->external_forces().constant, state);
         x_ = state.x;
     }
     /// By whatever changed the state between two steps: the next one begins at `state`.
