@@ -14,6 +14,7 @@
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/lattice/lattice.hpp>
 #include <taut/taut.hpp>
+#include <taut/stability/bracket.hpp>
 #include <type_traits>
 
 namespace {
@@ -95,7 +96,7 @@ template <class Reference = long double, template <class...> class Implicit = ta
 void row(const char* asked, const Make& make, double h = 1.0 / 60, double explicit_h = 0) try {
     const System<double> system = make(0.0);
     const taut::Stability<double> stability(system, system.initial_state());
-    const auto limit = stability.bracket(taut::Method::symplectic_euler);
+    const auto limit = taut::bracket(stability, taut::Method::symplectic_euler);
     const double any = taut::any_pose_limit(system).certified;
     if (explicit_h == 0) explicit_h = std::isfinite(any) ? 0.9 * any : 1.0 / 60;
     const double width = limit.refuted / limit.certified - 1;

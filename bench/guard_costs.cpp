@@ -11,6 +11,8 @@
 #include <cstdlib>
 #include <taut/guard/guard.hpp>
 #include <taut/taut.hpp>
+#include <taut/model/tension_only.hpp>
+#include <taut/scene/with_law.hpp>
 
 #include "measure.hpp"
 

@@ -14,7 +14,7 @@
 #include <taut/lammps/lammps.hpp>
 #include <taut/lammps/lammps_dump.hpp>
 #include <taut/lattice/lattice.hpp>
-#include <taut/stability/stability.hpp>
+#include <taut/stability/bracket.hpp>
 
 #include "measure.hpp"
 
@@ -100,8 +100,8 @@ int limit(const std::string& folder, Index edge, Index steps) {
     const auto lattice = taut::lattice<double>({{edge, edge, edge}});
     const auto rest = lattice.initial_state();
     const taut::Stability<double> stability(lattice, rest);
-    const auto bracket = stability.bracket(taut::Method::velocity_verlet);
-    const auto mode = stability.limiting_mode();
+    const auto bracket = taut::bracket(stability, taut::Method::velocity_verlet);
+    const auto mode = taut::limiting_mode(stability);
     const double kick = 1e-6 * rest.x.maxCoeff();
     auto state = rest;
     Eigen::Map<Eigen::VectorXd>(state.x.data(), state.x.size()) +=

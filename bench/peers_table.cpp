@@ -15,6 +15,7 @@
 #include <taut/projective/projective.hpp>
 #include <taut/solver/conjugate_gradient.hpp>
 #include <taut/taut.hpp>
+#include <taut/scene/mesh.hpp>
 #include <vector>
 
 #include "accuracy.hpp"

@@ -15,6 +15,7 @@
 #include <taut/taut.hpp>
 #include <taut/tight/dense.hpp>
 #include <taut/tight/tight.hpp>
+#include <taut/stability/bracket.hpp>
 #include <tuple>
 #include <vector>
 
@@ -217,7 +218,7 @@ void random_trial(std::mt19937& random, Tally& symplectic, Tally& narrowed, Tall
     const auto system = random_system<Dim>(random);
     const taut::Stability<double> stability(system, system.initial_state());
     if (stability.size() == 0) return;
-    const auto limit = stability.bracket(Method::symplectic_euler);
+    const auto limit = taut::bracket(stability, Method::symplectic_euler);
     if (std::isfinite(limit.certified)) {
         const long double h = true_symplectic(stability.pencil());
         const Truth truth{h, h};
@@ -225,7 +226,7 @@ void random_trial(std::mt19937& random, Tally& symplectic, Tally& narrowed, Tall
         const auto narrow = taut::max_step(stability, Method::symplectic_euler, 1e-4);
         narrowed.add(narrow.certified, narrow.refuted, truth);
     }
-    const auto by_explicit = stability.bracket(Method::explicit_euler);
+    const auto by_explicit = taut::bracket(stability, Method::explicit_euler);
     if (std::isfinite(by_explicit.certified)) {
         const Truth truth = true_explicit(stability.pencil());
         explicit_euler.add(by_explicit.certified, by_explicit.refuted, truth);

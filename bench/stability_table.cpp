@@ -12,6 +12,7 @@
 #include <string>
 #include <taut/taut.hpp>
 #include <taut/tight/tight.hpp>
+#include <taut/stability/bracket.hpp>
 #include <vector>
 
 #include "measure.hpp"
@@ -56,7 +57,7 @@ void brackets_by_bounds() {
         });
         taut::StepLimit<double> limit;
         const Times bracket = measure(n > 200 ? 3 : 7, [&] {
-            limit = taut::Stability<double>(cloth, state).bracket(Method::symplectic_euler);
+            limit = taut::bracket(taut::Stability<double>(cloth, state), Method::symplectic_euler);
         });
         const auto A = scaled_stiffness(taut::Pencil::at_pose(cloth, state.x));
         const Times spectra = measure(n > 100 ? 1 : 3, [&] { spectra_k_max(A); });

@@ -18,6 +18,8 @@
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/projective/projective.hpp>
 #include <taut/taut.hpp>
+#include <taut/model/buckling.hpp>
+#include <taut/model/tension_only.hpp>
 #include <utility>
 
 #include "hanging_net.hpp"

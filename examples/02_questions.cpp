@@ -7,6 +7,7 @@
 #include <taut/mass_scaling/mass_scaling.hpp>
 #include <taut/taut.hpp>
 #include <taut/tight/tight.hpp>
+#include <taut/stability/bracket.hpp>
 
 using taut::Method;
 
@@ -17,7 +18,7 @@ int main() {
     taut::Stability<double> stability(cloth, state);
 
     std::printf("How large may my step be?\n");
-    const auto limit = stability.bracket(Method::symplectic_euler);
+    const auto limit = taut::bracket(stability, Method::symplectic_euler);
     std::printf("  %.5e s is proved stable, %.5e s is not; set by %s\n", limit.certified,
                 limit.refuted, name(limit.cause));
 
@@ -43,7 +44,7 @@ int main() {
     std::printf("  %.3e s, by EnergyStableEuler\n", stable.certified);
 
     std::printf("What limits the step?\n");
-    for (const auto& spring : stability.limiting_springs(1)) {
+    for (const auto& spring : taut::limiting_springs(stability, 1)) {
         std::printf("  spring %d between particles %d and %d: %.0f %% of the limiting mode\n",
                     static_cast<int>(spring.index), static_cast<int>(spring.a),
                     static_cast<int>(spring.b), 100 * spring.share);

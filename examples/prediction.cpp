@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 #include <taut/own_matrices/own_matrices.hpp>
+#include <taut/stability/bracket.hpp>
 #include <utility>
 
 #include "common/main.hpp"
@@ -126,11 +127,12 @@ void require_steps(const char* label, const taut::StepLimit<double>& limit) {
 Limited find_limit(const char* label, const example::System& system, Method method) {
     const auto pose = system.initial_state();
     const taut::Stability<double> stability(system, pose);
-    const auto limit = stability.bracket(method);
+    const auto limit = taut::bracket(stability, method);
     require_steps(label, limit);
     const auto linear = taut::linearize(system, pose);
-    return {
-        {linear.mass(), linear.damping(), linear.stiffness()}, limit, stability.limiting_mode()};
+    return {{linear.mass(), linear.damping(), linear.stiffness()},
+            limit,
+            taut::limiting_mode(stability)};
 }
 
 Plan make_plan(example::System& system, double duration) {

@@ -11,6 +11,7 @@
 #include <string>
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/tight/tight.hpp>
+#include <taut/stability/bracket.hpp>
 
 #include "common/lammps_files.hpp"
 #include "common/main.hpp"
@@ -57,7 +58,7 @@ void analyse(const taut::Stability<double>& stability, const Options& options, P
              Findings& found) {
     progress.at(options.proof ? "narrowing the limits by factorisations" : "bounding the limits");
     found.degrees_of_freedom = stability.size();
-    found.spectrum = stability.stiffness_spectrum();
+    found.spectrum = taut::stiffness_spectrum(stability);
     if (options.zero_modes) found.zero_modes = taut::count_zero_modes(stability);
     const double tightness = options.proof ? proof_tightness : 0;
     found.explicit_euler = taut::max_step(stability, Method::explicit_euler, tightness);
@@ -73,17 +74,17 @@ void analyse(const taut::Stability<double>& stability, const Options& options, P
     const auto limiting_mode = [&]() -> const taut::LimitingMode& {
         if (!found.limiting_mode) {
             progress.at("finding the limiting vibration");
-            found.limiting_mode = stability.limiting_mode();
+            found.limiting_mode = taut::limiting_mode(stability);
         }
         return *found.limiting_mode;
     };
     if (!options.html.empty()) limiting_mode();
     if (options.blame > 0) {
         const auto& mode = limiting_mode();
-        found.springs_to_blame = stability.limiting_springs(options.blame, mode);
-        found.particles_to_blame = stability.limiting_particles(options.blame, mode);
+        found.springs_to_blame = taut::limiting_springs(stability, options.blame, mode);
+        found.particles_to_blame = taut::limiting_particles(stability, options.blame, mode);
         double squares = 0;
-        for (const auto& one : stability.limiting_particles(stability.size(), mode))
+        for (const auto& one : taut::limiting_particles(stability, stability.size(), mode))
             squares += one.share * one.share;
         found.participants = squares > 0 ? 1 / squares : 0;
     }

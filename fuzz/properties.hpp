@@ -14,6 +14,7 @@
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/projective/projective.hpp>
 #include <taut/tight/tight.hpp>
+#include <taut/stability/bracket.hpp>
 
 #include "soup.hpp"
 
@@ -36,7 +37,7 @@ void require_sound(const Stability& stability) {
     for (int i = 0; i <= static_cast<int>(Method::last); ++i) {
         const auto method = static_cast<Method>(i);
         if (taut::method::is_limited_by<taut::method::Absent>(method)) continue;
-        const auto bound = stability.bracket(method);
+        const auto bound = taut::bracket(stability, method);
         const auto narrow = taut::max_step(stability, method, 1e-3);
         require_numbers(bound);
         require_numbers(narrow);
@@ -52,12 +53,12 @@ void require_sound(const Stability& stability) {
         });
     }
     (void)taut::count_zero_modes(stability);
-    const auto spectrum = stability.stiffness_spectrum();
+    const auto spectrum = taut::stiffness_spectrum(stability);
     require(spectrum.k_max.lower <= spectrum.k_max.upper, "the bracket of k_max is not empty");
     require(spectrum.k_min.lower <= spectrum.k_min.upper, "the bracket of k_min is not empty");
     accepted([&] { (void)stability.rayleigh_window(Method::explicit_euler, 0.01); });
-    (void)stability.limiting_springs(3);
-    (void)stability.limiting_particles(3);
+    (void)taut::limiting_springs(stability, 3);
+    (void)taut::limiting_particles(stability, 3);
 }
 
 /// Five steps: each leaves a finite state, or a Report and the state as it was.

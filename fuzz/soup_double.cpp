@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
+#include <taut/model/buckling.hpp>
+#include <taut/model/tension_only.hpp>
+
 #include "properties.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

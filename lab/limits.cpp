@@ -10,6 +10,7 @@
 #include <taut/stability/any_pose.hpp>
 #include <taut/stability/energy_limit.hpp>
 #include <taut/stability/stability.hpp>
+#include <taut/stability/bracket.hpp>
 #include <vector>
 
 #include "../examples/common/kick.hpp"
@@ -47,7 +48,7 @@ double any_pose(Method method) {
 
 const taut::StepLimit<double>& at_pose(int method) {
     auto& limit = found.at_pose[std::size_t(method)];
-    if (!limit) limit = found.stability->bracket(static_cast<Method>(method));
+    if (!limit) limit = taut::bracket(*found.stability, static_cast<Method>(method));
     return *limit;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
+#include <taut/model/tension_only.hpp>
+
 #include "../measure.hpp"
 #include "scenes.hpp"
 #include "tables.hpp"

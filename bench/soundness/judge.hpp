@@ -7,7 +7,7 @@
 #include <taut/method/visit.hpp>
 #include <taut/stability/any_pose.hpp>
 #include <taut/stability/energy_limit.hpp>
-#include <taut/stability/stability.hpp>
+#include <taut/stability/bracket.hpp>
 #include <taut/tight/tight.hpp>
 
 #include "claims.hpp"
@@ -211,7 +211,7 @@ void judge_stability(Draw& draw, Judge& judge, const taut::Stability<Scalar>& st
     for (const Method method :
          {Method::symplectic_euler, Method::explicit_euler, Method::implicit_euler}) {
         const std::string label = taut::name(method);
-        const auto bound = stability.bracket(method);
+        const auto bound = taut::bracket(stability, method);
         const auto narrow = taut::max_step(stability, method, tightness);
         judge.limit(method, label + ", by bounds", bound);
         judge.limit(method, label + ", narrowed", narrow);
@@ -224,7 +224,7 @@ void judge_stability(Draw& draw, Judge& judge, const taut::Stability<Scalar>& st
         if (h > 0 && std::isfinite(h) && taut::certify(stability, method, h).proved)
             judge.certifies(method, label + ", certify: proved", h, 0);
     }
-    const auto spectrum = stability.stiffness_spectrum();
+    const auto spectrum = taut::stiffness_spectrum(stability);
     judge.spectrum(spectrum);
     const double k = spectrum.k_max.upper;
     const double h = draw.uniform(0.01, 1) * 2 / std::sqrt(k);
@@ -285,7 +285,7 @@ void judge_springs(Draw& draw, Tally& tally) {
     judge_pose(draw, tally, scene);
     if (!draw.one_in(8)) return;
     const taut::Stability<typename System::Scalar> stability(scene.system, scene.state);
-    const auto [lower, upper] = stability.stiffness_spectrum().k_max;
+    const auto [lower, upper] = taut::stiffness_spectrum(stability).k_max;
     const double k = draw.one_in(2) ? lower : upper;
     if (!(k > 0) || !std::isfinite(k)) return;
     const double d0 = draw.one_in(3) ? 0 : draw.uniform(0, 2) * std::sqrt(k);

@@ -10,6 +10,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <stdexcept>
+#include <taut/model/buckling.hpp>
+#include <taut/model/tension_only.hpp>
 
 #include "judge.hpp"
 #include "once_false.hpp"

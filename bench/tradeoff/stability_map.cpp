@@ -14,6 +14,7 @@
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/taut.hpp>
 #include <taut/tight/tight.hpp>
+#include <taut/stability/bracket.hpp>
 
 namespace {
 
@@ -76,7 +77,7 @@ void print_map() {
             const Cloth cloth = scene(alpha_at(column));
             const auto start = disturbed(cloth);
             const auto limit =
-                taut::Stability<double>(cloth, cloth.initial_state()).bracket(method);
+                taut::bracket(taut::Stability<double>(cloth, cloth.initial_state()), method);
             for (int row = 0; row < rows; ++row) {
                 const double h = step_at(row);
                 const char* analysis = h <= limit.certified ? "certified"
@@ -100,7 +101,7 @@ void print_limits() {
             const double alpha = 1e-5 * std::pow(2000, i / 200.0);
             const Cloth cloth = scene(alpha);
             const auto limit =
-                taut::Stability<double>(cloth, cloth.initial_state()).bracket(method);
+                taut::bracket(taut::Stability<double>(cloth, cloth.initial_state()), method);
             std::printf("%s,%.6g,%.8g,%.8g\n", name(method), alpha, limit.certified, limit.refuted);
         }
     }

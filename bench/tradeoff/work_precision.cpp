@@ -11,6 +11,7 @@
 #include <taut/recommend/recommend.hpp>
 #include <taut/taut.hpp>
 #include <taut/tradeoff/tradeoff.hpp>
+#include <taut/scene/mesh.hpp>
 
 #include "../../examples/common/mesh_file.hpp"
 #include "../measure.hpp"

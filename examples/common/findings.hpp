@@ -11,6 +11,7 @@
 #include <taut/resolution/resolution.hpp>
 #include <taut/taut.hpp>
 #include <taut/tight/tight.hpp>
+#include <taut/stability/bracket.hpp>
 #include <vector>
 
 // What stability_report finds.

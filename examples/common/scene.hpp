@@ -8,6 +8,7 @@
 #include <string>
 #include <taut/mesh_files/mesh_files.hpp>
 #include <taut/taut.hpp>
+#include <taut/scene/mesh.hpp>
 #include <utility>
 #include <vector>
 

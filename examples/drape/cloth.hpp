@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <taut/model/buckling.hpp>
+#include <taut/model/tension_only.hpp>
+
 #include "options.hpp"
 #include "step.hpp"
 

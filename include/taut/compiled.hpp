@@ -6,8 +6,6 @@
 #include "integrator/explicit_euler.hpp"
 #include "integrator/symplectic_euler.hpp"
 #include "integrator/velocity_verlet.hpp"
-#include "model/buckling.hpp"
-#include "model/tension_only.hpp"
 #include "scene/cloth.hpp"
 #include "stability/any_pose.hpp"
 #include "stability/energy_limit.hpp"
@@ -15,7 +13,8 @@
 
 // What the library Taut::Compiled holds: explicit instantiations for float and double, two and
 // three dimensions, springs by Hookean, by TensionOnly, and by Hookean with Buckling; Hookean
-// springs in one dimension. Its users see them declared by taut.hpp; every module, other law,
+// springs in one dimension. Its users see them declared by taut.hpp, by a law's header and by those
+// of implicit_euler and bracket; every module, other law,
 // scalar or solver is compiled with the program as without it.
 //
 // KIND is `template` in the library's own sources, `extern template` elsewhere. A system's template
@@ -27,8 +26,6 @@
 
 #define TAUT_COMPILED_ANALYSIS(KIND, SCALAR)                                 \
     KIND struct SpringSet<SCALAR, Hookean>;                                  \
-    KIND struct SpringSet<SCALAR, TensionOnly>;                              \
-    KIND struct SpringSet<SCALAR, Buckling>;                                 \
     KIND SpringSystem<SCALAR, 3> hanging_cloth<SCALAR>(const ClothOptions&); \
     KIND class Stability<SCALAR>;
 
@@ -98,21 +95,12 @@
     TAUT_COMPILED_LAW(KIND, SCALAR, DIM, LAW)             \
     KIND void LawPlan<SCALAR, DIM, LAW>::add_forces<true>(const TileView<SCALAR>&) const;
 
-#define TAUT_COMPILED_LAWS(KIND, SCALAR)                 \
-    namespace integrator_detail::sweep {                 \
-    TAUT_COMPILED_LAW(KIND, SCALAR, 2, TensionOnly)      \
-    TAUT_COMPILED_LAW(KIND, SCALAR, 3, TensionOnly)      \
-    TAUT_COMPILED_PUSHING_LAW(KIND, SCALAR, 1, Hookean)  \
-    TAUT_COMPILED_PUSHING_LAW(KIND, SCALAR, 2, Hookean)  \
-    TAUT_COMPILED_PUSHING_LAW(KIND, SCALAR, 3, Hookean)  \
-    TAUT_COMPILED_PUSHING_LAW(KIND, SCALAR, 2, Buckling) \
-    TAUT_COMPILED_PUSHING_LAW(KIND, SCALAR, 3, Buckling) \
+#define TAUT_COMPILED_LAWS(KIND, SCALAR)                \
+    namespace integrator_detail::sweep {                \
+    TAUT_COMPILED_PUSHING_LAW(KIND, SCALAR, 1, Hookean) \
+    TAUT_COMPILED_PUSHING_LAW(KIND, SCALAR, 2, Hookean) \
+    TAUT_COMPILED_PUSHING_LAW(KIND, SCALAR, 3, Hookean) \
     }
-
-#define TAUT_COMPILED_PENCILS(KIND)                                                         \
-    KIND RitzPair largest_ritz_pair<double>(const Pencil&, const Combination&,              \
-                                            const LanczosOptions&, const Eigen::VectorXd&); \
-    KIND RitzPair leading_pair<double>(const Pencil&, const Combination&, const Eigen::VectorXd&);
 
 #define TAUT_COMPILED_STEPPER(KIND, ...) \
     KIND class __VA_ARGS__;              \
@@ -139,18 +127,10 @@
     TAUT_COMPILED_STEPPER(KIND, VelocityVerlet<SpringSystem<__VA_ARGS__>>)                \
     TAUT_COMPILED_STEPPER(KIND, EnergyStableEuler<SpringSystem<__VA_ARGS__>>)
 
-#define TAUT_COMPILED_EACH_LAW(KIND, SCALAR, DIM)                     \
-    TAUT_COMPILED_SYSTEM(KIND, SCALAR, DIM, SCALAR, DIM)              \
-    TAUT_COMPILED_SYSTEM(KIND, SCALAR, DIM, SCALAR, DIM, TensionOnly) \
-    TAUT_COMPILED_SYSTEM(KIND, SCALAR, DIM, SCALAR, DIM, Hookean, Buckling)
-
-#define TAUT_COMPILED_EACH_SYSTEM(KIND)              \
-    TAUT_COMPILED_SYSTEM(KIND, float, 1, float, 1)   \
-    TAUT_COMPILED_SYSTEM(KIND, double, 1, double, 1) \
-    TAUT_COMPILED_EACH_LAW(KIND, float, 2)           \
-    TAUT_COMPILED_EACH_LAW(KIND, float, 3)           \
-    TAUT_COMPILED_EACH_LAW(KIND, double, 2)          \
-    TAUT_COMPILED_EACH_LAW(KIND, double, 3)
+#define TAUT_COMPILED_EACH_SYSTEM(KIND, SCALAR)      \
+    TAUT_COMPILED_SYSTEM(KIND, SCALAR, 1, SCALAR, 1) \
+    TAUT_COMPILED_SYSTEM(KIND, SCALAR, 2, SCALAR, 2) \
+    TAUT_COMPILED_SYSTEM(KIND, SCALAR, 3, SCALAR, 3)
 
 namespace taut {
 namespace detail {
@@ -168,14 +148,14 @@ namespace {
     detail::compiled_for<EIGEN_MAX_ALIGN_BYTES, EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION>();
 }  // namespace
 #endif
-TAUT_COMPILED_PENCILS(extern template)
 TAUT_COMPILED_SWEEP(extern template, float)
 TAUT_COMPILED_SWEEP(extern template, double)
 TAUT_COMPILED_LAWS(extern template, float)
 TAUT_COMPILED_LAWS(extern template, double)
 TAUT_COMPILED_ANALYSIS(extern template, float)
 TAUT_COMPILED_ANALYSIS(extern template, double)
-TAUT_COMPILED_EACH_SYSTEM(extern template)
+TAUT_COMPILED_EACH_SYSTEM(extern template, float)
+TAUT_COMPILED_EACH_SYSTEM(extern template, double)
 #endif
 
 }  // namespace taut

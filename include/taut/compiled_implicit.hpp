@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "compiled.hpp"
+#include "compiled_laws.hpp"
 #include "integrator/implicit_euler.hpp"
 #include "solver/conjugate_gradient.hpp"
 #include "solver/interleaved_llt.hpp"

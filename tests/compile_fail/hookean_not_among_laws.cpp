@@ -3,6 +3,7 @@
 // EXPECT: taut::SpringSystem::add_spring: the law is not one of the system's Laws
 
 #include <taut/model/spring_system.hpp>
+#include <taut/model/tension_only.hpp>
 
 #include "../support/laws.hpp"
 

@@ -15,6 +15,8 @@
 #include <taut/core/types.hpp>
 #include <taut/model/spring_system.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
+#include <taut/model/buckling.hpp>
+#include <taut/model/tension_only.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/laws.hpp"

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include <taut/own_matrices/own_matrices.hpp>
+#include <taut/stability/bracket.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/message.hpp"
@@ -46,7 +47,7 @@ TEST_CASE("long_double: poses are not rounded to double before they are analysed
         system.pin(1);
         system.pin(2);
         const Stability stability(system, system.initial_state());
-        const auto free = stability.bracket(Method::symplectic_euler);
+        const auto free = taut::bracket(stability, Method::symplectic_euler);
         const Long truth = 2 / std::sqrt(k / m);
         CAPTURE(repeat);
         CHECK((free.certified <= truth && free.certified >= truth * (1 - 1e-9L)));
@@ -58,7 +59,7 @@ TEST_CASE("long_double: poses are not rounded to double before they are analysed
         auto state = pressed.initial_state();
         state.x(0, 0) = 1;
         const Long l = state.x(0, 1) - state.x(0, 0);
-        const auto limit = Stability(pressed, state).bracket(Method::symplectic_euler);
+        const auto limit = taut::bracket(Stability(pressed, state), Method::symplectic_euler);
         CHECK_THAT(limit.growth_rate,
                    WithinRel(static_cast<double>(std::sqrt(k * (1 / l - 1) / m)), 1e-6));
         CHECK(limit.cause == taut::Cause::buckling);

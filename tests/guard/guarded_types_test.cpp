@@ -8,6 +8,7 @@
 #include <taut/scene/cloth.hpp>
 #include <taut/scene/with_law.hpp>
 #include <taut/wind/wind.hpp>
+#include <taut/model/tension_only.hpp>
 #include <vector>
 
 #include "../support/catch.hpp"

@@ -8,6 +8,8 @@
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/model/spring_system.hpp>
+#include <taut/model/buckling.hpp>
+#include <taut/model/tension_only.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/laws.hpp"

@@ -7,6 +7,7 @@
 #include <taut/scene/with_law.hpp>
 #include <taut/stability/energy_limit.hpp>
 #include <taut/wind/wind.hpp>
+#include <taut/model/tension_only.hpp>
 #include <vector>
 
 #include "../support/catch.hpp"

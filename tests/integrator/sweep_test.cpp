@@ -4,6 +4,7 @@
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/integrator/velocity_verlet.hpp>
 #include <taut/scene/cloth.hpp>
+#include <taut/model/tension_only.hpp>
 
 #include <limits>
 #include <numeric>

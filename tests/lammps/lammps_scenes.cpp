@@ -6,6 +6,7 @@
 #include <taut/lattice/lattice.hpp>
 #include <taut/taut.hpp>
 #include <taut/wind/wind.hpp>
+#include <taut/stability/bracket.hpp>
 
 #include "../support/scene_on.hpp"
 
@@ -81,7 +82,7 @@ taut::LimitingMode limiting_mode(const Scene& scene, const AnyState& state) {
     taut::LimitingMode mode;
     visit_system<Plain<double, 3>>(scene, [&](const auto& system) {
         const taut::Stability<double> stability(system, from_any<taut::State<double, 3>>(state));
-        mode = stability.limiting_mode();
+        mode = taut::limiting_mode(stability);
     });
     return mode;
 }

@@ -8,6 +8,7 @@
 #include <taut/lammps/lammps_dump.hpp>
 #include <taut/lammps/lammps_options.hpp>
 #include <taut/stability/stability.hpp>
+#include <taut/stability/bracket.hpp>
 
 #include "../support/scene.hpp"
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <string>
+#include <taut/model/tension_only.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/message.hpp"

@@ -4,6 +4,8 @@
 #include <limits>
 #include <string>
 #include <taut/integrator/sweep/register.hpp>
+#include <taut/model/buckling.hpp>
+#include <taut/model/tension_only.hpp>
 #include <utility>
 
 #include "../support/catch.hpp"

@@ -3,6 +3,7 @@
 #include <functional>
 #include <limits>
 #include <taut/model/spring_system.hpp>
+#include <taut/model/buckling.hpp>
 #include <vector>
 
 #include "../support/catch.hpp"

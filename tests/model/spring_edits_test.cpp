@@ -3,6 +3,7 @@
 // Edits of a system that is being simulated: what they leave, what they raise, what they refuse.
 #include <limits>
 #include <taut/stability/any_pose.hpp>
+#include <taut/model/buckling.hpp>
 #include <tuple>
 #include <vector>
 

@@ -3,6 +3,7 @@
 // Building and revisions. What is refused: refusals_test.cpp.
 #include <taut/model/spring_system.hpp>
 #include <taut/model/tangent_matrix.hpp>
+#include <taut/model/buckling.hpp>
 #include <utility>
 #include <vector>
 

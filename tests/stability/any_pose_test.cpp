@@ -3,6 +3,7 @@
 #include <cmath>
 #include <taut/model/spring_system.hpp>
 #include <taut/stability/energy_limit.hpp>
+#include <taut/stability/bracket.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/stability_scenes.hpp"

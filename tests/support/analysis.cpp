@@ -63,7 +63,7 @@ double Analysis::min_mass_scale(taut::Method method, double h) const {
     return std::visit([&](const auto& s) { return s.min_mass_scale(method, h); }, of_);
 }
 taut::StiffnessSpectrum Analysis::stiffness_spectrum() const {
-    return std::visit([](const auto& s) { return s.stiffness_spectrum(); }, of_);
+    return std::visit([](const auto& s) { return taut::stiffness_spectrum(s); }, of_);
 }
 const taut::Pencil& Analysis::pencil() const {
     return std::visit([](const auto& s) -> const taut::Pencil& { return s.pencil(); }, of_);

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <taut/integrator/energy_stable_euler.hpp>
+#include <taut/model/buckling.hpp>
+#include <taut/model/tension_only.hpp>
 
 #include "energy_networks.hpp"
 

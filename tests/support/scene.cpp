@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include <taut/model/buckling.hpp>
+#include <taut/model/tension_only.hpp>
+
 #include "scene_on.hpp"
 
 namespace taut_test {

@@ -6,6 +6,9 @@
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/taut.hpp>
+#include <taut/stability/bracket.hpp>
+#include <taut/model/buckling.hpp>
+#include <taut/model/tension_only.hpp>
 
 #include "laws.hpp"
 #include "scene.hpp"
@@ -239,7 +242,8 @@ public:
         return to_any(taut::energy_bracket(system));
     }
     taut::StepLimit<double> limit(taut::Method method, const AnyState& state) const override {
-        return to_any(taut::Stability<Scalar>(system, from_any<State>(state)).bracket(method));
+        return to_any(
+            taut::bracket(taut::Stability<Scalar>(system, from_any<State>(state)), method));
     }
     std::unique_ptr<AnyStepper> stepper(taut::Method method, int threads) const override {
         const taut::ExplicitOptions options{threads};

@@ -155,3 +155,7 @@ private:
 };
 
 }  // namespace taut
+
+#if defined(TAUT_COMPILED)
+#include "../compiled_laws.hpp"
+#endif

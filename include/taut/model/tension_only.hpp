@@ -43,3 +43,7 @@ struct TensionOnly {
 };
 
 }  // namespace taut
+
+#if defined(TAUT_COMPILED)
+#include "../compiled_laws.hpp"
+#endif

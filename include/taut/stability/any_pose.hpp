@@ -13,21 +13,13 @@ namespace taut {
 ///
 /// It bounds the growth of small vibrations about each pose that a scene moves through, not the
 /// energy of the motion. energy_limit bounds that.
-/// `certified`, s, is proved; `refuted` is not looked for, see any_pose_bracket. Wind and other
-/// external forces are not counted: they need not be conservative, nor a drag bounded. Void when
-/// stiffness or damping is added, mass removed or a particle unpinned (see StepLimit::step_for).
+/// `certified`, s, is proved; `refuted` is not looked for, see any_pose_bracket in bracket.hpp.
+/// Wind and other external forces are not counted: they need not be conservative, nor a drag
+/// bounded. Void when stiffness or damping is added, mass removed or a particle unpinned (see
+/// StepLimit::step_for).
 template <class Scalar, int Dim, class... Laws>
 StepLimit<Scalar> any_pose_limit(const SpringSystem<Scalar, Dim, Laws...>& system) {
     return stability_detail::of_laplacians<Scalar>(Pencil::any_pose(system), system.revision());
-}
-
-/// any_pose_limit with `refuted`, s, where the condition itself fails: no larger step can be
-/// certified for every pose in this way, though a given pose may allow one.
-template <class Scalar, int Dim, class... Laws>
-StepLimit<Scalar> any_pose_bracket(const SpringSystem<Scalar, Dim, Laws...>& system) {
-    stability_detail::NoEffort bounds;
-    return stability_detail::bracket_of_laplacians<Scalar>(Pencil::any_pose(system), bounds,
-                                                           system.revision());
 }
 
 }  // namespace taut

@@ -24,13 +24,4 @@ StepLimit<Scalar> energy_limit(const SpringSystem<Scalar, Dim, Laws...>& system)
                                                    system.revision(), 0.5);
 }
 
-/// energy_limit with `refuted`, s, above which the condition fails. That ends the proof, not the
-/// scene: some motion may gain energy there, most will not.
-template <class Scalar, int Dim, class... Laws>
-StepLimit<Scalar> energy_bracket(const SpringSystem<Scalar, Dim, Laws...>& system) {
-    stability_detail::NoEffort bounds;
-    return stability_detail::bracket_of_laplacians<Scalar>(
-        Pencil::any_pose(system, Pencil::Damping::half), bounds, system.revision(), 0.5);
-}
-
 }  // namespace taut

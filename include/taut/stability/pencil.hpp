@@ -300,9 +300,16 @@ private:
     std::shared_ptr<const BareMatrices> matrices_;
 };
 
+namespace stability_detail {
+
+using namespace matrices;
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
+}  // namespace stability_detail
 }  // namespace taut
 
 #include "detail/pencil_bound.ipp"
 #include "detail/pencil_matrix.ipp"
 #include "detail/pencil_scene.ipp"
-#include "detail/pencil_shares.ipp"
+#include "detail/pencil_scaled.ipp"

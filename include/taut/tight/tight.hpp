@@ -7,9 +7,7 @@
 #include <limits>
 
 #include "../method/mode.hpp"
-#include "../stability/any_pose.hpp"
-#include "../stability/energy_limit.hpp"
-#include "../stability/stability.hpp"
+#include "../stability/bracket.hpp"
 #include "certificate.hpp"
 #include "dense.hpp"
 #include "detail/factorisations.hpp"
@@ -29,9 +27,9 @@ namespace taut {
 template <class Scalar>
 StepLimit<Scalar> max_step(const Stability<Scalar>& stability, Method method, double tightness) {
     require_non_negative("max_step", "tightness", tightness);
-    if (tightness == 0) return stability.bracket(method);
+    if (tightness == 0) return bracket(stability, method);
     stability_detail::Factorisations<> effort(tightness);
-    return stability.bracket(method, effort);
+    return stability_detail::bracket(stability, method, effort);
 }
 
 /// any_pose_limit(system), narrowed by factorisations of n × n matrices until refuted/certified ≤
@@ -71,7 +69,7 @@ Certificate certify(const Stability<Scalar>& stability, Method method, double h)
     require_positive("certify", "h", h);
     certificate.proved = h <= static_cast<double>(stability.max_step(method).certified);
     if (certificate.proved) return certificate;
-    const StepLimit<Scalar> bound = stability.bracket(method);
+    const StepLimit<Scalar> bound = bracket(stability, method);
     if (!(h < static_cast<double>(bound.refuted))) return certificate;
     const Pencil& pencil = stability.pencil();
     const double wide = h * (1 + stability_detail::step_rounding<Scalar>);
@@ -100,7 +98,7 @@ template <class Scalar>
 Index count_zero_modes(const Stability<Scalar>& stability) {
     if (stability.size() == 0) return 0;
     return stability_detail::count_zero_modes(stability.pencil(),
-                                              stability.stiffness_spectrum().k_max.upper);
+                                              stiffness_spectrum(stability).k_max.upper);
 }
 
 /// Largest |μ| of one step of size h, s, apart from zero modes; of BDF2 too. Exact to rounding up

@@ -4,16 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "../lanczos.hpp"
 
 namespace taut::stability_detail {
-
-using namespace matrices;
-
-inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// What one vector says of a system: enclosures of uᵀKu/uᵀMu, 1/s², and uᵀDu/uᵀMu, 1/s.
 struct Quotients {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "../../core/detail/bisection.hpp"
 #include "../../method/visit.hpp"
@@ -15,16 +14,6 @@
 // What would make a step safe, by the bound alone.
 
 namespace taut::stability_detail {
-
-/// The `count` largest shares, in descending order.
-template <class Share>
-std::vector<Share> largest_shares(std::vector<Share> shares, Index count) {
-    const auto kept = std::clamp<Index>(count, 0, static_cast<Index>(shares.size()));
-    std::partial_sort(shares.begin(), shares.begin() + kept, shares.end(),
-                      [](const Share& a, const Share& b) { return a.share > b.share; });
-    shares.resize(static_cast<std::size_t>(kept));
-    return shares;
-}
 
 // The step that the bound certifies by what limits the method, s.
 inline double certified_by(method::LimitedByDamping, const Pencil& pencil) {

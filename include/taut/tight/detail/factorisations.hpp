@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "../../core/detail/bisection.hpp"
-#include "../../stability/detail/explicit_limit.hpp"
-#include "../../stability/detail/symplectic_limit.hpp"
+#include "../../stability/detail/explicit_bracket.hpp"
+#include "../../stability/detail/symplectic_bracket.hpp"
 #include "../certificate.hpp"
 #include "../dense.hpp"
 #include "../explicit_estimate.hpp"
