@@ -70,7 +70,7 @@ double refuted_energy_stable(const Eigen::VectorXd& shape) {
 taut::LimitingMode limiting_mode() {
     constexpr taut::Index large = 15'000;  // particles
     const auto& cloth = lab::scene().cloth;
-    if (cloth.size() <= large) return found.stability->limiting_mode();
+    if (cloth.size() <= large) return taut::limiting_mode(*found.stability);
     taut::LanczosOptions options;
     options.tolerance = 3e-3;
     const auto pair =
