@@ -53,12 +53,12 @@ inline double certified_explicit(const Pencil& pencil, double k, double d) {
     if (!std::isfinite(k)) return 0;
     const auto [d0, alpha] = pencil.rayleigh();
     if (pencil.is_rayleigh() && pencil.stiffness_semidefinite()) {
-        // k may be anything in (0, k_max]: as k → 0 the limit is 2/d0, or α when d0 = 0 [T9],
-        // [T13]. Where rounding leaves springs slightly compressed, by κ: 4 − 2hd0 − h²κ ≥ 0 [T17].
+        // k may be anything in (0, k_max]: as k → 0 the limit is 2/d0 [T9], [T13], or α where d0 =
+        // 0, which the limit of no k exceeds. Where rounding leaves springs slightly compressed, by
+        // κ: 4 − 2hd0 − h²κ ≥ 0 [T17].
         if (!(k > 0)) return critical_step(Method::explicit_euler, 0, d0);
         const double at_zero = critical_step(Method::symplectic_euler, pencil.compression(), d0);
-        return std::min(
-            {at_zero, d0 > 0 ? infinity : alpha, explicit_mode_limit(k, d0 + alpha * k).lower});
+        return std::min(at_zero, explicit_mode_limit(k, d0 + alpha * k).lower);
     }
     // The stable steps are an interval (0, h_max) [T18]. Where damping is weak it ends near the
     // limit that K alone sets for any commuting damping [T12].
