@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/stability/stability.hpp>
-#include <taut/stability/bracket.hpp>
 #include <utility>
 #include <vector>
 

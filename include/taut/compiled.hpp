@@ -14,8 +14,8 @@
 // What the library Taut::Compiled holds: explicit instantiations for float and double, two and
 // three dimensions, springs by Hookean, by TensionOnly, and by Hookean with Buckling; Hookean
 // springs in one dimension. Its users see them declared by taut.hpp, by a law's header and by those
-// of implicit_euler and bracket; every module, other law,
-// scalar or solver is compiled with the program as without it.
+// of implicit_euler and bracket; every module, other law, scalar or solver is compiled with the
+// program as without it.
 //
 // KIND is `template` in the library's own sources, `extern template` elsewhere. A system's template
 // arguments come last: its scalar, its dimension, its laws.

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 #include <taut/model/spring_system.hpp>
-#include <taut/stability/energy_limit.hpp>
 #include <taut/stability/bracket.hpp>
 
 #include "../support/catch.hpp"

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include <taut/integrator/implicit_euler.hpp>
-#include <taut/stability/bracket.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/stability_scenes.hpp"

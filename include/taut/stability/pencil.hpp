@@ -161,7 +161,7 @@ public:
     std::vector<Real> particle_loads(const Combination& c, const std::vector<Real>& p) const;
 
     /// The springs' shares in the elastic energy of mode u, by K⁺, in no order; empty without
-    /// springs.
+    /// springs. Defined by bracket.hpp, as the next one.
     template <class Real = double>
     std::vector<SpringShare> spring_shares(const Eigen::VectorXd& u) const;
     /// The particles' shares in its kinetic energy, in no order; without springs a "particle" is a

@@ -83,7 +83,8 @@ public:
     void add_held(const Force& held, const State& state) {
         for (Index i = 0; i < held.cols(); ++i) add(parts_->of(i), along(held, state, i));
     }
-    /// All constant forces, unless see() has counted them, once all steps are taken or after each.
+    /// All constant forces, once all steps are taken or after each. Where see() has counted them,
+    /// nothing is left of their way.
     void add_constant(const State& state) {
         add_held(system_->external_forces().constant, state);
         x_ = state.x;
