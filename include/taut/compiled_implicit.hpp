@@ -6,18 +6,29 @@
 #include "integrator/implicit_euler.hpp"
 #include "solver/conjugate_gradient.hpp"
 #include "solver/interleaved_llt.hpp"
+#include "solver/sparse_cholesky.hpp"
 
 // What the library Taut::Compiled holds of implicit steps: as compiled.hpp, for who includes
 // integrator/implicit_euler.hpp.
 
 #define TAUT_COMPILED_SOLVERS(KIND, SCALAR)  \
     KIND class InterleavedLLT<SCALAR>;       \
-    KIND class TwoLevel<SCALAR, 1>;          \
-    KIND class TwoLevel<SCALAR, 2>;          \
-    KIND class TwoLevel<SCALAR, 3>;          \
-    KIND class ConjugateGradient<SCALAR, 1>; \
-    KIND class ConjugateGradient<SCALAR, 2>; \
-    KIND class ConjugateGradient<SCALAR, 3>;
+    TAUT_COMPILED_GRADIENTS(KIND, SCALAR, 1) \
+    TAUT_COMPILED_GRADIENTS(KIND, SCALAR, 2) \
+    TAUT_COMPILED_GRADIENTS(KIND, SCALAR, 3) \
+    TAUT_COMPILED_LINEAR_SOLVE(KIND, SCALAR, SparseCholesky<SCALAR>)
+
+#define TAUT_COMPILED_GRADIENTS(KIND, SCALAR, DIM) \
+    KIND class TwoLevel<SCALAR, DIM>;              \
+    KIND class ConjugateGradient<SCALAR, DIM>;     \
+    TAUT_COMPILED_LINEAR_SOLVE(KIND, SCALAR, ConjugateGradient<SCALAR, DIM>)
+
+#define TAUT_COMPILED_LINEAR_SOLVE(KIND, SCALAR, ...)                           \
+    KIND class integrator_detail::FactorCache<__VA_ARGS__, SCALAR>;             \
+    KIND class integrator_detail::LinearSolve<__VA_ARGS__, SCALAR>;             \
+    KIND Report integrator_detail::LinearSolve<__VA_ARGS__, SCALAR>::solve(     \
+        const integrator_detail::StepMatrix<SCALAR>&, VectorX<SCALAR>&, SCALAR, \
+        integrator_detail::NothingHeld&&);
 
 #define TAUT_COMPILED_TANGENT(KIND, SCALAR, DIM) \
     KIND class TangentMatrix<SCALAR, DIM>;       \

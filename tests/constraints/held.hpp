@@ -6,6 +6,7 @@
 #include <taut/constraints/constraints.hpp>
 
 #include "../support/catch.hpp"
+#include "../support/held_once.hpp"
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
 

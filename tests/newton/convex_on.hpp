@@ -4,6 +4,7 @@
 
 #include <taut/newton/newton.hpp>
 
+#include "../support/held_once.hpp"
 #include "../support/scene_on.hpp"
 #include "convex_scene.hpp"
 

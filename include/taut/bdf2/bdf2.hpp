@@ -6,6 +6,7 @@
 
 #include "../method/bdf2.hpp"
 #include "../integrator/detail/last_state.hpp"
+#include "../integrator/detail/linear_solve.hpp"
 #include "../integrator/detail/spring_equation.hpp"
 #include "../integrator/detail/step_loop.hpp"
 
@@ -53,13 +54,13 @@ public:
     /// right-hand side.
     template <class AnyState>
     Report step(AnyState& state, Scalar h, Index count = 1);
-    /// change(solver): to set a tolerance, a cap of iterations.
+    /// As of ImplicitEuler.
     template <class Change>
     void configure(Change&& change) {
-        change(solver_);
+        solve_.factors().configure(change);
     }
-    /// The solver of every step, as the last one left it.
-    const Solver& solver() const { return solver_; }
+    /// The solver used last.
+    const Solver& solver() const { return solve_.factors().solver(); }
 
 private:
     Report advance(State& state, Scalar h);
@@ -67,14 +68,12 @@ private:
     const System* system_;
     integrator_detail::StepLoop<State> loop_;
     integrator_detail::StepEquation<System> equation_;
-    Solver solver_;
-    bool factorized_ = false;  // solver_ holds the factors of equation_.matrix()
-    Scalar last_step_ = 0;     // h⁻, s; 0: there is no history
-    State past_;               // x⁻ and v⁻, and then what they have become: q and p
-    State now_;                // x and v
+    integrator_detail::LinearSolve<Solver, Scalar> solve_;
+    Scalar last_step_ = 0;  // h⁻, s; 0: there is no history
+    State past_;            // x⁻ and v⁻, and then what they have become: q and p
+    State now_;             // x and v
     integrator_detail::LastState<State> last_;  // what the history belongs to
     VectorX<Scalar> b_;                         // N, N·s
-    VectorX<Scalar> dv_;                        // N, m/s
 };
 
 template <class System, class Solver>
@@ -101,31 +100,15 @@ Report Bdf2<System, Solver>::advance(State& state, Scalar h) {
     past_.v = c * (state.v - past_.v);
     past_.x = c * (state.x - past_.x) + tau * state.v;
 
-    if (equation_.update_pattern(*system_)) {
-        solver_.analyzePattern(equation_.matrix());
-        factorized_ = false;
-    }
-    if (equation_.update_values(*system_, state, tau) || !factorized_) {
-        solver_.factorize(equation_.matrix());
-        factorized_ = solver_.info() == Eigen::Success;
-        if (!factorized_) {
-            return {symmetric ? Status::not_positive_definite : Status::solver_failed};
-        }
-    }
+    if (equation_.update_pattern(*system_)) solve_.forget_pattern(equation_.matrix().rows());
+    equation_.update_values(*system_, state, tau);
     equation_.load(*system_, state, tau, 1, past_.x, b_);
     equation_.add_momentum(*system_, past_.v, b_);
-    dv_ = solver_.solve(b_);
-    Report report{integrator_detail::solve_status(solver_, dv_, Status::solver_failed)};
-    report.solves = 1;
-    if (!report) {
-        report.where = integrator_detail::first_not_finite(equation_, dv_);
-        return report;
-    }
-    const Scalar norm = b_.norm();
-    b_.noalias() -= equation_.matrix() * dv_;
-    report.residual = norm > 0 ? static_cast<double>(b_.norm() / norm) : 0;
+    const Report report = solve_.solve(integrator_detail::StepMatrix<Scalar>::of(equation_, tau),
+                                       b_, h, integrator_detail::NothingHeld());
+    if (!report) return report;
     state.x += past_.x - tau * state.v;
-    equation_.add_to_velocity(dv_, state);
+    equation_.add_to_velocity(solve_.dv(), state);
     state.x += tau * state.v;
     std::swap(past_, now_);
     return report;

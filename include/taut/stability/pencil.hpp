@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "../core/buffer.hpp"
 #include "../core/error.hpp"
 #include "../core/types.hpp"
 #include "../method/method.hpp"
@@ -261,13 +262,13 @@ private:
             double axial, transverse, size;
             const double* d;
         };
-        std::vector<Term> term;
-        std::vector<double> line;  // of one dimension in place of blocks
-        std::vector<Block> block;
-        std::vector<double> rounding;
+        Buffer<Term> term;
+        Buffer<double> line;  // of one dimension in place of blocks
+        Buffer<Block> block;
+        Buffer<double> rounding;
     };
     Splitting splitting(const Combination& c) const;
-    void spread(const std::vector<double>& p, Splitting& split) const;
+    void spread(const double* p, Splitting& split) const;
     double load(const Splitting& split, std::size_t i) const;
     double largest_quotient(const Splitting& split) const;
     double quotient(double load, std::size_t i) const {
@@ -292,10 +293,10 @@ private:
     Eigen::VectorXd mass_;
     RayleighDamping rayleigh_;
     Facts facts_;
-    std::vector<int> free_;    // the system's index of each free particle
-    std::vector<int> degree_;  // springs at each free particle
-    std::vector<Link> links_;  // springs with at least one free end
-    std::vector<Name> names_;  // of each link
+    Buffer<int> free_;    // the system's index of each free particle
+    Buffer<int> degree_;  // springs at each free particle
+    Buffer<Link> links_;  // springs with at least one free end
+    Buffer<Name> names_;  // of each link
     std::string lost_;
     std::shared_ptr<const BareMatrices> matrices_;
 };

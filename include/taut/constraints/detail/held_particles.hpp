@@ -46,56 +46,23 @@ public:
     }
     void clear_forces() { forces_.resize(Eigen::NoChange, 0); }
 
-    void begin(const FreeParticles& particles, const Forces& v) {
-        particles_ = &particles;
-        clear_forces();
-        if (!active()) return;
-        free_.assign(static_cast<std::size_t>(particles.count()), Block(Block::Identity()));
-        z_.setZero(Dim * particles.count());
-        for (const auto& [particle, held] : constraints_.held()) {
-            const Index j = particles.place(particle);
-            if (j < 0) continue;  // pinned
-            z_.template segment<Dim>(Dim * j) =
-                held.velocity() - held.directions * (held.directions.transpose() * v.col(particle));
-            free_[static_cast<std::size_t>(j)] = held.free();
-        }
-    }
+    void begin(const FreeParticles& particles, const Forces& v);
     bool active() const { return !constraints_.held().empty(); }
     const SparseMatrix<Scalar>& matrix(const SparseMatrix<Scalar>& A);
-    const VectorX<Scalar>& reduce(const SparseMatrix<Scalar>& A, const VectorX<Scalar>& b) {
-        if (!active()) return b;
-        right_ = b;
-        right_.noalias() -= A * z_;
-        project(right_);
-        return right_;
-    }
+    const VectorX<Scalar>& reduce(const SparseMatrix<Scalar>& A, const VectorX<Scalar>& b);
     void complete(VectorX<Scalar>& dv) const {
         if (!active()) return;
         project(dv);
         dv += z_;
     }
-    void settle(VectorX<Scalar>& open, Scalar h) {
-        if (!active()) return;
-        // What the springs leave open along the constraints is for these to give.
-        set_forces([&](Index particle) -> Vector {
-            const Index j = particles_->place(particle);
-            if (j < 0) return Vector::Zero();
-            return -open.template segment<Dim>(Dim * j) / h;
-        });
-        project(open);
-    }
+    void settle(VectorX<Scalar>& open, Scalar h);
 
 private:
     using Block = typename Constraints::Block;
     using Vector = typename Constraints::Vector;
 
     /// b ← S b.
-    void project(VectorX<Scalar>& b) const {
-        for (std::size_t j = 0; j < free_.size(); ++j) {
-            auto segment = b.template segment<Dim>(Dim * static_cast<Index>(j));
-            segment = (free_[j] * segment).eval();
-        }
-    }
+    void project(VectorX<Scalar>& b) const;
 
     Constraints constraints_;
     const FreeParticles* particles_ = nullptr;  // of the blocks of the matrix, in this step
@@ -105,6 +72,52 @@ private:
     SparseMatrix<Scalar> matrix_;               // S A S + I − S
     Forces forces_;
 };
+
+template <class Scalar, int Dim>
+void HeldParticles<Scalar, Dim>::begin(const FreeParticles& particles, const Forces& v) {
+    particles_ = &particles;
+    clear_forces();
+    if (!active()) return;
+    free_.assign(static_cast<std::size_t>(particles.count()), Block(Block::Identity()));
+    z_.setZero(Dim * particles.count());
+    for (const auto& [particle, held] : constraints_.held()) {
+        const Index j = particles.place(particle);
+        if (j < 0) continue;  // pinned
+        z_.template segment<Dim>(Dim * j) =
+            held.velocity() - held.directions * (held.directions.transpose() * v.col(particle));
+        free_[static_cast<std::size_t>(j)] = held.free();
+    }
+}
+
+template <class Scalar, int Dim>
+const VectorX<Scalar>& HeldParticles<Scalar, Dim>::reduce(const SparseMatrix<Scalar>& A,
+                                                          const VectorX<Scalar>& b) {
+    if (!active()) return b;
+    right_ = b;
+    right_.noalias() -= A * z_;
+    project(right_);
+    return right_;
+}
+
+template <class Scalar, int Dim>
+void HeldParticles<Scalar, Dim>::settle(VectorX<Scalar>& open, Scalar h) {
+    if (!active()) return;
+    // What the springs leave open along the constraints is for these to give.
+    set_forces([&](Index particle) -> Vector {
+        const Index j = particles_->place(particle);
+        if (j < 0) return Vector::Zero();
+        return -open.template segment<Dim>(Dim * j) / h;
+    });
+    project(open);
+}
+
+template <class Scalar, int Dim>
+void HeldParticles<Scalar, Dim>::project(VectorX<Scalar>& b) const {
+    for (std::size_t j = 0; j < free_.size(); ++j) {
+        auto segment = b.template segment<Dim>(Dim * static_cast<Index>(j));
+        segment = (free_[j] * segment).eval();
+    }
+}
 
 /// S A S + I − S, kept until the next call.
 template <class Scalar, int Dim>

@@ -40,17 +40,7 @@ public:
     }
     /// Factorises A = A(h), in place of the factors that were not used last.
     /// @returns whether the solver reports success
-    bool factorize(const SparseMatrix<Scalar>& A, Scalar h) {
-        if (slots_[current_].factorized && slots_[current_].h != h) current_ = 1 - current_;
-        Slot& slot = slots_[current_];
-        if (!slot.analyzed) slot.solver.analyzePattern(A);
-        slot.solver.factorize(A);
-        ++count_;
-        slot.analyzed = true;
-        slot.factorized = slot.solver.info() == Eigen::Success;
-        slot.h = h;
-        return slot.factorized;
-    }
+    bool factorize(const SparseMatrix<Scalar>& A, Scalar h);
     /// Factorisations so far.
     std::int64_t count() const { return count_; }
 
@@ -65,5 +55,18 @@ private:
     int current_ = 0;
     std::int64_t count_ = 0;
 };
+
+template <class Solver, class Scalar>
+bool FactorCache<Solver, Scalar>::factorize(const SparseMatrix<Scalar>& A, Scalar h) {
+    if (slots_[current_].factorized && slots_[current_].h != h) current_ = 1 - current_;
+    Slot& slot = slots_[current_];
+    if (!slot.analyzed) slot.solver.analyzePattern(A);
+    slot.solver.factorize(A);
+    ++count_;
+    slot.analyzed = true;
+    slot.factorized = slot.solver.info() == Eigen::Success;
+    slot.h = h;
+    return slot.factorized;
+}
 
 }  // namespace taut::integrator_detail

@@ -35,11 +35,10 @@ public:
         topology_ = system.topology_revision();
         return true;
     }
-    bool update_values(const System& system, const State& state, Scalar tau) {
+    void update_values(const System& system, const State& state, Scalar tau) {
         const double step = static_cast<double>(tau);
         pattern_->assemble(system, state.x,
                            matrices::M + step * matrices::D + step * step * matrices::K_plus, A_);
-        return true;
     }
     const SparseMatrix<Scalar>& matrix() const { return A_; }
     /// For a module that fills it anew, by tangent().

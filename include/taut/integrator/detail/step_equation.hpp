@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
-
 #include "../../core/concepts.hpp"
 
 namespace taut {
@@ -35,25 +33,6 @@ constexpr void require_implicit() {
     static_assert(StepEquation<System>::symmetric || !is_symmetric_solver_v<Solver>,
                   "taut: an implicit step of an unsymmetric system needs an unsymmetric solver "
                   "(Eigen::SparseLU, say); a symmetric one would read one triangle only");
-}
-
-/// The particle of the first entry that is not finite, or −1.
-template <class System, class Scalar>
-Index first_not_finite(const StepEquation<System>& equation, const VectorX<Scalar>& b) {
-    for (Index i = 0; i < b.size(); ++i) {
-        if (!std::isfinite(b[i])) return equation.free()[i / System::Dim];
-    }
-    return -1;
-}
-
-/// What became of x ← A⁻¹ b by a solver. @param refused  what it is when the solver gave A up
-template <class Solver, class Scalar>
-Status solve_status(const Solver& solver, const VectorX<Scalar>& x, Status refused) {
-    switch (solver.info()) {
-        case Eigen::Success: return x.allFinite() ? Status::ok : Status::solver_failed;
-        case Eigen::NoConvergence: return Status::not_converged;
-        default: return refused;
-    }
 }
 
 }  // namespace integrator_detail

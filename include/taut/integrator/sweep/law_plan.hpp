@@ -107,16 +107,30 @@ private:
         if constexpr (Dim > 2) sum += a[2] * b[2];
         return sum;
     }
-    template <bool Dampers, bool Rayleigh, bool Both>
-    void add(const TileView<Scalar>& view) const;
-    template <bool Dampers, bool Rayleigh, bool Both>
+    /// What adds the forces of a kind of damping.
+    struct Kernels {
+        void (LawPlan::*segment)(const TileView<Scalar>&, const Segment&) const;
+        void (*batch)(const PlannedBatches&, const Batch&, int, const TileView<Scalar>&,
+                      void (*)(void*, Chunk<Scalar>&, int), void*);
+        void (*pull)(void*, Chunk<Scalar>&, int);
+
+        /// Beside Rayleigh damping dampers, zeros where there are none, cost less than a kernel.
+        template <bool Damped, bool Rayleigh, bool Both>
+        static constexpr Kernels of() {
+            return {&LawPlan::add_segment<Damped, Rayleigh, Both>,
+                    &add_batch<Scalar, Damped, Rayleigh, Both>,
+                    &LawPlan::pull<Damped, Rayleigh, Both>};
+        }
+    };
+    void add(const Kernels& kernels, const TileView<Scalar>& view) const;
+    template <bool Damped, bool Rayleigh, bool Both>
     void add_segment(const TileView<Scalar>& view, const Segment& segment) const;
     /// What a batch asks for coefficients.
     struct BatchSprings {
         Reader reader;
         Scalar alpha;
     };
-    template <bool Dampers, bool Rayleigh, bool Both>
+    template <bool Damped, bool Rayleigh, bool Both>
     static void pull(void* springs, Chunk<Scalar>& chunk, int count);
 
     SpringTable<Scalar, Law> table_;  // of runs, then of batches
@@ -154,37 +168,37 @@ void LawPlan<Scalar, Dim, Law>::renew(const SpringSet<Scalar, Law>& set,
 template <class Scalar, int Dim, class Law>
 template <bool Both>
 void LawPlan<Scalar, Dim, Law>::add_forces(const TileView<Scalar>& view) const {
-    if (view.alpha > 0) {
-        damped_ ? add<true, true, Both>(view) : add<false, true, Both>(view);
-    } else {
-        damped_ ? add<true, false, Both>(view) : add<false, false, Both>(view);
+    const bool rayleigh = view.alpha > 0;
+    if constexpr (Dim > 1) {
+        if (in_stars_) {
+            return rayleigh  ? stars_.template add_forces<true, true, Both>(view)
+                   : damped_ ? stars_.template add_forces<true, false, Both>(view)
+                             : stars_.template add_forces<false, false, Both>(view);
+        }
     }
+    static constexpr Kernels kernels[] = {Kernels::template of<false, false, Both>(),
+                                          Kernels::template of<true, false, Both>(),
+                                          Kernels::template of<true, true, Both>()};
+    add(kernels[rayleigh ? 2 : damped_ ? 1 : 0], view);
 }
 
 template <class Scalar, int Dim, class Law>
-template <bool Dampers, bool Rayleigh, bool Both>
-void LawPlan<Scalar, Dim, Law>::add(const TileView<Scalar>& view) const {
-    constexpr bool velocities = Dampers || Rayleigh;
-    if constexpr (Dim > 1) {
-        // Beside Rayleigh damping dampers, zeros where there are none, cost less than a kernel.
-        if (in_stars_) return stars_.template add_forces<velocities, Rayleigh, Both>(view);
-    }
+void LawPlan<Scalar, Dim, Law>::add(const Kernels& kernels, const TileView<Scalar>& view) const {
     const auto begin = [&](const auto& ends) { return view.tile == 0 ? 0 : ends[view.tile - 1]; };
     const int last_segment = runs_.segment_end[view.tile];
     for (int s = begin(runs_.segment_end); s < last_segment; ++s) {
-        add_segment<Dampers, Rayleigh, Both>(view, runs_.segments[s]);
+        (this->*kernels.segment)(view, runs_.segments[s]);
     }
     const int runs = static_cast<int>(runs_.runs.size());
     const int last_batch = batches_.batch_end[view.tile];
     for (int b = begin(batches_.batch_end); b < last_batch; ++b) {
         BatchSprings springs{{table_, runs + b, 0}, view.alpha};
-        add_batch<Scalar, velocities, Rayleigh, Both>(batches_, batches_.batches[b], Dim, view,
-                                                      pull<velocities, Rayleigh, Both>, &springs);
+        kernels.batch(batches_, batches_.batches[b], Dim, view, kernels.pull, &springs);
     }
 }
 
 template <class Scalar, int Dim, class Law>
-template <bool Dampers, bool Rayleigh, bool Both>
+template <bool Damped, bool Rayleigh, bool Both>
 void LawPlan<Scalar, Dim, Law>::add_segment(const TileView<Scalar>& view,
                                             const Segment& segment) const {
     const auto& run = runs_.runs[segment.run];
@@ -206,7 +220,7 @@ void LawPlan<Scalar, Dim, Law>::add_segment(const TileView<Scalar>& view,
         [[maybe_unused]] Vector here;
         for_each_axis<Dim>([&](int d) {
             dx[d] = Register::load(x_b[d] + i) - Register::load(x_a[d] + i);
-            if constexpr (Dampers || Rayleigh) {
+            if constexpr (Damped) {
                 dv[d] = Register::load(v_b[d] + i) - Register::load(v_a[d] + i);
             }
             if constexpr (Both) {
@@ -214,13 +228,13 @@ void LawPlan<Scalar, Dim, Law>::add_segment(const TileView<Scalar>& view,
             }
         });
         Register dx_dv(Scalar(0));
-        if constexpr (Dampers || Rayleigh) dx_dv = dot(dx, dv);
+        if constexpr (Damped) dx_dv = dot(dx, dv);
         const auto pull = [&] {
             if constexpr (Both) {
-                return springs.template pull_ahead<Dampers, Rayleigh>(view.alpha, dot(dx, dx),
-                                                                      dx_dv, dot(here, here));
+                return springs.template pull_ahead<Damped, Rayleigh>(view.alpha, dot(dx, dx), dx_dv,
+                                                                     dot(here, here));
             } else {
-                return springs.template pull<Dampers, Rayleigh>(view.alpha, dot(dx, dx), dx_dv);
+                return springs.template pull<Damped, Rayleigh>(view.alpha, dot(dx, dx), dx_dv);
             }
         }();
         for_each_axis<Dim>([&](int d) {
@@ -236,7 +250,7 @@ void LawPlan<Scalar, Dim, Law>::add_segment(const TileView<Scalar>& view,
 }
 
 template <class Scalar, int Dim, class Law>
-template <bool Dampers, bool Rayleigh, bool Both>
+template <bool Damped, bool Rayleigh, bool Both>
 void LawPlan<Scalar, Dim, Law>::pull(void* of, Chunk<Scalar>& chunk, int count) {
     auto& all = *static_cast<BatchSprings*>(of);
     BatchSprings springs = all;  // a copy is in registers
@@ -248,12 +262,12 @@ void LawPlan<Scalar, Dim, Law>::pull(void* of, Chunk<Scalar>& chunk, int count) 
             pull.of_dv.store(chunk.dx_dv + s);
         };
         if constexpr (Both) {
-            const auto pull = springs.reader.template pull_ahead<Dampers, Rayleigh>(
+            const auto pull = springs.reader.template pull_ahead<Damped, Rayleigh>(
                 springs.alpha, square, product, Register::load(chunk.old_l2 + s));
             keep(pull);
             pull.of_here.store(chunk.old_l2 + s);
         } else {
-            keep(springs.reader.template pull<Dampers, Rayleigh>(springs.alpha, square, product));
+            keep(springs.reader.template pull<Damped, Rayleigh>(springs.alpha, square, product));
         }
     }
     all = springs;

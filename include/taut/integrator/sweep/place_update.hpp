@@ -40,7 +40,7 @@ public:
 private:
     using Register = VectorRegister<Scalar>;
 
-    template <bool Drag, bool Stars, class Update>
+    template <bool Stars, class Update>
     void move(const TilePlaces<Scalar>& tile, int planes, Scalar h) const;
 
     std::array<Scalar, 4> gravity_{};                  // m/s²
@@ -70,17 +70,11 @@ template <class Update>
 void PlaceUpdate<Scalar>::move(const Layout<Scalar>& layout, const TilePlaces<Scalar>& tile,
                                Scalar h) const {
     const int planes = layout.planes();
-    if (drag_ > 0) {
-        layout.has_stars() ? move<true, true, Update>(tile, 1, h)
-                           : move<true, false, Update>(tile, planes, h);
-    } else {
-        layout.has_stars() ? move<false, true, Update>(tile, 1, h)
-                           : move<false, false, Update>(tile, planes, h);
-    }
+    layout.has_stars() ? move<true, Update>(tile, 1, h) : move<false, Update>(tile, planes, h);
 }
 
 template <class Scalar>
-template <bool Drag, bool Stars, class Update>
+template <bool Stars, class Update>
 void PlaceUpdate<Scalar>::move(const TilePlaces<Scalar>& tile, int planes, Scalar h) const {
     // The axis of a lane is the same in each of so many registers in turn.
     constexpr int turns = Stars ? std::max(1, 4 / Register::width) : 1;
@@ -89,7 +83,8 @@ void PlaceUpdate<Scalar>::move(const TilePlaces<Scalar>& tile, int planes, Scala
     const Register zero(Scalar(0));
     const Register ahead(ahead_);
     const bool looks_ahead = ahead_ > 0;
-    [[maybe_unused]] const Register d0(drag_);
+    const Register d0(drag_);
+    const bool drags = drag_ > 0;
     for (int d = 0; d < planes; ++d) {
         std::array<Register, turns> gravity;
         for (int turn = 0; turn < turns; ++turn) {
@@ -111,7 +106,7 @@ void PlaceUpdate<Scalar>::move(const TilePlaces<Scalar>& tile, int planes, Scala
             Register x = Register::load(xs + i);
             Register v = Register::load(vs + i);
             Register free_fall = g;
-            if constexpr (Drag) free_fall -= d0 * v;
+            if (drags) free_fall -= d0 * v;
             free_fall = where_less(zero, inverse_mass, free_fall, zero);  // pins do not fall
             Register f = Register::load(forces_a + i);
             zero.store(forces_a + i);

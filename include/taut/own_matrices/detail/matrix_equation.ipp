@@ -40,12 +40,9 @@ public:
         tau_ = 0;
         return true;
     }
-    /// @returns whether the values are new
-    bool update_values(const System& system, const State&, Scalar tau) {
-        if (tau == tau_) return false;
-        assemble(system, tau);
+    void update_values(const System& system, const State&, Scalar tau) {
+        if (tau != tau_) assemble(system, tau);
         tau_ = tau;
-        return true;
     }
     const SparseMatrix<Scalar>& matrix() const { return A_; }
 

@@ -105,7 +105,7 @@ inline auto Pencil::splitting(const Combination& c) const -> Splitting {
 }
 
 /// Gives each particle its parts of the springs, by weights p.
-inline void Pencil::spread(const std::vector<double>& p, Splitting& split) const {
+inline void Pencil::spread(const double* p, Splitting& split) const {
     std::fill(split.line.begin(), split.line.end(), 0.0);
     std::fill(split.block.begin(), split.block.end(), Block{});
     std::fill(split.rounding.begin(), split.rounding.end(), 0.0);
@@ -167,7 +167,7 @@ inline double Pencil::largest_quotient(const Splitting& split) const {
 template <class Real>
 std::vector<Real> Pencil::particle_loads(const Combination& c, const std::vector<Real>& p) const {
     Splitting split = splitting(c);
-    spread(p, split);
+    spread(p.data(), split);
     std::vector<Real> loads(p.size());
     for (std::size_t i = 0; i < p.size(); ++i) loads[i] = load(split, i);
     return loads;
@@ -177,14 +177,14 @@ inline double Pencil::upper_bound(const Combination& c) const {
     if (matrices_) return matrices_->upper_bound(c);
     constexpr int most_repeats = 40;
     constexpr double worth_repeating = 1e-3;  // of the bound, over five repeats
-    std::vector<double> p(degree_.size());
+    Buffer<double> p(degree_.size());
     for (std::size_t i = 0; i < p.size(); ++i) p[i] = 1 / std::sqrt(particle_mass(i));
     Splitting split = splitting(c);
-    spread(p, split);
+    spread(p.data(), split);
     double best = largest_quotient(split);
     if (!std::isfinite(best)) return std::numeric_limits<double>::infinity();
     double earlier = best;
-    std::vector<double> r(p.size());
+    Buffer<double> r(p.size());
     for (int repeat = 1; repeat <= most_repeats && best > 0; ++repeat) {
         // A particle whose bound is far below the largest must not lose all its weight at once.
         for (std::size_t i = 0; i < r.size(); ++i) r[i] = quotient(load(split, i), i);
@@ -192,7 +192,7 @@ inline double Pencil::upper_bound(const Combination& c) const {
         for (std::size_t i = 0; i < p.size(); ++i) {
             p[i] *= std::sqrt(std::max(r[i] / largest, 1e-4));
         }
-        spread(p, split);
+        spread(p.data(), split);
         best = std::min(best, largest_quotient(split));
         if (repeat % 5 == 0) {
             if (best > earlier * (1 - worth_repeating)) break;

@@ -47,18 +47,18 @@ SparseMatrix<double> Pencil::assemble_in(const CoefficientsOf& coefficients_of) 
 template <class Real>
 Real Pencil::assembly_error(const Combination& c, const Eigen::VectorXd& s) const {
     if (matrices_) return matrices_->assembly_error(c, s);
-    std::vector<double> row(degree_.size());
-    std::vector<double> scale(degree_.size());
+    Buffer<double> row(degree_.size());
+    Buffer<double> scale(degree_.size());
     for (std::size_t i = 0; i < scale.size(); ++i) {
         scale[i] = s.segment(dim() * static_cast<Index>(i), dim()).maxCoeff();
         row[i] = std::abs(mass_coefficient(c)) * particle_mass(i) * scale[i] * scale[i];
     }
     for (const Link& link : links_) {
         const double entry = dim() * magnitude(c, link);
-        const double sa = link.a < 0 ? 0 : scale[static_cast<std::size_t>(link.a)];
-        const double sb = link.b < 0 ? 0 : scale[static_cast<std::size_t>(link.b)];
-        if (link.a >= 0) row[static_cast<std::size_t>(link.a)] += entry * sa * (sa + sb);
-        if (link.b >= 0) row[static_cast<std::size_t>(link.b)] += entry * sb * (sa + sb);
+        const double sa = link.a < 0 ? 0 : scale[link.a];
+        const double sb = link.b < 0 ? 0 : scale[link.b];
+        if (link.a >= 0) row[link.a] += entry * sa * (sa + sb);
+        if (link.b >= 0) row[link.b] += entry * sb * (sa + sb);
     }
     double largest = 0;
     for (std::size_t i = 0; i < row.size(); ++i) {

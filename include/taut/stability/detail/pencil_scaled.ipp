@@ -10,7 +10,7 @@ template <class Real>
 Pencil Pencil::explicit_part(const std::vector<Real>& shares) const {
     Pencil pencil = *this;
     for (std::size_t s = 0; s < links_.size(); ++s) {
-        const double part = 1 - shares[static_cast<std::size_t>(names_[s].spring)];
+        const double part = 1 - shares[names_[s].spring];
         Link& link = pencil.links_[s];
         for (double* value : {&link.axial, &link.softer, &link.transverse, &link.damping}) {
             *value *= part;

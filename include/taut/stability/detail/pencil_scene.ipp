@@ -36,18 +36,19 @@ void Pencil::add_springs(const System& system, stability_detail::RangeCheck& che
     constexpr double rounding =
         -16 *
         static_cast<double>(std::numeric_limits<TangentReal<typename System::Scalar>>::epsilon());
-    std::vector<int> place(static_cast<std::size_t>(system.size()), -1);  // −1: pinned
+    Buffer<int> place(static_cast<std::size_t>(system.size()), -1);  // −1: pinned
     for (std::size_t j = 0; j < free_.size(); ++j) {
-        place[static_cast<std::size_t>(free_[j])] = static_cast<int>(j);
+        place[free_[j]] = static_cast<int>(j);
     }
-    links_.reserve(static_cast<std::size_t>(system.spring_count()));
-    names_.reserve(links_.capacity());
+    const auto count = static_cast<std::size_t>(system.spring_count());
+    links_.reserve(count);
+    names_.reserve(count);
     int springs = 0;
     system.for_each_set([&](const auto& set) {
         for (std::size_t s = 0; s < set.a.size(); ++s) {
             const int index = springs++;
-            const int a = place[static_cast<std::size_t>(set.a[s])];
-            const int b = place[static_cast<std::size_t>(set.b[s])];
+            const int a = place[set.a[s]];
+            const int b = place[set.b[s]];
             if (a < 0 && b < 0) continue;
             Link link = tangent(set, s, index);
             link.a = a;
@@ -57,8 +58,8 @@ void Pencil::add_springs(const System& system, stability_detail::RangeCheck& che
             if (link.softer < rounding * link.bound || link.transverse < rounding * link.bound) {
                 facts_.stiffness_semidefinite = false;
             }
-            if (a >= 0) ++degree_[static_cast<std::size_t>(a)];
-            if (b >= 0) ++degree_[static_cast<std::size_t>(b)];
+            if (a >= 0) ++degree_[a];
+            if (b >= 0) ++degree_[b];
             names_.push_back({index, set.a[s], set.b[s]});
             links_.push_back(link);
         }

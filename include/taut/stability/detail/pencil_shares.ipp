@@ -32,7 +32,7 @@ std::vector<ParticleShare> Pencil::particle_shares(const Eigen::VectorXd& u) con
     const double total = mass_.dot(u.cwiseAbs2());
     for (Index j = 0; j < size() / dim(); ++j) {
         const double energy = mass_[dim() * j] * u.segment(dim() * j, dim()).squaredNorm();
-        const Index index = matrices_ ? j : free_[static_cast<std::size_t>(j)];
+        const Index index = matrices_ ? j : free_[j];
         shares.push_back({index, total > 0 ? energy / total : 0});
     }
     return shares;
