@@ -24,10 +24,9 @@
 // like -mavx: a program that does not agree lacks a symbol named compiled_for. TAUT_USER_CONFIG and
 // -fopenmp are those of the library.
 
-#define TAUT_COMPILED_ANALYSIS(KIND, SCALAR)                                 \
-    KIND struct SpringSet<SCALAR, Hookean>;                                  \
-    KIND SpringSystem<SCALAR, 3> hanging_cloth<SCALAR>(const ClothOptions&); \
-    KIND class Stability<SCALAR>;
+#define TAUT_COMPILED_ANALYSIS(KIND, SCALAR) \
+    KIND struct SpringSet<SCALAR, Hookean>;  \
+    KIND SpringSystem<SCALAR, 3> hanging_cloth<SCALAR>(const ClothOptions&);
 
 // What all systems of a dimension share.
 #define TAUT_COMPILED_SPACE(KIND, SCALAR, DIM)                                \
@@ -43,8 +42,6 @@
     TAUT_COMPILED_SPACE(KIND, SCALAR, 2)                         \
     TAUT_COMPILED_SPACE(KIND, SCALAR, 3)                         \
     namespace integrator_detail::sweep {                         \
-    KIND struct Planner<SCALAR>;                                 \
-    KIND class ColumnTable<SCALAR>;                              \
     KIND class Layout<SCALAR>;                                   \
     KIND class StateMemory<SCALAR>;                              \
     KIND class PlaceUpdate<SCALAR>;                              \
@@ -57,8 +54,6 @@
     TAUT_COMPILED_SWEEP_IN(KIND, SCALAR, 1)                      \
     TAUT_COMPILED_SWEEP_IN(KIND, SCALAR, 2)                      \
     TAUT_COMPILED_SWEEP_IN(KIND, SCALAR, 3)                      \
-    TAUT_COMPILED_SWEEP_BATCHES(KIND, SCALAR, false)             \
-    TAUT_COMPILED_SWEEP_BATCHES(KIND, SCALAR, true)              \
     }
 
 #define TAUT_COMPILED_SWEEP_BY(KIND, SCALAR, ...)                           \
@@ -66,8 +61,6 @@
                                                      const TilePlaces<SCALAR>&, SCALAR) const;
 
 #define TAUT_COMPILED_SWEEP_IN(KIND, SCALAR, DIM)                                               \
-    KIND class Outside<SCALAR, DIM>;                                                            \
-    KIND class Steps<SCALAR, DIM>;                                                              \
     KIND void Steps<SCALAR, DIM>::load(const Surroundings<SCALAR, DIM>&, const Layout<SCALAR>&, \
                                        bool, const State<SCALAR, DIM>&, SCALAR,                 \
                                        const ReadAnywhere&);                                    \
@@ -75,16 +68,6 @@
                                       Move);                                                    \
     KIND bool Steps<SCALAR, DIM>::run_verlet(const Forces&, State<SCALAR, DIM>&, SCALAR, Index, \
                                              int, bool);
-
-#define TAUT_COMPILED_SWEEP_BATCHES(KIND, SCALAR, BOTH)         \
-    TAUT_COMPILED_SWEEP_BATCH(KIND, SCALAR, false, false, BOTH) \
-    TAUT_COMPILED_SWEEP_BATCH(KIND, SCALAR, true, false, BOTH)  \
-    TAUT_COMPILED_SWEEP_BATCH(KIND, SCALAR, true, true, BOTH)
-
-#define TAUT_COMPILED_SWEEP_BATCH(KIND, SCALAR, VELOCITIES, RAYLEIGH, BOTH) \
-    KIND void add_batch<SCALAR, VELOCITIES, RAYLEIGH, BOTH>(                \
-        const PlannedBatches&, const Batch&, int, const TileView<SCALAR>&,  \
-        void (*)(void*, Chunk<SCALAR>&, int), void*);
 
 // The explicit steps of one law's springs; a law that pushes has steps ahead of its own.
 #define TAUT_COMPILED_LAW(KIND, SCALAR, DIM, LAW) \

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include <taut/definitions.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/stability/bracket.hpp>
 

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include <taut/definitions.hpp>
 #include <taut/integrator/energy_stable_euler.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
 

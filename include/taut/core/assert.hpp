@@ -42,3 +42,11 @@
 #else
 #define TAUT_NOINLINE
 #endif
+
+/// Of what a header declares and its -inl.hpp defines: compiled with the program, or once in
+/// Taut::Compiled, whose users do not see it.
+#if defined(TAUT_COMPILED)
+#define TAUT_INLINE
+#else
+#define TAUT_INLINE inline
+#endif

@@ -11,6 +11,7 @@
 #include "any_pose.hpp"
 #include "detail/explicit_bracket.hpp"
 #include "detail/growth.hpp"
+#include "detail/limit_of.hpp"
 #include "detail/pencil_shares.ipp"
 #include "detail/symplectic_bracket.hpp"
 #include "energy_limit.hpp"

@@ -310,7 +310,8 @@ inline constexpr double infinity = std::numeric_limits<double>::infinity();
 }  // namespace stability_detail
 }  // namespace taut
 
-#include "detail/pencil_bound.ipp"
-#include "detail/pencil_matrix.ipp"
 #include "detail/pencil_scene.ipp"
-#include "detail/pencil_scaled.ipp"
+
+#if !defined(TAUT_COMPILED)
+#include "pencil-inl.hpp"
+#endif

@@ -2,69 +2,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
 
 #include "../core/detail/fits.hpp"
 #include "../model/spring_system.hpp"
-#include "detail/explicit_limit.hpp"
-#include "detail/scales.hpp"
 #include "detail/symplectic_limit.hpp"
 #include "rayleigh.hpp"
 
 namespace taut {
-
-namespace stability_detail {
-
-/// What bounds alone certify, by what limits a method. Of springs K⁺ ⪰ 0, which is enough for every
-/// step of implicit Euler to be solvable and stable [T20], [T27].
-struct ByBounds {
-    const Pencil& pencil;
-
-    UnroundedLimit operator()(method::LimitedByDamping) const {
-        return explicit_by_bounds(pencil, pencil.upper_bound(K_plus), pencil.upper_bound(D));
-    }
-    UnroundedLimit operator()(method::LimitedByStiffness) const {
-        return symplectic_by_bounds(pencil);
-    }
-    UnroundedLimit operator()(method::LimitedByIndefiniteness) const {
-        return {infinity, infinity, Cause::unconditional};
-    }
-    /// What compression may add, of a pencil of springs.
-    void add_growth(UnroundedLimit& limit) const {
-        if (pencil.stiffness_semidefinite() || !claims(limit)) return;
-        limit.admitted_growth = std::sqrt(pencil.deficit(K));
-    }
-};
-
-/// What no Scalar holds claims nothing.
-template <class Scalar>
-void forget_unheld(UnroundedLimit& limit) {
-    for (double* step : {&limit.certified, &limit.certified_up_to}) {
-        if (round_down<Scalar>(*step) == 0) *step = 0;
-    }
-}
-
-/// The limit of a method. @param by  by(what limits it), and by.add_growth(limit)
-template <class Scalar, class By>
-StepLimit<Scalar> limit_of(Method method, const Pencil& pencil, std::uint64_t revision,
-                           const By& by) {
-    UnroundedLimit limit{infinity, infinity, Cause::nothing_to_limit};
-    if (pencil.size() > 0) {
-        limit = method::visit_limited("Stability", method, [&](auto descriptor) {
-            return by(typename decltype(descriptor)::Limit{});
-        });
-        forget_unheld<Scalar>(limit);
-        const BareMatrices* matrices = pencil.matrices();
-        matrices ? matrices->amend(method, pencil, limit) : by.add_growth(limit);
-    }
-    return rounded<Scalar>(limit, revision);
-}
-
-}  // namespace stability_detail
 
 /// How large may the step be, and how do you know? Analysis of one pose of a SpringSystem, in
 /// double whatever Scalar is: what rounding to Scalar may do to a step counts, and masses,
@@ -127,35 +74,20 @@ public:
         if (h != infinity) {
             limit = {h > 0 ? h : 0, infinity, Cause::stiffness};
             forget_unheld<Scalar>(limit);
-            ByBounds{*pencil_}.add_growth(limit);
+            add_compression(*pencil_, limit);
         }
         return rounded<Scalar>(limit, revision_);
     }
     /// The α, s, that make step h stable with D = d0·M + αK⁺ in place of the system's own damping:
     /// proved, since it takes k_max from above and k_min as 0 [T14]–[T16].
-    AlphaWindow rayleigh_window(Method method, double h, double d0 = 0) const {
-        if (size() == 0) return taut::rayleigh_window(method, h, d0, 0, 0, 0);
-        const double stiffest = pencil_->upper_bound(matrices::K_plus);
-        const bool by_damping = method::is_limited_by<method::LimitedByDamping>(method);
-        const double compression = by_damping ? pencil_->compression() : 0;
-        if (!std::isfinite(stiffest) || !std::isfinite(compression)) {
-            return {0, 0, EmptyWindow::overflow, false};
-        }
-        return taut::rayleigh_window(method, h, d0, 0, std::max(0.0, stiffest), compression);
-    }
+    AlphaWindow rayleigh_window(Method method, double h, double d0 = 0) const;
     /// The largest factor on all stiffness (αK⁺ included) for which step h, s, is still certified
     /// by the bound, to nine digits; 0 if none is, infinity if every one is, of those that double
     /// holds.
-    double max_stiffness_scale(Method method, double h) const {
-        require_positive("Stability::max_stiffness_scale", "h", h);
-        return stability_detail::max_stiffness_scale(method, *pencil_, h);
-    }
+    double max_stiffness_scale(Method method, double h) const;
     /// The least factor on all masses (d0·M included) for which step h, s, is certified by the
     /// bound, to nine digits; infinity if none is, 0 if every one is.
-    double min_mass_scale(Method method, double h) const {
-        require_positive("Stability::min_mass_scale", "h", h);
-        return stability_detail::min_mass_scale(method, *pencil_, h);
-    }
+    double min_mass_scale(Method method, double h) const;
     /// The number of equal steps of a frame, s, that the bound certifies; nothing if no step is.
     std::optional<Index> substeps(Method method, double frame) const;
 
@@ -171,19 +103,8 @@ private:
     std::uint64_t revision_ = 0;
 };
 
-template <class Scalar>
-StepLimit<Scalar> Stability<Scalar>::max_step(Method method) const {
-    return stability_detail::limit_of<Scalar>(method, *pencil_, revision_,
-                                              stability_detail::ByBounds{*pencil_});
-}
-
-template <class Scalar>
-std::optional<Index> Stability<Scalar>::substeps(Method method, double frame) const {
-    require_positive("Stability::substeps", "frame", frame);
-    const double certified = static_cast<double>(max_step(method).certified);
-    // Beyond 1e15 the count is no longer exact, and no frame was meant.
-    if (!(certified > 0) || !(frame / certified < 1e15)) return std::nullopt;
-    return std::max<Index>(1, static_cast<Index>(std::ceil(frame / certified)));
-}
-
 }  // namespace taut
+
+#if !defined(TAUT_COMPILED)
+#include "stability-inl.hpp"
+#endif

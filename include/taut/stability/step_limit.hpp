@@ -151,6 +151,14 @@ inline bool claims(const UnroundedLimit& limit) {
     return limit.certified > 0 || limit.certified_up_to > 0;
 }
 
+/// What no Scalar holds claims nothing.
+template <class Scalar>
+void forget_unheld(UnroundedLimit& limit) {
+    for (double* step : {&limit.certified, &limit.certified_up_to}) {
+        if (round_down<Scalar>(*step) == 0) *step = 0;
+    }
+}
+
 /// The limit as Scalars that claim no more. @param revision  of the system that was analysed
 template <class Scalar>
 StepLimit<Scalar> rounded(const UnroundedLimit& limit, std::uint64_t revision) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../../method/mode.hpp"
 #include "effort.hpp"
 #include "explicit_limit.hpp"
 

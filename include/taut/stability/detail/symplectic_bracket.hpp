@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "../../method/mode.hpp"
 #include "effort.hpp"
 #include "symplectic_limit.hpp"
 

@@ -2,12 +2,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The products of a Pencil and its weighted splitting bound [T26]. Plain loops: what is no template
-// is compiled wherever it is included.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "../model/block_pattern.hpp"
+#include "pencil.hpp"
+
+// The products of a Pencil, its weighted splitting bound [T26], its matrix and the rounding
+// of that, and what other stiffness or mass would make of the scene. Plain loops.
 
 namespace taut {
 
-inline auto Pencil::coefficients(const Combination& c, const Link& link) const -> Coefficients {
+TAUT_INLINE auto Pencil::coefficients(const Combination& c, const Link& link) const
+    -> Coefficients {
     const double on_plus = c.projected() + c.damping() * rayleigh_.stiffness_proportional;
     const auto elastic = [&](double slope) {
         return c.stiffness() * slope + on_plus * k_plus(slope);
@@ -15,8 +23,8 @@ inline auto Pencil::coefficients(const Combination& c, const Link& link) const -
     return {elastic(link.axial) + c.damping() * link.damping, elastic(link.transverse)};
 }
 
-inline auto Pencil::extreme_coefficients(const Combination& c, const Link& link, int sign) const
-    -> Coefficients {
+TAUT_INLINE auto Pencil::extreme_coefficients(const Combination& c, const Link& link,
+                                              int sign) const -> Coefficients {
     Coefficients extreme = coefficients(c, link);
     if (link.softer == link.axial) return extreme;
     Link other = link;
@@ -29,8 +37,8 @@ inline auto Pencil::extreme_coefficients(const Combination& c, const Link& link,
     return extreme;
 }
 
-inline void Pencil::multiply(const Combination& c, const Eigen::VectorXd& u,
-                             Eigen::VectorXd& y) const {
+TAUT_INLINE void Pencil::multiply(const Combination& c, const Eigen::VectorXd& u,
+                                  Eigen::VectorXd& y) const {
     if (matrices_) return matrices_->multiply(c, u, y);
     y.resize(size());
     const double on_mass = mass_coefficient(c);
@@ -51,7 +59,7 @@ inline void Pencil::multiply(const Combination& c, const Eigen::VectorXd& u,
     }
 }
 
-inline Enclosed Pencil::quadratic(const Combination& c, const Eigen::VectorXd& u) const {
+TAUT_INLINE Enclosed Pencil::quadratic(const Combination& c, const Eigen::VectorXd& u) const {
     if (matrices_) return matrices_->quadratic(c, u);
     // As a sum over springs the form loses nothing to cancellation between neighbours.
     Enclosed sum;
@@ -82,7 +90,7 @@ inline Enclosed Pencil::quadratic(const Combination& c, const Eigen::VectorXd& u
 }
 
 /// The springs' part of S, as far as it may be positive.
-inline auto Pencil::splitting(const Combination& c) const -> Splitting {
+TAUT_INLINE auto Pencil::splitting(const Combination& c) const -> Splitting {
     Splitting split;
     split.term.reserve(links_.size());
     split.rounding.resize(degree_.size());
@@ -105,7 +113,7 @@ inline auto Pencil::splitting(const Combination& c) const -> Splitting {
 }
 
 /// Gives each particle its parts of the springs, by weights p.
-inline void Pencil::spread(const double* p, Splitting& split) const {
+TAUT_INLINE void Pencil::spread(const double* p, Splitting& split) const {
     std::fill(split.line.begin(), split.line.end(), 0.0);
     std::fill(split.block.begin(), split.block.end(), Block{});
     std::fill(split.rounding.begin(), split.rounding.end(), 0.0);
@@ -145,7 +153,7 @@ inline void Pencil::spread(const double* p, Splitting& split) const {
 }
 
 /// An upper bound on the largest eigenvalue of a particle's block, N/m.
-inline double Pencil::load(const Splitting& split, std::size_t i) const {
+TAUT_INLINE double Pencil::load(const Splitting& split, std::size_t i) const {
     constexpr double margin = 1 + 64 * std::numeric_limits<double>::epsilon();
     if (dim() == 1) return split.line[i] * margin + split.rounding[i];
     return stability_detail::eigenvalue_upper_bound(split.block[i], dim()) + split.rounding[i];
@@ -153,7 +161,7 @@ inline double Pencil::load(const Splitting& split, std::size_t i) const {
 
 /// The largest load over mass, 1/s². One small factorisation settles most particles of a
 /// regular scene.
-inline double Pencil::largest_quotient(const Splitting& split) const {
+TAUT_INLINE double Pencil::largest_quotient(const Splitting& split) const {
     double largest = 0;
     for (std::size_t i = 0; i < split.rounding.size(); ++i) {
         const double below = largest * particle_mass(i) * (1 - 1e-15) - split.rounding[i];
@@ -173,7 +181,7 @@ std::vector<Real> Pencil::particle_loads(const Combination& c, const std::vector
     return loads;
 }
 
-inline double Pencil::upper_bound(const Combination& c) const {
+TAUT_INLINE double Pencil::upper_bound(const Combination& c) const {
     if (matrices_) return matrices_->upper_bound(c);
     constexpr int most_repeats = 40;
     constexpr double worth_repeating = 1e-3;  // of the bound, over five repeats
@@ -202,6 +210,102 @@ inline double Pencil::upper_bound(const Combination& c) const {
     const double rounding = 1 + 16 * std::numeric_limits<double>::epsilon();
     return best * rounding +
            mass_coefficient(c) * (mass_coefficient(c) > 0 ? rounding : 1 / rounding);
+}
+
+template <class Real, class CoefficientsOf>
+SparseMatrix<Real> Pencil::assemble_links(const Combination& c,
+                                          const CoefficientsOf& coefficients_of) const {
+    SparseMatrix<Real> S = dim() == 1   ? assemble_in<1>(coefficients_of)
+                           : dim() == 2 ? assemble_in<2>(coefficients_of)
+                                        : assemble_in<3>(coefficients_of);
+    S.diagonal() += mass_coefficient(c) * mass_;
+    return S;
+}
+
+template <int Dim, class CoefficientsOf>
+SparseMatrix<double> Pencil::assemble_in(const CoefficientsOf& coefficients_of) const {
+    using Matrix = Eigen::Matrix<double, Dim, Dim>;
+    const BlockPattern pattern(size() / Dim, [&](const auto& visit) {
+        for (const Link& link : links_) {
+            if (link.a >= 0 && link.b >= 0) visit(link.a, link.b);
+        }
+    });
+    SparseMatrix<double> S = pattern.zero<double, Dim>();
+    const auto add = [&](int row, int column, const Matrix& P) {
+        if (row >= 0 && column >= 0) pattern.add(S, pattern.place(row, column), column, P);
+    };
+    for (const Link& link : links_) {
+        const auto [axial, transverse] = coefficients_of(link);
+        const Eigen::Matrix<double, Dim, 1> d(link.d);
+        const Matrix P = spring_block(d, axial, transverse);
+        add(link.a, link.a, P);
+        add(link.b, link.b, P);
+        add(link.a, link.b, -P);
+        add(link.b, link.a, -P);
+    }
+    return S;
+}
+
+/// Each entry of a link's block carries ≤ 24 roundings of its magnitude (the tangent's own among
+/// them), and adding d of them up d more; a row of Dim entries meets two blocks of each link.
+template <class Real>
+Real Pencil::assembly_error(const Combination& c, const Eigen::VectorXd& s) const {
+    if (matrices_) return matrices_->assembly_error(c, s);
+    Buffer<double> row(degree_.size());
+    Buffer<double> scale(degree_.size());
+    for (std::size_t i = 0; i < scale.size(); ++i) {
+        scale[i] = s.segment(dim() * static_cast<Index>(i), dim()).maxCoeff();
+        row[i] = std::abs(mass_coefficient(c)) * particle_mass(i) * scale[i] * scale[i];
+    }
+    for (const Link& link : links_) {
+        const double entry = dim() * magnitude(c, link);
+        const double sa = link.a < 0 ? 0 : scale[link.a];
+        const double sb = link.b < 0 ? 0 : scale[link.b];
+        if (link.a >= 0) row[link.a] += entry * sa * (sa + sb);
+        if (link.b >= 0) row[link.b] += entry * sb * (sa + sb);
+    }
+    double largest = 0;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        largest = std::max(largest, (degree_[i] + 32) * row[i]);
+    }
+    return largest * std::numeric_limits<double>::epsilon();
+}
+
+template <class Real>
+Pencil Pencil::explicit_part(const std::vector<Real>& shares) const {
+    Pencil pencil = *this;
+    for (std::size_t s = 0; s < links_.size(); ++s) {
+        const double part = 1 - shares[names_[s].spring];
+        Link& link = pencil.links_[s];
+        for (double* value : {&link.axial, &link.softer, &link.transverse, &link.damping}) {
+            *value *= part;
+        }
+        link.bound *= std::abs(part);
+        if (part >= 0) continue;
+        // K⁺, which Rayleigh's α acts through, has no negative springs.
+        link.damping += rayleigh_.stiffness_proportional * link.axial;
+        pencil.facts_.is_rayleigh = false;
+        pencil.facts_.stiffness_semidefinite = false;
+        pencil.facts_.damping_semidefinite = false;
+    }
+    return pencil;
+}
+
+template <class Real>
+Pencil Pencil::scaled(Real stiffness, Real mass) const {
+    constexpr double least = std::numeric_limits<double>::min();
+    Pencil pencil = *this;
+    pencil.mass_ *= mass;
+    if (matrices_) pencil.matrices_ = matrices_->scaled(stiffness, mass, is_rayleigh());
+    for (Link& link : pencil.links_) {
+        link.axial *= stiffness;
+        link.softer *= stiffness;
+        link.transverse *= stiffness;
+        // The rounding that a bound stands for must not vanish with it.
+        const bool zero = link.bound == 0 || stiffness == 0;
+        link.bound = std::max(link.bound * stiffness, zero ? 0 : least);
+    }
+    return pencil;
 }
 
 }  // namespace taut

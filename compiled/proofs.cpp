@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#include <taut/stability/detail/explicit_limit-inl.hpp>
+#include <taut/stability/detail/scales-inl.hpp>
+#include <taut/stability/detail/small_eigenvalue-inl.hpp>
+#include <taut/stability/detail/symplectic_limit-inl.hpp>
+#include <taut/stability/pencil-inl.hpp>
+#include <taut/stability/rayleigh-inl.hpp>
+#include <taut/stability/stability-inl.hpp>
+
+namespace taut {
+
+template SparseMatrix<double> Pencil::assemble<double>(const Combination&) const;
+template SparseMatrix<double> Pencil::assemble_least<double>(const Combination&) const;
+template double Pencil::assembly_error<double>(const Combination&, const Eigen::VectorXd&) const;
+template std::vector<double> Pencil::particle_loads(const Combination&,
+                                                    const std::vector<double>&) const;
+template Pencil Pencil::scaled<double>(double, double) const;
+template Pencil Pencil::explicit_part(const std::vector<double>&) const;
+
+template class Stability<float>;
+template class Stability<double>;
+
+}  // namespace taut

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "../../method/mode.hpp"
+#include "symplectic_limit.hpp"
+
+namespace taut::stability_detail {
+
+TAUT_INLINE SymplecticStep certified_symplectic(const Pencil& pencil) {
+    if (pencil.is_rayleigh()) {
+        const double k = std::max(0.0, pencil.upper_bound(K_plus));
+        const auto& rayleigh = pencil.rayleigh();
+        if (!std::isfinite(k)) return {0, k};  // overflow: nothing is proved
+        const double d = rayleigh.mass_proportional + rayleigh.stiffness_proportional * k;
+        return {critical_step(Method::symplectic_euler, k, d), k};
+    }
+    // g(h) bounds M⁻¹(2hD + h²K⁺)/4 and is convex with g(0) = 0: from h the step h/√g is safe as
+    // well, and larger, until g = 1.
+    const auto g = [&](double h) { return pencil.upper_bound(2 * h * D + h * h * K_plus) / 4; };
+    const double k = std::max(0.0, pencil.upper_bound(K_plus));
+    const double d = std::max(0.0, pencil.upper_bound(D));
+    if (!std::isfinite(k) || !std::isfinite(d)) return {0, k};
+    double h = critical_step(Method::symplectic_euler, k, d);
+    for (int repeat = 0; repeat < 8 && std::isfinite(h); ++repeat) {
+        const double larger = h / std::sqrt(g(h));
+        if (!(larger > h * (1 + 1e-4))) break;
+        h = larger;
+    }
+    return {h, k};
+}
+
+TAUT_INLINE UnroundedLimit symplectic_by_bounds(const Pencil& pencil) {
+    const auto [h, k] =
+        pencil.size() == 0 ? SymplecticStep{infinity, 0} : certified_symplectic(pencil);
+    if (!std::isfinite(h)) return {infinity, infinity, Cause::nothing_to_limit};
+    if (!(h > 0)) return {0, infinity, Cause::overflow};
+    // Of 4 = 2hd + h²k at the limit damping has more than half where stiffness cannot have it.
+    return {h, infinity, h * h * k < 2 ? Cause::damping : Cause::stiffness};
+}
+
+TAUT_INLINE void add_compression(const Pencil& pencil, UnroundedLimit& limit) {
+    if (pencil.stiffness_semidefinite() || !claims(limit)) return;
+    limit.admitted_growth = std::sqrt(pencil.deficit(K));
+}
+
+}  // namespace taut::stability_detail
