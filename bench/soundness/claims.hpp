@@ -4,7 +4,7 @@
 
 #include "complex_multipliers.hpp"
 
-// What a limit claims (docs/theory/damping.md and certified.md), and whether it is false. A claim
+// What a limit claims (docs/theory, damping and certified), and whether it is false. A claim
 // is called wrong on a proof alone; where neither side can be shown it is unknown.
 
 namespace soundness {
