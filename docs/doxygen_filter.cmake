@@ -38,21 +38,24 @@ function(heading_slug result heading)
     set(${result} "${slug}" PARENT_SCOPE)
 endfunction()
 
-# A label as [T19] that is no link yet becomes one, in parentheses, to the section of docs/theory.md that has its
-# formula.
+# A label as [T19] that is no link yet becomes one, in parentheses, to the section of docs/theory/ that has its
+# formula, but for the one in the formula itself.
 # Brackets are <open> and <close> here.
 macro(link_labels)
-    set(theory_page "${CMAKE_CURRENT_LIST_DIR}/theory.md")
-    file(STRINGS "${theory_page}" lines REGEX "^## |[[]T[0-9]+\\]}?$")
     string(REGEX REPLACE "<open>(T[0-9]+)<close>\\(" "<linked>\\1<close>(" text "${text}")
-    foreach(line IN LISTS lines)
-        if(line MATCHES "^## ")
-            heading_slug(section "${line}")
-            identifier(section "${theory_page}" "${section}")
-        elseif(line MATCHES "[[](T[0-9]+)\\]}?$")
-            string(REPLACE "<open>${CMAKE_MATCH_1}<close>"
-                "(<linked>${CMAKE_MATCH_1}<close>(@ref ${section}))" text "${text}")
-        endif()
+    string(REPLACE "textbf{<open>" "textbf{<linked>" text "${text}")
+    file(GLOB theory_pages "${CMAKE_CURRENT_LIST_DIR}/theory/*.md")
+    foreach(theory_page IN LISTS theory_pages)
+        file(STRINGS "${theory_page}" lines REGEX "^## |textbf{[[]T[0-9]+\\]}$")
+        foreach(line IN LISTS lines)
+            if(line MATCHES "^## ")
+                heading_slug(section "${line}")
+                identifier(section "${theory_page}" "${section}")
+            elseif(line MATCHES "[[](T[0-9]+)\\]}$")
+                string(REPLACE "<open>${CMAKE_MATCH_1}<close>"
+                    "(<linked>${CMAKE_MATCH_1}<close>(@ref ${section}))" text "${text}")
+            endif()
+        endforeach()
     endforeach()
     string(REPLACE "<linked>" "<open>" text "${text}")
 endmacro()
@@ -111,10 +114,14 @@ function(filter_page text)
         string(REPLACE "${span}" "`${span}`" text "${text}")
     endforeach()
 
-    # The README of a folder of docs/ stands above the other pages there.
+    # The README of a folder of docs/ stands above the other pages there, and docs/theory.md above docs/theory/.
     set(contents "")
+    set(below "")
     if(file MATCHES "docs/([a-z_]+)/README\\.md$")
         set(contents "${CMAKE_MATCH_1}")
+    elseif(name STREQUAL "theory")
+        set(contents theory)
+        set(below "theory/")
     endif()
     # Without a space: "](auto& x)" is C++.
     string(REGEX MATCHALL "<close>\\([^) \n]+\\)" links "${text}")
@@ -128,7 +135,7 @@ function(filter_page text)
             endif()
             identifier(id "${page}" "${CMAKE_MATCH_2}")
             string(REPLACE "${link}" "<close>(@ref ${id})" text "${text}")
-        elseif(contents AND target MATCHES "^([a-z_]+)\\.md$")
+        elseif(contents AND target MATCHES "^${below}([a-z_]+)\\.md$")
             string(REGEX REPLACE "<open>([^<\n]+)<close>\\(${target}\\)"
                 "@subpage ${contents}_${CMAKE_MATCH_1} \"\\1\"" text "${text}")
         elseif(target MATCHES "\\.md$" AND EXISTS "${folder}/${target}")
@@ -147,9 +154,7 @@ function(filter_page text)
         endif()
     endforeach()
 
-    if(NOT name STREQUAL "theory")
-        link_labels()
-    endif()
+    link_labels()
     string(REPLACE "<open>" "[" text "${text}")
     string(REPLACE "<close>" "]" text "${text}")
     string(REPLACE "<semicolon>" ";" text "${text}")

@@ -4,8 +4,8 @@
 
 #include "complex_multipliers.hpp"
 
-// What a limit claims (docs/theory.md, sections 6 to 10), and whether it is false. A claim is
-// called wrong on a proof alone; where neither side can be shown it is unknown.
+// What a limit claims (docs/theory, damping and certified), and whether it is false. A claim
+// is called wrong on a proof alone; where neither side can be shown it is unknown.
 
 namespace soundness {
 

@@ -8,7 +8,7 @@
 
 #include "definite.hpp"
 
-// The spring laws in the referee's numbers, from the equations of docs/theory.md.
+// The spring laws in the referee's numbers, from the equations of docs/theory.
 
 namespace soundness {
 

@@ -3,8 +3,8 @@
 
 // check_pages FOLDER: reads every page (*.md) of the repository in FOLDER and names what a reader
 // should not meet: what a shell or a compiler says when it fails, paths of the machine that wrote
-// the page, cells of a table without a number, links to files and headings that are not there, long
-// lines.
+// the page, cells of a table without a number, links to files and headings that are not there,
+// labels such as [T19] that docs/theory/ does not have or its index does not list, long lines.
 
 #include <cctype>
 #include <cstddef>
@@ -85,6 +85,8 @@ public:
 
     /// @returns the number of faults, each of which it has told
     int check() {
+        for (const auto& [path, page] : pages_) find_labels(path, page);
+        check_index();
         for (const auto& [path, page] : pages_) check(path, page);
         if (pages_.size() < 10) {
             std::cerr << root_.string() << ": found " << pages_.size() << " pages alone\n";
@@ -97,6 +99,29 @@ private:
     void fault(const fs::path& path, std::size_t row, const std::string& what) {
         std::cerr << fs::relative(path, root_).string() << ":" << row + 1 << ": " << what << "\n";
         ++faults_;
+    }
+
+    /// A formula of docs/theory/ ends with its label, \textbf{[T19]}.
+    void find_labels(const fs::path& path, const Page& page) {
+        static const std::regex defined("textbf[{]\\[(T[0-9]+)\\][}]$");
+        if (path.parent_path() != root_ / "docs" / "theory") return;
+        std::smatch found;
+        for (const std::string& line : page.lines)
+            if (std::regex_search(line, found, defined))
+                labels_[found[1]] = path.filename().string();
+    }
+
+    /// docs/theory.md lists each label as a link to the page that has it.
+    void check_index() {
+        const auto index = pages_.find(root_ / "docs" / "theory.md");
+        for (const auto& [label, page] : labels_) {
+            const std::string link = "[" + label + "](theory/" + page + "#";
+            bool listed = false;
+            if (index != pages_.end())
+                for (const std::string& line : index->second.lines)
+                    listed = listed || line.find(link) != std::string::npos;
+            if (!listed) fault(root_ / "docs" / "theory.md", 0, link + "...) is missing");
+        }
     }
 
     void check(const fs::path& path, const Page& page) {
@@ -124,7 +149,7 @@ private:
                       std::to_string(length(line)) + " characters, beyond " +
                           std::to_string(longest_line));
             }
-            check_links(path, row, line);
+            check_links_and_labels(path, row, line);
             static const std::regex open_bracket("\\[[^\\]]*$");
             static const std::regex closed_below("^[^\\[`]*\\]\\(");
             if (row + 1 < page.lines.size() && std::regex_search(line, open_bracket) &&
@@ -136,10 +161,17 @@ private:
         if (fenced) fault(path, page.lines.size() - 1, "the code that ``` begins does not end");
     }
 
-    void check_links(const fs::path& path, std::size_t row, const std::string& line) {
+    void check_links_and_labels(const fs::path& path, std::size_t row, const std::string& line) {
         static const std::regex code("`[^`]*`");
         static const std::regex link("\\]\\(([^()\\s]+)\\)");
         const std::string words = std::regex_replace(line, code, "`");
+        static const std::regex label("\\[(T[0-9]+)\\]");
+        for (std::sregex_iterator found(words.begin(), words.end(), label), end; found != end;
+             ++found) {
+            if (labels_.count((*found)[1]) == 0) {
+                fault(path, row, "no page of docs/theory/ has " + found->str());
+            }
+        }
         for (std::sregex_iterator found(words.begin(), words.end(), link), end; found != end;
              ++found) {
             const std::string target = (*found)[1];
@@ -159,6 +191,7 @@ private:
 
     fs::path root_;
     std::map<fs::path, Page> pages_;
+    std::map<std::string, std::string> labels_;  ///< of the theory, each with its page's file
     int faults_ = 0;
 };
 

@@ -52,7 +52,7 @@ std::optional<taut::ModeError> measured(const System& system, double omega, doub
 
 }  // namespace
 
-TEST_CASE("accuracy: at small steps the errors of the theory's section 12", "[accuracy]") {
+TEST_CASE("accuracy: at small steps the errors of the theory [T25]", "[accuracy]") {
     struct Term {
         Method method;
         double damping, damping_power, period;

@@ -36,7 +36,7 @@ inline void require_mode(const char* function, double z, double zeta) {
 
 /// The exact errors of one mode: ln μ/h against λ. For ζ = 0 and small z the damping ratio is
 /// −z/2 (explicit Euler), 0, 0, z/2 (implicit Euler), z³/4 (BDF2) and z/2 (energy-stable Euler),
-/// the period error z²/3, −z²/24, −z²/24, z²/3, z²/3 and −z²/6 (theory, section 12). With ζ > 0 all
+/// the period error z²/3, −z²/24, −z²/24, z²/3, z²/3 and −z²/6 [T25]. With ζ > 0 all
 /// but BDF2, of order 2, err like z.
 /// @param z  hω, rad, > 0   @param zeta  the mode's own damping ratio, in [0, 1)
 inline ModeError mode_error(Method method, double z, double zeta = 0) {

@@ -22,7 +22,7 @@ struct ChainOptions {
 
 /// Equal masses and springs in a row along the first axis, or in a circle (for Dim = 1 too a ring
 /// is closed by a spring from the last to the first). Free particles come first, pinned ones last.
-/// The eigenvalues of M⁻¹K along the chain have closed forms (docs/theory.md, closed forms).
+/// The eigenvalues of M⁻¹K along the chain have closed forms (docs/theory/modes.md).
 template <class Scalar, int Dim = 1>
 SpringSystem<Scalar, Dim> chain(const ChainOptions& options = {}) {
     const bool ring = options.ends == ChainEnds::ring;

@@ -15,7 +15,7 @@
 namespace taut::stability_detail {
 
 /// The largest limit of explicit Euler that a mode with k in [low, high], 1/s², can have. The modes
-/// that are stable at one step are an interval of k (section 4), so the limit has one peak: at
+/// that are stable at one step are an interval of k [T13], so the limit has one peak: at
 /// critical damping, √k = d0/(1 + √(1 − αd0)), as far as d0 > 0.
 inline double largest_explicit_limit(const RayleighDamping& rayleigh, double low, double high) {
     const auto [d0, alpha] = rayleigh;
