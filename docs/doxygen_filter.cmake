@@ -113,7 +113,7 @@ function(filter_page text)
 
     # The README of a folder of docs/ stands above the other pages there.
     set(contents "")
-    if(file MATCHES "docs/([a-z_]+)/README\\.md$")
+    if(file MATCHES "/docs/([a-z_]+)/README\\.md$" AND NOT CMAKE_MATCH_1 STREQUAL "docs")
         set(contents "${CMAKE_MATCH_1}")
     endif()
     # Without a space: "](auto& x)" is C++.
