@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 // What the library answers at the ends of its range, and what rounding costs there:
-// bench/results/extremes.md. Ten steps in float and in double are compared with the same steps in long
-// double.
+// bench/results/extremes.md. Ten steps in float and in double are compared with the same steps in
+// long double.
 
 #include <algorithm>
 #include <cmath>
