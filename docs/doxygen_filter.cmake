@@ -117,7 +117,7 @@ function(filter_page text)
     # The README of a folder of docs/ stands above the other pages there, and docs/theory.md above docs/theory/.
     set(contents "")
     set(below "")
-    if(file MATCHES "docs/([a-z_]+)/README\\.md$")
+    if(file MATCHES "/docs/([a-z_]+)/README\\.md$" AND NOT CMAKE_MATCH_1 STREQUAL "docs")
         set(contents "${CMAKE_MATCH_1}")
     elseif(name STREQUAL "theory")
         set(contents theory)
