@@ -7,6 +7,31 @@
 
 namespace taut {
 
+namespace stability_detail {
+
+/// @param laplacians  laplacians(Pencil::Damping): the pencil [T23] with that part of the damping
+template <class Scalar, class Laplacians>
+StepLimit<Scalar> at_any_pose(Method method, const Laplacians& laplacians, std::uint64_t revision) {
+    using method::AnyPose;
+    const AnyPose proof =
+        method::visit(method, [](auto descriptor) { return decltype(descriptor)::any_pose; });
+    if (proof == AnyPose::proved) {
+        return of_laplacians<Scalar>(laplacians(Pencil::Damping::half), revision, 0.5);
+    }
+    const Pencil laplacian = laplacians(Pencil::Damping::all);
+    StepLimit<Scalar> limit = of_laplacians<Scalar>(laplacian, revision);
+    if (proof == AnyPose::limited || !(limit.certified > 0) || limit.unbounded()) return limit;
+    if (proof == AnyPose::every_step) {
+        method::visit_limited("any_pose_limit", method, [](auto) { return true; });  // not BDF2
+        return rounded<Scalar>({infinity, infinity, Cause::unconditional}, revision);
+    }
+    const bool damped = laplacian.upper_bound(D) > 0;
+    return rounded<Scalar>({0, infinity, damped ? Cause::one_pose_only : Cause::undamped},
+                           revision);
+}
+
+}  // namespace stability_detail
+
 /// The step at any pose (linearised): 4M − 2hL_c − h²L_k ≻ 0 on the graph Laplacians proves
 /// that symplectic Euler (and velocity Verlet) has no multiplier μ ≤ −1 at any pose [T23]. By the
 /// splitting bound alone, O(springs) for each of a few passes [T26].
@@ -20,6 +45,18 @@ namespace taut {
 template <class Scalar, int Dim, class... Laws>
 StepLimit<Scalar> any_pose_limit(const SpringSystem<Scalar, Dim, Laws...>& system) {
     return stability_detail::of_laplacians<Scalar>(Pencil::any_pose(system), system.revision());
+}
+
+/// The same for a method: the step above for symplectic Euler and velocity Verlet; that of
+/// energy_limit for the energy-stable step; every step of an implicit one. Of explicit Euler
+/// nothing is proved at every pose: certified is 0, for the stiffness of a spring across its axis,
+/// T/l, falls without end as the spring is compressed, and 4M − 2hD + h²K ≻ 0 [T17] then fails at
+/// any h.
+template <class Scalar, int Dim, class... Laws>
+StepLimit<Scalar> any_pose_limit(const SpringSystem<Scalar, Dim, Laws...>& system, Method method) {
+    return stability_detail::at_any_pose<Scalar>(
+        method, [&](Pencil::Damping counted) { return Pencil::any_pose(system, counted); },
+        system.revision());
 }
 
 }  // namespace taut

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <optional>
 
 #include "../core/detail/fits.hpp"
 #include "../model/spring_system.hpp"
@@ -156,8 +155,6 @@ public:
         require_positive("Stability::min_mass_scale", "h", h);
         return stability_detail::min_mass_scale(method, *pencil_, h);
     }
-    /// The number of equal steps of a frame, s, that the bound certifies; nothing if no step is.
-    std::optional<Index> substeps(Method method, double frame) const;
 
     /// The system's when this was made, see StepLimit.
     std::uint64_t revision() const { return revision_; }
@@ -175,15 +172,6 @@ template <class Scalar>
 StepLimit<Scalar> Stability<Scalar>::max_step(Method method) const {
     return stability_detail::limit_of<Scalar>(method, *pencil_, revision_,
                                               stability_detail::ByBounds{*pencil_});
-}
-
-template <class Scalar>
-std::optional<Index> Stability<Scalar>::substeps(Method method, double frame) const {
-    require_positive("Stability::substeps", "frame", frame);
-    const double certified = static_cast<double>(max_step(method).certified);
-    // Beyond 1e15 the count is no longer exact, and no frame was meant.
-    if (!(certified > 0) || !(frame / certified < 1e15)) return std::nullopt;
-    return std::max<Index>(1, static_cast<Index>(std::ceil(frame / certified)));
 }
 
 }  // namespace taut

@@ -12,7 +12,8 @@ inline auto Pencil::coefficients(const Combination& c, const Link& link) const -
     const auto elastic = [&](double slope) {
         return c.stiffness() * slope + on_plus * k_plus(slope);
     };
-    return {elastic(link.axial) + c.damping() * link.damping, elastic(link.transverse)};
+    return {elastic(link.axial) + c.damping() * link.damping,
+            elastic(link.transverse) + c.damping() * link.across};
 }
 
 inline auto Pencil::extreme_coefficients(const Combination& c, const Link& link, int sign) const
@@ -95,9 +96,11 @@ inline auto Pencil::splitting(const Combination& c) const -> Splitting {
     for (const Link& link : links_) {
         const auto [axial, transverse] = extreme_coefficients(c, link, 1);
         const double size = magnitude(c, link);
-        if (c.stiffness() == 0 && factor <= 0 && (c.damping() <= 0 || axial < -64 * eps * size)) {
-            continue;  // not positive for certain
-        }
+        const double least = -64 * eps * size;
+        const bool by_signs = c.stiffness() == 0 && factor <= 0 &&
+                              (c.damping() <= 0 || (axial < least && link.across == 0));
+        const bool by_damper = link.across > 0 && axial < least && transverse < least;
+        if (by_signs || by_damper) continue;  // not positive for certain
         split.term.push_back(
             {link.a, link.b, std::max(axial, 0.0), std::max(transverse, 0.0), size, link.d});
     }

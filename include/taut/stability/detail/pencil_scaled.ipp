@@ -12,7 +12,8 @@ Pencil Pencil::explicit_part(const std::vector<Real>& shares) const {
     for (std::size_t s = 0; s < links_.size(); ++s) {
         const double part = 1 - shares[static_cast<std::size_t>(names_[s].spring)];
         Link& link = pencil.links_[s];
-        for (double* value : {&link.axial, &link.softer, &link.transverse, &link.damping}) {
+        for (double* value :
+             {&link.axial, &link.softer, &link.transverse, &link.damping, &link.across}) {
             *value *= part;
         }
         link.bound *= std::abs(part);
@@ -24,6 +25,17 @@ Pencil Pencil::explicit_part(const std::vector<Real>& shares) const {
         pencil.facts_.damping_semidefinite = false;
     }
     return pencil;
+}
+
+template <class Real>
+void Pencil::add_dampers(const std::vector<Real>& dampers) {
+    for (std::size_t s = 0; s < links_.size(); ++s) {
+        const double c = dampers[static_cast<std::size_t>(names_[s].spring)];
+        Link& link = links_[s];
+        link.damping += c;
+        link.across += dim() == 1 && link.d[0] != 0 ? 0 : c;
+        if (c > 0) facts_.is_rayleigh = false;
+    }
 }
 
 template <class Real>
