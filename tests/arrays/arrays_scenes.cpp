@@ -205,9 +205,11 @@ Answers system_answers(const Net& net, taut::Method method, Index springs) {
         for (const int i : net.pins) system.pin(i);
         system.set_rayleigh(net.rayleigh);
         const taut::Stability<Scalar> stability(system, system.initial_state());
-        return Answers{in_double(taut::any_pose_limit(system, method)),
-                       in_double(stability.max_step(method)),
-                       taut::limiting_springs(stability, springs)};
+        Answers answers{in_double(taut::any_pose_limit(system, method)), {}, {}};
+        if (method == taut::Method::energy_stable_euler) return answers;  // nothing at a pose
+        answers.at_pose = in_double(stability.max_step(method));
+        answers.springs = taut::limiting_springs(stability, springs);
+        return answers;
     });
 }
 

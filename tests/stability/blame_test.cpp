@@ -262,7 +262,8 @@ TEST_CASE("blame: substeps", "[stability]") {
     for (const double frame :
          {1.0 / 60, 0.5, 3.7 * certified, 3.2 * certified, certified, 0.3 * certified, 1e-12}) {
         for (const double safety : {0.95, 0.5, 1.0}) {
-            const auto count = safety == 0.95 ? limit.substeps(frame) : limit.substeps(frame, safety);
+            const auto count =
+                safety == 0.95 ? limit.substeps(frame) : limit.substeps(frame, safety);
             REQUIRE(count.has_value());
             CHECK(*count >= 1);
             const double most = safety * certified;
