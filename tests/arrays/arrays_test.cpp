@@ -36,10 +36,10 @@ NetOptions damped(int kind) {
     return options;
 }
 
-/// The matrix of a step of x⁺ = x + f·(x − x⁻) + h²a on (x, x⁻), all in units of M^½x.
-RealMatrix verlet_matrix(const Exact& e, Real f, Real h) {
+/// The matrix of a step of x⁺ = x + f·(x − x⁻) + part·h²a on (x, x⁻), all in units of M^½x.
+RealMatrix verlet_matrix(const Exact& e, Real f, Real h, Real part = 1) {
     const Index N = e.size();
-    const RealMatrix K = e.scaled(0, 1, 0, false), D = e.scaled(0, 0, 1, false);
+    const RealMatrix K = e.scaled(0, part, 0, false), D = e.scaled(0, 0, part, false);
     const RealMatrix one = RealMatrix::Identity(N, N);
     RealMatrix A = RealMatrix::Zero(2 * N, 2 * N);
     A.topLeftCorner(N, N) = (1 + f) * one - h * h * K - h * D;
@@ -162,7 +162,9 @@ TEST_CASE("arrays: dampers of both kinds against dense eigenvalues", "[arrays]")
             CHECK(check.limit.certified > 0);
             worst = std::min(worst, proved / truth);
             for (const double h : {proved, 0.7 * check.limit.certified}) {
-                CHECK(radius(verlet_matrix(e, net.velocity_factor, h)) <= 1 + 1e-6L);
+                const Real f = net.velocity_factor;
+                CHECK(radius(verlet_matrix(e, f, h)) <= 1 + 1e-6L);
+                CHECK(radius(verlet_matrix(e, f, h, f)) <= 1 + 1e-6L);  // v⁺ = f·(v + ha)
             }
             CHECK(radius(verlet_matrix(e, net.velocity_factor, 1.01L * truth)) > 1 + 1e-6L);
         }
