@@ -85,6 +85,9 @@ taut::StepCheck<double> check_apart(const Net& net, taut::Method method, double 
     arrays.stiffness = k.data();
     arrays.rest_length = L.data();
     // One number may stand for all.
+    if (std::all_of(L.begin(), L.end(), [](Scalar one) { return one == 0; })) {
+        arrays.rest_length = 0;
+    }
     const bool same = std::all_of(c.begin(), c.end(), [&](Scalar one) { return one == c[0]; });
     if (same && !c.empty()) arrays.damping = c[0];
     if (!same) arrays.damping = c.data();

@@ -354,6 +354,8 @@ TEST_CASE("arrays: wrong numbers are named", "[arrays][bad_input]") {
     says(refusal([](Net& n) { n.velocity_factor = 0.5; }, Method::velocity_verlet),
          "with velocity_verlet it must be 1");
     says(refusal([](Net& n) { n.stiffness[3] = 1e-200; }), "the stiffness of spring 3 is 1e-200");
+    says(refusal([](Net& n) { n.whole_damping[3] = 1e200; }),
+         "whole damping of spring 3 is 1e+200");
     CHECK(refusal([](Net& n) { n.mass[1] = 0; }).empty());  // pinned
     for (const double h : {0.0, -1.0, infinity, nan}) {
         says(message_of([&] { (void)check_step(good, Method::symplectic_euler, h); }), "h is ");

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <type_traits>
 
 #include "../core/types.hpp"
 
@@ -14,8 +15,9 @@ class ArrayView {
 public:
     /// 0 for all.
     ArrayView() = default;
-    /// The same number for all.
-    ArrayView(T number) : number_(number) {}
+    /// The same number for all. A template, or 0 might be a pointer too.
+    template <class Number, class = std::enable_if_t<std::is_arithmetic_v<Number>>>
+    ArrayView(Number number) : number_(static_cast<T>(number)) {}
     /// @param first  of the first row   @param stride  bytes from row to row
     ArrayView(const T* first, std::size_t stride = Width * sizeof(T))
         : first_(first), stride_(stride) {}

@@ -173,8 +173,8 @@ public:
     /// stay. What is scaled below the normal numbers keeps its allowance for rounding.
     template <class Real = double>
     Pencil scaled(Real stiffness, Real mass) const;
-    /// Puts beside each spring a damper on the whole relative velocity of its ends: D gains c·L ⊗
-    /// I, L the graph Laplacian of that spring. @param dampers  N·s/m, ≥ 0, in index order
+    /// Puts a damper c beside each spring, on the whole relative velocity of its ends: c·L ⊗ I in
+    /// D, L the graph Laplacian of that spring. @param dampers  N·s/m, ≥ 0, in index order
     template <class Real>
     void add_dampers(const std::vector<Real>& dampers);
     /// The pencil of what stays explicit beside implicit shares [T33]: springs times 1 − s.

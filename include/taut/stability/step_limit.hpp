@@ -24,8 +24,8 @@ enum class Cause {
     buckling,          ///< K is indefinite: the physics itself grows, at growth_rate
     damping_unproved,  ///< D could not be shown to be positive semi-definite
     rounding,          ///< semi-definiteness was shown up to rounding only: see certified_up_to
-    one_pose_only,     ///< explicit Euler, of which no step is proved at every pose
-    overflow           ///< values beyond the range of double: nothing is proved
+    overflow,          ///< values beyond the range of double: nothing is proved
+    one_pose_only      ///< explicit Euler, of which no step is proved at every pose
 };
 
 /// The name as the programs and their JSON spell it.
@@ -40,8 +40,8 @@ constexpr const char* name(Cause cause) {
         case Cause::buckling: return "buckling";
         case Cause::damping_unproved: return "damping_unproved";
         case Cause::rounding: return "rounding";
-        case Cause::one_pose_only: return "one_pose_only";
         case Cause::overflow: return "overflow";
+        case Cause::one_pose_only: return "one_pose_only";
     }
     return "unknown";
 }
@@ -112,8 +112,7 @@ struct StepLimit {
     }
 
     /// The fewest equal steps of a frame, s, that are safety·certified at most; nothing when no
-    /// step is certified, or when safety is not in (0, 1]. Fails unless the frame is finite and >
-    /// 0.
+    /// step is certified, or when safety is not in (0, 1]. Fails unless frame is finite and > 0.
     std::optional<Index> substeps(double frame, double safety = 0.95) const {
         require_positive("StepLimit::substeps", "frame", frame);
         const double steps = frame / (safety * static_cast<double>(certified));

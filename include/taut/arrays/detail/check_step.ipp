@@ -106,14 +106,15 @@ void System<Scalar, Dim>::add_particles(const SpringArrays<Scalar, Dim, Int>& fr
         const Real mass = inverse ? 1 / static_cast<Real>(given) : static_cast<Real>(given);
         mass_.push_back(mass);
         if (pinned || (mass > 0 && std::isfinite(mass))) continue;
-        fail("check_step: the ", inverse ? "inverse mass" : "mass", " of particle ", i, " is ", given,
-             "; it must be finite and > 0, or the particle pinned");
+        fail("check_step: the ", inverse ? "inverse mass" : "mass", " of particle ", i, " is ",
+             given, "; it must be finite and > 0, or the particle pinned");
     }
 }
 
 template <class Scalar, int Dim>
 template <class Int>
 void System<Scalar, Dim>::add_springs(const SpringArrays<Scalar, Dim, Int>& from) {
+    stability_detail::RangeCheck range;  // Pencil has its own for all else
     for (Index s = 0; s < from.springs; ++s) {
         const Index ends[] = {static_cast<Index>(from.ends(s, 0)),
                               static_cast<Index>(from.ends(s, 1))};
@@ -133,8 +134,10 @@ void System<Scalar, Dim>::add_springs(const SpringArrays<Scalar, Dim, Int>& from
         require_at_least_0("whole damping of spring", s, whole);
         set_.add({ends[0], ends[1], {from.stiffness(s)}, from.rest_length(s), from.damping(s)});
         if (whole > 0 && whole_.empty()) whole_.resize(static_cast<std::size_t>(from.springs));
-        if (whole > 0) whole_[static_cast<std::size_t>(s)] = static_cast<double>(whole);
+        if (whole == 0) continue;
+        whole_[static_cast<std::size_t>(s)] = range.in_range(whole, "whole damping of spring", s);
     }
+    if (!range.lost().empty()) fail("check_step: ", range.lost());
 }
 
 /// A pencil as Stability takes a system.
