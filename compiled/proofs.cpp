@@ -16,6 +16,7 @@ template double Pencil::assembly_error<double>(const Combination&, const Eigen::
 template std::vector<double> Pencil::particle_loads(const Combination&,
                                                     const std::vector<double>&) const;
 template Pencil Pencil::scaled<double>(double, double) const;
+template void Pencil::add_dampers(const std::vector<double>&);
 template Pencil Pencil::explicit_part(const std::vector<double>&) const;
 
 template class Stability<float>;

@@ -55,7 +55,7 @@ void not_finite_at_once() {
     std::printf("1/60 s: a vibration grows %.0f-fold a step; not finite after %d frames\n", factor,
                 frames);
     std::printf("safe: %d substeps, or all stiffness times %.1e, or all masses times %.0f\n",
-                int(stability.substeps(Method::symplectic_euler, h).value_or(0)),
+                int(stability.max_step(Method::symplectic_euler).substeps(h).value_or(0)),
                 stability.max_stiffness_scale(Method::symplectic_euler, h),
                 stability.min_mass_scale(Method::symplectic_euler, h));
     expect(frames < 100, "NaN within 100 frames");

@@ -35,7 +35,6 @@ TEST_CASE("bdf2: no step is called safe or unsafe, but by name", "[stability]") 
     CHECK(refused([&] { (void)taut::certify(stability, bdf2, 1e-3); }) == "");
     CHECK(refused([&] { (void)stability.max_stiffness_scale(bdf2, 1e-3); }) == "");
     CHECK(refused([&] { (void)stability.min_mass_scale(bdf2, 1e-3); }) == "");
-    CHECK(refused([&] { (void)stability.substeps(bdf2, 1e-3); }) == "");
     CHECK(refused([&] { (void)stability.rayleigh_window(bdf2, 1e-3); }) == "");
 }
 

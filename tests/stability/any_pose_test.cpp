@@ -5,6 +5,7 @@
 #include <taut/stability/bracket.hpp>
 
 #include "../support/catch.hpp"
+#include "../support/random_system.hpp"
 #include "../support/stability_scenes.hpp"
 
 // The limits that hold at any pose: 4M − 2hL_c − h²L_k ≻ 0 [T23] and M ⪰ h²L_k + ½hD [T42].
@@ -248,6 +249,60 @@ TEST_CASE("any_pose: closed forms, causes, and scenes without a limit", "[stabil
     for (const auto& limit : {scene.any_pose_limit(), scene.energy_limit()}) {
         CHECK(limit.cause == Cause::overflow);
         CHECK(limit.certified == 0);
+    }
+}
+
+TEST_CASE("any pose: every method has its answer", "[stability]") {
+    for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+        Random random(seed);
+        RandomOptions options;
+        options.dampers = seed % 2 == 0;
+        options.rayleigh = seed % 3 == 0;
+        const auto system = random_system<double, 3>(random, options);
+        INFO("seed " << seed);
+        const auto limit = taut::any_pose_limit(system);
+        for (const Method method : {Method::symplectic_euler, Method::velocity_verlet}) {
+            const auto same = taut::any_pose_limit(system, method);
+            CHECK(same.certified == limit.certified);
+            CHECK(same.cause == limit.cause);
+        }
+        const auto stable = taut::any_pose_limit(system, Method::energy_stable_euler);
+        CHECK(stable.certified == taut::energy_limit(system).certified);
+        const auto every = taut::any_pose_limit(system, Method::implicit_euler);
+        CHECK(every.unbounded());
+        CHECK(every.cause == Cause::unconditional);
+        CHECK_THROWS_AS(taut::any_pose_limit(system, Method::bdf2), std::invalid_argument);
+        const auto none = taut::any_pose_limit(system, Method::explicit_euler);
+        CHECK(none.certified == 0);
+        const bool damped = options.dampers || options.rayleigh;
+        CHECK(none.cause == (damped ? Cause::one_pose_only : Cause::undamped));
+        CHECK(none.revision == system.revision());
+    }
+    taut::SpringSystem<double, 3> loose;
+    loose.add_particle({0, 0, 0}, 1);
+    CHECK(taut::any_pose_limit(loose, Method::explicit_euler).cause == Cause::nothing_to_limit);
+}
+
+TEST_CASE("any pose: explicit Euler fails at some pose, whatever its step and damping",
+          "[stability]") {
+    Random random(77);
+    for (int repeat = 0; repeat < 20; ++repeat) {
+        const double h = log_uniform(random, 1e-6, 1);
+        taut::SpringSystem<double, 3> system;
+        system.add_particle({0, 0, 0}, 1);
+        system.add_particle({1, 0, 0}, 1);
+        system.add_spring(0, 1, log_uniform(random, 1, 1e4), random.uniform(0, 10));
+        system.pin(0);
+        const double d0 = random.uniform(0, 10);
+        system.set_rayleigh({d0, random.uniform(0, 0.01)});
+        auto state = system.initial_state();
+        const double k = system.springs()[0].parameters.stiffness;
+        // 4 − 2h·d0 + h²·T/(ml) = −1
+        state.x(0, 1) = 1 / (1 + (5 + 2 * h * d0) / (h * h * k));
+        CHECK(Multipliers(exact_matrices(system, state.x))(Method::explicit_euler, h)
+                  .real()
+                  .minCoeff() < -1.01L);
+        CHECK(taut::any_pose_limit(system, Method::explicit_euler).certified == 0);
     }
 }
 

@@ -257,19 +257,30 @@ TEST_CASE("blame: substeps", "[stability]") {
     const auto cloth = cloth_of(5);
     const Analysis analysis(cloth, cloth.initial_state());
     const auto& stability = analysis.in_double();
-    const double certified = stability.max_step(Method::symplectic_euler).certified;
+    const auto limit = stability.max_step(Method::symplectic_euler);
+    const double certified = limit.certified;
     for (const double frame :
          {1.0 / 60, 0.5, 3.7 * certified, 3.2 * certified, certified, 0.3 * certified, 1e-12}) {
-        const auto count = stability.substeps(Method::symplectic_euler, frame);
-        REQUIRE(count.has_value());
-        CHECK(*count >= 1);
-        CHECK(frame / static_cast<double>(*count) <= certified * (1 + 1e-15));
-        if (*count > 1) CHECK(frame / static_cast<double>(*count - 1) > certified * (1 - 1e-12));
-        const double h = frame / static_cast<double>(*count) * (1 - 1e-15);
-        CHECK(analysis.proves(Method::symplectic_euler, h));
+        for (const double safety : {0.95, 0.5, 1.0}) {
+            const auto count =
+                safety == 0.95 ? limit.substeps(frame) : limit.substeps(frame, safety);
+            REQUIRE(count.has_value());
+            CHECK(*count >= 1);
+            const double most = safety * certified;
+            CHECK(frame / static_cast<double>(*count) <= most * (1 + 1e-15));
+            if (*count > 1) CHECK(frame / static_cast<double>(*count - 1) > most * (1 - 1e-12));
+            const double h = frame / static_cast<double>(*count) * (1 - 1e-15);
+            CHECK(analysis.proves(Method::symplectic_euler, h));
+        }
     }
-    CHECK(*stability.substeps(Method::implicit_euler, 10) == 1);
-    CHECK_FALSE(stability.substeps(Method::explicit_euler, 0.01).has_value());
+    for (const double safety : {0.0, -1.0, 1.1, std::nan("")}) {
+        CHECK_FALSE(limit.substeps(0.01, safety).has_value());
+    }
+    for (const double frame : {0.0, -1.0, infinity, std::nan("")}) {
+        CHECK_THROWS_AS(limit.substeps(frame), std::invalid_argument);
+    }
+    CHECK(*stability.max_step(Method::implicit_euler).substeps(10) == 1);
+    CHECK_FALSE(stability.max_step(Method::explicit_euler).substeps(0.01).has_value());
 }
 
 }  // namespace taut_test::blame_test

@@ -257,7 +257,6 @@ TEST_CASE("stability: wrong input is refused", "[stability][bad_input]") {
                         std::invalid_argument);
         CHECK_THROWS_AS(stability.rayleigh_window(Method::explicit_euler, h),
                         std::invalid_argument);
-        CHECK_THROWS_AS(stability.substeps(Method::symplectic_euler, h), std::invalid_argument);
     }
     CHECK_THROWS_AS(stability.rayleigh_window(Method::explicit_euler, 1e-3, -1),
                     std::invalid_argument);

@@ -10,6 +10,7 @@ namespace taut {
 enum class Method {
     explicit_euler,
     symplectic_euler,
+    position_verlet = symplectic_euler,  ///< x⁺ = 2x − x⁻ + h²a: the same step with v = (x − x⁻)/h
     velocity_verlet,
     implicit_euler,
     bdf2,

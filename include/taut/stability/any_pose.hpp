@@ -22,4 +22,16 @@ StepLimit<Scalar> any_pose_limit(const SpringSystem<Scalar, Dim, Laws...>& syste
     return stability_detail::of_laplacians<Scalar>(Pencil::any_pose(system), system.revision());
 }
 
+/// The same for a method: the step above for symplectic Euler and velocity Verlet; that of
+/// energy_limit for the energy-stable step; every step of an implicit one. Of explicit Euler
+/// nothing is proved at every pose: certified is 0, for the stiffness of a spring across its axis,
+/// T/l, falls without end as the spring is compressed, and 4M − 2hD + h²K ≻ 0 [T17] then fails at
+/// any h.
+template <class Scalar, int Dim, class... Laws>
+StepLimit<Scalar> any_pose_limit(const SpringSystem<Scalar, Dim, Laws...>& system, Method method) {
+    using namespace stability_detail;
+    const Pencil laplacian = Pencil::any_pose(system, counted_at_any_pose(method));
+    return rounded<Scalar>(at_any_pose(method, laplacian), system.revision());
+}
+
 }  // namespace taut

@@ -20,7 +20,8 @@ TAUT_INLINE auto Pencil::coefficients(const Combination& c, const Link& link) co
     const auto elastic = [&](double slope) {
         return c.stiffness() * slope + on_plus * k_plus(slope);
     };
-    return {elastic(link.axial) + c.damping() * link.damping, elastic(link.transverse)};
+    return {elastic(link.axial) + c.damping() * link.damping,
+            elastic(link.transverse) + c.damping() * link.across};
 }
 
 TAUT_INLINE auto Pencil::extreme_coefficients(const Combination& c, const Link& link,
@@ -103,9 +104,11 @@ TAUT_INLINE auto Pencil::splitting(const Combination& c) const -> Splitting {
     for (const Link& link : links_) {
         const auto [axial, transverse] = extreme_coefficients(c, link, 1);
         const double size = magnitude(c, link);
-        if (c.stiffness() == 0 && factor <= 0 && (c.damping() <= 0 || axial < -64 * eps * size)) {
-            continue;  // not positive for certain
-        }
+        const double least = -64 * eps * size;
+        const bool by_signs = c.stiffness() == 0 && factor <= 0 &&
+                              (c.damping() <= 0 || (axial < least && link.across == 0));
+        const bool by_damper = link.across > 0 && axial < least && transverse < least;
+        if (by_signs || by_damper) continue;  // not positive for certain
         split.term.push_back(
             {link.a, link.b, std::max(axial, 0.0), std::max(transverse, 0.0), size, link.d});
     }
@@ -277,7 +280,8 @@ Pencil Pencil::explicit_part(const std::vector<Real>& shares) const {
     for (std::size_t s = 0; s < links_.size(); ++s) {
         const double part = 1 - shares[names_[s].spring];
         Link& link = pencil.links_[s];
-        for (double* value : {&link.axial, &link.softer, &link.transverse, &link.damping}) {
+        for (double* value :
+             {&link.axial, &link.softer, &link.transverse, &link.damping, &link.across}) {
             *value *= part;
         }
         link.bound *= std::abs(part);
@@ -289,6 +293,17 @@ Pencil Pencil::explicit_part(const std::vector<Real>& shares) const {
         pencil.facts_.damping_semidefinite = false;
     }
     return pencil;
+}
+
+template <class Real>
+void Pencil::add_dampers(const std::vector<Real>& dampers) {
+    for (std::size_t s = 0; s < links_.size(); ++s) {
+        const double c = dampers[names_[s].spring];
+        Link& link = links_[s];
+        link.damping += c;
+        link.across += dim() == 1 && link.d[0] != 0 ? 0 : c;
+        if (c > 0) facts_.is_rayleigh = false;
+    }
 }
 
 template <class Real>

@@ -161,10 +161,11 @@ public:
     template <class Real = double>
     std::vector<Real> particle_loads(const Combination& c, const std::vector<Real>& p) const;
 
-    /// The springs' shares in the elastic energy of mode u, by K⁺, in no order; empty without
-    /// springs. Defined by bracket.hpp, as the next one.
+    /// The springs' shares in uᵀS u, in no order: of K⁺ those in the elastic energy of mode u.
+    /// Empty without springs. Defined by bracket.hpp, as the next one.
     template <class Real = double>
-    std::vector<SpringShare> spring_shares(const Eigen::VectorXd& u) const;
+    std::vector<SpringShare> spring_shares(const Eigen::VectorXd& u,
+                                           const Combination& c = matrices::K_plus) const;
     /// The particles' shares in its kinetic energy, in no order; without springs a "particle" is a
     /// degree of freedom.
     template <class Real = double>
@@ -173,6 +174,10 @@ public:
     /// stay. What is scaled below the normal numbers keeps its allowance for rounding.
     template <class Real = double>
     Pencil scaled(Real stiffness, Real mass) const;
+    /// Puts a damper c beside each spring, on the whole relative velocity of its ends: c·L ⊗ I in
+    /// D, L the graph Laplacian of that spring. @param dampers  N·s/m, ≥ 0, in index order
+    template <class Real>
+    void add_dampers(const std::vector<Real>& dampers);
     /// The pencil of what stays explicit beside implicit shares [T33]: springs times 1 − s.
     /// @param shares  s of each spring of the system, in index order, 0 …; beyond 1 they take
     ///                springs away, and only `quadratic` and `multiply` serve, with the true K
@@ -218,7 +223,8 @@ private:
         double axial;       // T′, N/m; at a kink that of the stiffer side
         double softer;      // and that of the other one; the same elsewhere
         double transverse;  // T/l, N/m
-        double damping;     // N·s/m, axial
+        double damping;     // N·s/m, along d
+        double across;      // and across it
         double bound;       // of the law, N/m: what rounding errors of the tangent are relative to
     };
     struct Name {  // of a link, as the system counts

@@ -41,13 +41,4 @@ double Stability<Scalar>::min_mass_scale(Method method, double h) const {
     return stability_detail::min_mass_scale(method, *pencil_, h);
 }
 
-template <class Scalar>
-std::optional<Index> Stability<Scalar>::substeps(Method method, double frame) const {
-    require_positive("Stability::substeps", "frame", frame);
-    const double certified = static_cast<double>(max_step(method).certified);
-    // Beyond 1e15 the count is no longer exact, and no frame was meant.
-    if (!(certified > 0) || !(frame / certified < 1e15)) return std::nullopt;
-    return std::max<Index>(1, static_cast<Index>(std::ceil(frame / certified)));
-}
-
 }  // namespace taut

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 
 #include "../core/detail/fits.hpp"
 #include "../model/spring_system.hpp"
@@ -88,8 +87,6 @@ public:
     /// The least factor on all masses (d0·M included) for which step h, s, is certified by the
     /// bound, to nine digits; infinity if none is, 0 if every one is.
     double min_mass_scale(Method method, double h) const;
-    /// The number of equal steps of a frame, s, that the bound certifies; nothing if no step is.
-    std::optional<Index> substeps(Method method, double frame) const;
 
     /// The system's when this was made, see StepLimit.
     std::uint64_t revision() const { return revision_; }

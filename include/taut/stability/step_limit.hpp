@@ -8,6 +8,9 @@
 #include <limits>
 #include <optional>
 
+#include "../core/error.hpp"
+#include "../core/types.hpp"
+
 namespace taut {
 
 /// What sets a step limit, or removes it.
@@ -21,7 +24,8 @@ enum class Cause {
     buckling,          ///< K is indefinite: the physics itself grows, at growth_rate
     damping_unproved,  ///< D could not be shown to be positive semi-definite
     rounding,          ///< semi-definiteness was shown up to rounding only: see certified_up_to
-    overflow           ///< values beyond the range of double: nothing is proved
+    overflow,          ///< values beyond the range of double: nothing is proved
+    one_pose_only      ///< explicit Euler, of which no step is proved at every pose
 };
 
 /// The name as the programs and their JSON spell it.
@@ -37,6 +41,7 @@ constexpr const char* name(Cause cause) {
         case Cause::damping_unproved: return "damping_unproved";
         case Cause::rounding: return "rounding";
         case Cause::overflow: return "overflow";
+        case Cause::one_pose_only: return "one_pose_only";
     }
     return "unknown";
 }
@@ -62,6 +67,9 @@ constexpr const char* describe(Cause cause) {
         case Cause::damping_unproved:
             return "the damping matrix could not be shown to be positive semi-definite: no step is "
                    "certified; check its sign, or give dampers as springs";
+        case Cause::one_pose_only:
+            return "no step of explicit Euler is proved at every pose: ask Stability about one "
+                   "pose, or use symplectic or implicit Euler";
         case Cause::overflow:
             return "the numbers of this scene are beyond the range of double, so nothing is "
                    "proved: "
@@ -101,6 +109,16 @@ struct StepLimit {
         if (system.revision() != revision || !(certified > 0)) return std::nullopt;
         if (!(safety > 0) || safety > 1) return std::nullopt;
         return safety * certified;
+    }
+
+    /// The fewest equal steps of a frame, s, that are safety·certified at most; nothing when no
+    /// step is certified, or when safety is not in (0, 1]. Fails unless frame is finite and > 0.
+    std::optional<Index> substeps(double frame, double safety = 0.95) const {
+        require_positive("StepLimit::substeps", "frame", frame);
+        const double steps = frame / (safety * static_cast<double>(certified));
+        // Beyond 1e15 the count is no longer exact, and no frame was meant.
+        if (!(safety > 0) || safety > 1 || !(steps < 1e15)) return std::nullopt;
+        return std::max<Index>(1, static_cast<Index>(std::ceil(steps)));
     }
 };
 

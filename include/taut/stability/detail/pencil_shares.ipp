@@ -7,11 +7,12 @@
 namespace taut {
 
 template <class Real>
-std::vector<SpringShare> Pencil::spring_shares(const Eigen::VectorXd& u) const {
+std::vector<SpringShare> Pencil::spring_shares(const Eigen::VectorXd& u,
+                                               const Combination& c) const {
     std::vector<SpringShare> shares;
     double total = 0;
     for (std::size_t s = 0; s < links_.size(); ++s) {
-        const auto [axial, transverse] = coefficients(matrices::K_plus, links_[s]);
+        const auto [axial, transverse] = coefficients(c, links_[s]);
         const double* d = links_[s].d;
         double du[3];
         difference(u.data(), links_[s], du);

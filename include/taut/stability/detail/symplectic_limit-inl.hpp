@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "../../method/mode.hpp"
+#include "../../method/visit.hpp"
 #include "symplectic_limit.hpp"
 
 namespace taut::stability_detail {
@@ -45,6 +46,36 @@ TAUT_INLINE UnroundedLimit symplectic_by_bounds(const Pencil& pencil) {
 TAUT_INLINE void add_compression(const Pencil& pencil, UnroundedLimit& limit) {
     if (pencil.stiffness_semidefinite() || !claims(limit)) return;
     limit.admitted_growth = std::sqrt(pencil.deficit(K));
+}
+
+TAUT_INLINE UnroundedLimit by_laplacian(const Pencil& laplacian, double part) {
+    UnroundedLimit limit{0, infinity, Cause::overflow};
+    if (laplacian.lost().empty()) limit = symplectic_by_bounds(laplacian);
+    limit.certified *= part;
+    return limit;
+}
+
+TAUT_INLINE Pencil::Damping counted_at_any_pose(Method method) {
+    return method::visit(method, [](auto descriptor) {
+        return decltype(descriptor)::any_pose == method::AnyPose::proved ? Pencil::Damping::half
+                                                                         : Pencil::Damping::all;
+    });
+}
+
+TAUT_INLINE UnroundedLimit at_any_pose(Method method, const Pencil& laplacian) {
+    using method::AnyPose;
+    const AnyPose proof =
+        method::visit(method, [](auto descriptor) { return decltype(descriptor)::any_pose; });
+    const bool proved = proof == AnyPose::proved;
+    const UnroundedLimit limit = by_laplacian(laplacian, proved ? 0.5 : 1);
+    if (proved || proof == AnyPose::limited) return limit;
+    if (!(limit.certified > 0) || std::isinf(limit.certified)) return limit;
+    if (proof == AnyPose::every_step) {
+        method::visit_limited("any_pose_limit", method, [](auto) { return true; });  // not BDF2
+        return {infinity, infinity, Cause::unconditional};
+    }
+    const bool damped = laplacian.upper_bound(D) > 0;
+    return {0, infinity, damped ? Cause::one_pose_only : Cause::undamped};
 }
 
 }  // namespace taut::stability_detail

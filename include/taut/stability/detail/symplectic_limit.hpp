@@ -22,14 +22,17 @@ UnroundedLimit symplectic_by_bounds(const Pencil& pencil);
 /// What compression may add to the limit of a pencil of springs: admitted_growth, by its bound.
 void add_compression(const Pencil& pencil, UnroundedLimit& limit);
 
-/// A limit on the graph Laplacians of a system. @param part  of it that is answered
+/// A limit on the graph Laplacians of a system [T23]. @param part  of it that is answered
+UnroundedLimit by_laplacian(const Pencil& laplacian, double part = 1);
 template <class Scalar>
 StepLimit<Scalar> of_laplacians(const Pencil& laplacian, std::uint64_t revision, double part = 1) {
-    UnroundedLimit limit{0, infinity, Cause::overflow};
-    if (laplacian.lost().empty()) limit = symplectic_by_bounds(laplacian);
-    limit.certified *= part;
-    return rounded<Scalar>(limit, revision);
+    return rounded<Scalar>(by_laplacian(laplacian, part), revision);
 }
+
+/// What of the damping the proof of a method at any pose counts.
+Pencil::Damping counted_at_any_pose(Method method);
+/// The limit of a method at any pose. @param laplacian  with that part of the damping
+UnroundedLimit at_any_pose(Method method, const Pencil& laplacian);
 
 }  // namespace taut::stability_detail
 
