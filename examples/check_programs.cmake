@@ -105,11 +105,11 @@ file(WRITE ${folder}/seam.obj "mtllib m.mtl\nv 0 0 0\nv 100 0 0\nvv 0 0 0\nv 0 0
     "v 100 0 0\nv 0 0 100.00001\nv 7 7 7\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 1 0\n"
     "g front\nusemtl red\nf 1/1/1 2/2/1 3/3/1\ng back\nf -3/-2 -4/-1/-1 -2//-1\n")
 expect(stability_report "seam.obj --units cm --up z" 0
-    "6 particles .0 pinned., 6 springs; 1 left out, which no face or line uses; skipped 1 statement: 1 .vv.; the first in line 4\n1 x 0 x 1 m, up is [+]z, gravity 9[.]81 m/s")
+    "6 particles .0 pinned., 6 springs; 1 left out, which no face or line uses; skipped 1 statement, the first in line 4 .1 .vv.., 18 degrees of freedom\n1 x 0 x 1 m, up is [+]z, gravity 9[.]81 m/s")
 expect(stability_report "seam.obj --scale 0.01 --weld 1mm --flip --gravity 1.62" 0
     "4 particles .0 pinned., 6 springs; 2 welded to others; 1 left out, which no face.*\n1 x 0 x 1 m, up is -y, gravity 1[.]62 m/s")
 expect(stability_report "seam.obj --weld 0" 0 "5 particles")
-expect(stability_report "seam.obj --gravity 0" 0 "^seam.obj: skipped 1 statement: 1 .vv.; the first in line 4\n.*no gravity")
+expect(stability_report "seam.obj --gravity 0" 0 "^seam.obj: skipped 1 statement, the first in line 4 .1 .vv..\n.*no gravity")
 expect(stability_report "seam.obj --units cm --weld 1mm --mass-by-area --stiffness-by-length" 0 "any pose")
 expect(stability_report "net.obj --stiffness-by-length" 0 "any pose")
 expect(stability_report "rope.obj --mass-by-area --stiffness-by-length" 0 "any pose")

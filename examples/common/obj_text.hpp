@@ -204,7 +204,7 @@ inline bool ObjReader::skip(std::string_view kind) {
     return true;
 }
 
-/// skipped 3 statements: 2 "vv", 1 "curv"; the first in line 2
+/// skipped 3 statements, the first in line 2 (2 "vv", 1 "curv")
 inline std::string ObjReader::skipped() const {
     if (skipped_.empty()) return {};
     constexpr int most_named = 5;
@@ -217,8 +217,8 @@ inline std::string ObjReader::skipped() const {
             names += (kinds > 0 ? ", " : "") + std::to_string(count) + ' ' + in_quotes(kind);
         if (kinds++ == most_named) names += ", ...";
     }
-    return "skipped " + std::to_string(all) + (all == 1 ? " statement: " : " statements: ") +
-           names + "; the first in line " + std::to_string(first_skipped_);
+    return "skipped " + std::to_string(all) + (all == 1 ? " statement" : " statements") +
+           ", the first in line " + std::to_string(first_skipped_) + " (" + names + ')';
 }
 
 inline bool ObjReader::read_line(std::string_view words) {

@@ -219,7 +219,7 @@ TEST_CASE("mesh_file: what other programs write is read, and what is skipped is 
           "[programs]") {
     const std::vector<Eigen::Vector3d> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     const auto reads = [&](const std::string& text, const Faces& faces,
-                             const std::string& skipped = "") {
+                           const std::string& skipped = "") {
         INFO(text);
         const MeshText file(text);
         std::ostringstream warnings;
@@ -239,8 +239,8 @@ TEST_CASE("mesh_file: what other programs write is read, and what is skipped is 
         "v 1.5 0 0\ng NurbsPath\ncstype bspline\ndeg 3\ncurv 0.0 1.0 -1 -2 -3 -4\n"
         "parm u 0.0 0.0 0.0 0.0 1.0 1.0 1.0 1.0\nend\n",
         {{0, 1, 2, 3}, {0, 2}},
-        "skipped 5 statements: 1 \"cstype\", 1 \"curv\", 1 \"deg\", 1 \"end\", 1 \"parm\"; the "
-        "first in line 21");
+        "skipped 5 statements, the first in line 21 (1 \"cstype\", 1 \"curv\", 1 \"deg\", "
+        "1 \"end\", 1 \"parm\")");
     // Maya: lines end in CR LF; groups have no name or several.
     reads(
         "# This file uses centimeters as units for non-parametric coordinates.\r\n\r\n"
@@ -263,8 +263,8 @@ TEST_CASE("mesh_file: what other programs write is read, and what is skipped is 
         "vt 0 0\nvl 1\nv 0 0 0\nvv 0 0 0\nv 1 0 0\nvv 0 0 0\nny 1 0 0\nv 1 1 0\nnv 0 0 1\n"
         "nl 2\nv 0 1 0\ne 1 2\nea 0.1\nel 1\nf 1/1 2/1 3/1\nt 0\ntl 4\nf 1/1 3/1 4/1\nt 0\n",
         {{0, 1, 2}, {0, 2, 3}},
-        "skipped 12 statements: 1 \"e\", 1 \"ea\", 1 \"el\", 1 \"nl\", 1 \"nv\", ...; the first in "
-        "line 2");
+        "skipped 12 statements, the first in line 2 (1 \"e\", 1 \"ea\", 1 \"el\", 1 \"nl\", "
+        "1 \"nv\", ...)");
 }
 
 TEST_CASE("mesh_file: faces and lines have any number of corners", "[programs]") {
