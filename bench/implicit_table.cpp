@@ -8,6 +8,7 @@
 #include <Eigen/CholmodSupport>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <functional>
 #include <string>
 #include <taut/bdf2/bdf2.hpp>
@@ -332,7 +333,7 @@ void projective() {
 }  // namespace
 
 /// Arguments: sizes of the cloth, 32 64 100 200 if there are none, and an OBJ file.
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
     std::vector<Scene> scenes;
     const char* mesh = nullptr;
     std::vector<Index> sizes;
@@ -355,4 +356,7 @@ int main(int argc, char** argv) {
     gradients_table(scenes);
     projective();
     steps(scenes);
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "implicit_table: %s\n", error.what());
+    return 1;
 }

@@ -16,6 +16,7 @@
 #include <taut/solver/conjugate_gradient.hpp>
 #include <taut/taut.hpp>
 #include <taut/scene/mesh.hpp>
+#include <utility>
 #include <vector>
 
 #include "accuracy.hpp"
@@ -154,7 +155,7 @@ void table(const std::string& name, const Net& net, double stretch, double bend)
 /// Arguments: sizes of the cloth, 32 64 if there are none, and meshes in OBJ form.
 int main(int argc, char** argv) try {
     std::vector<Index> sizes;
-    std::vector<std::string> meshes;
+    std::vector<std::pair<std::string, taut::SpringSystem<double, 3>>> meshes;
     for (int i = 1; i < argc; ++i) {
         const std::string_view text = argv[i];
         Index size = 0;
@@ -162,7 +163,8 @@ int main(int argc, char** argv) try {
         if (read.ec == std::errc() && read.ptr == text.data() + text.size()) {
             sizes.push_back(size);
         } else {
-            meshes.emplace_back(text);
+            meshes.emplace_back(text.substr(text.find_last_of('/') + 1),
+                                bench::mesh_in<double>(example::read_obj(argv[i])).system);
         }
     }
     std::printf(
@@ -179,11 +181,9 @@ int main(int argc, char** argv) try {
         table("hanging_cloth " + std::to_string(n), taut::hanging_cloth<double>(options),
               options.stretch, options.bend);
     }
-    for (const auto& path : meshes) {
+    for (const auto& [name, system] : meshes) {
         const taut::MeshOptions options;
-        table(path.substr(path.find_last_of('/') + 1),
-              bench::mesh_in<double>(example::read_obj(path)).system, options.stretch,
-              options.bend);
+        table(name, system, options.stretch, options.bend);
     }
 } catch (const std::exception& error) {
     std::fprintf(stderr, "peers_table: %s\n", error.what());

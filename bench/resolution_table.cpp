@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <string>
 #include <taut/integrator/energy_stable_euler.hpp>
 #include <taut/scene/cloth.hpp>
@@ -131,7 +132,7 @@ void time_coarsening() {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
     const double duration = argc > 1 ? std::atof(argv[1]) : 0.5;
     std::vector<Scene> scenes{cloth(64), cloth(101), cloth(128)};
     for (int i = 2; i < argc; ++i) scenes.push_back(mesh(argv[i]));
@@ -151,4 +152,7 @@ int main(int argc, char** argv) {
         tally.promises, tally.broken, tally.within_two, tally.estimates);
     time_coarsening();
     return tally.broken == 0 ? 0 : 1;
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "resolution_table: %s\n", error.what());
+    return 1;
 }

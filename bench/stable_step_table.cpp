@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <string>
 #include <taut/integrator/energy_stable_euler.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
@@ -13,6 +14,7 @@
 #include <taut/scene/cloth.hpp>
 #include <taut/scene/with_law.hpp>
 #include <taut/stability/energy_limit.hpp>
+#include <utility>
 #include <vector>
 
 #include "measure.hpp"
@@ -58,15 +60,20 @@ void rows(const std::string& label, const Net& net) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
+    std::vector<std::pair<std::string, taut::SpringSystem<float, 3>>> scenes{
+        {"hanging_cloth 100", taut::hanging_cloth<float>({100, 100})}};
+    for (int i = 1; i < argc; ++i) {
+        const std::string path = argv[i];
+        scenes.emplace_back(path.substr(path.find_last_of('/') + 1),
+                            bench::mesh_in<float>(example::read_obj(path)).system);
+    }
     std::printf(
         "## A step of EnergyStableEuler, ms, in float\n\n"
         "| scene | springs | symplectic | energy stable | ratio: of minima (median) |\n"
         "|---|---|---|---|---|\n");
-    rows("hanging_cloth 100", taut::hanging_cloth<float>({100, 100}));
-    for (int i = 1; i < argc; ++i) {
-        const std::string path = argv[i];
-        rows(path.substr(path.find_last_of('/') + 1),
-             bench::mesh_in<float>(example::read_obj(path)).system);
-    }
+    for (const auto& [name, system] : scenes) rows(name, system);
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "stable_step_table: %s\n", error.what());
+    return 1;
 }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <malloc.h>
 #include <string>
 #include <taut/taut.hpp>
@@ -262,9 +263,23 @@ void memory() {
         bytes(given, after) / springs);
 }
 
+struct Mesh {
+    std::string name;
+    taut::MeshSprings<double> springs;
+    taut::SpringSystem<float, 3> in_float;
+};
+
 }  // namespace
 
-int main(int argc, char** argv) {
+/// Arguments: meshes in OBJ form.
+int main(int argc, char** argv) try {
+    std::vector<Mesh> meshes;
+    for (int i = 1; i < argc; ++i) {
+        const std::string path = argv[i];
+        const auto file = example::read_obj(path);
+        meshes.push_back({path.substr(path.find_last_of('/') + 1), bench::mesh_in<double>(file),
+                          bench::mesh_in<float>(file).system});
+    }
     std::printf(
         "## A symplectic step, ms\n\n"
         "| scene | plain loop | Taut: min (median) | ratio: of minima (median) |\n"
@@ -280,32 +295,29 @@ int main(int argc, char** argv) {
     }
     const auto free_lattice = lattice(30);
     compare<double>("free lattice 30³", free_lattice, 7, 100);
-    taut::SpringSystem<double, 3> mesh;
-    std::vector<taut::Triangle> triangles;
-    if (argc > 1) {
-        const auto file = example::read_obj(argv[1]);
-        auto springs = bench::mesh_in<double>(file);
-        mesh = std::move(springs.system);
-        triangles = std::move(springs.triangles);
-        compare<double>("mesh", mesh, 21, 100);
-        compare<float>("mesh, float", bench::mesh_in<float>(file).system, 21, 100);
+    for (const Mesh& mesh : meshes) {
+        compare<double>(mesh.name.c_str(), mesh.springs.system, 21, 100);
+        compare<float>((mesh.name + ", float").c_str(), mesh.in_float, 21, 100);
     }
     const auto cloth = taut::hanging_cloth<double>({100, 100});
     std::printf("\n| scene | undamped | α = 0.4 h: min (median) | ratio |\n|---|---|---|---|\n");
     compare_damping<double>("hanging_cloth 100", cloth, 21, 100);
     compare_damping<float>("hanging_cloth 100, float", taut::hanging_cloth<float>({100, 100}), 21,
                            100);
-    if (mesh.size() > 0) compare_damping<double>("mesh", mesh, 21, 100);
+    for (const Mesh& mesh : meshes)
+        compare_damping<double>(mesh.name.c_str(), mesh.springs.system, 21, 100);
     std::printf("\n| scene, step | symplectic | this: min (median) | ratio |\n|---|---|---|---|\n");
     compare_kinds("hanging_cloth 100", cloth, taut::cloth_triangles({100, 100}), 21, 100);
-    if (mesh.size() > 0) compare_kinds("mesh", mesh, triangles, 21, 100);
+    for (const Mesh& mesh : meshes)
+        compare_kinds(mesh.name.c_str(), mesh.springs.system, mesh.springs.triangles, 21, 100);
     std::printf("\n| scene | Boost.odeint | Taut: min (median) | ratio |\n|---|---|---|---|\n");
     compare_odeint("hanging_cloth 100", cloth, 7, 100);
 #ifdef _OPENMP
     std::printf("\n| scene | one thread | two: min (median) | ratio |\n|---|---|---|---|\n");
     compare_threads("hanging_cloth 100", cloth, 11, 100);
     compare_threads("hanging_cloth 400", taut::hanging_cloth<double>({400, 400}), 7, 100);
-    if (mesh.size() > 0) compare_threads("mesh", mesh, 11, 100);
+    for (const Mesh& mesh : meshes)
+        compare_threads(mesh.name.c_str(), mesh.springs.system, 11, 100);
 #endif
     std::printf(
         "\n## One second in frames of 1/60 s at the any-pose limit\n\n"
@@ -316,6 +328,9 @@ int main(int argc, char** argv) {
         outcome("hanging_cloth " + std::to_string(n), taut::hanging_cloth<double>({n, n}));
     }
     outcome("free lattice 30³", free_lattice);
-    if (mesh.size() > 0) outcome("mesh", mesh);
+    for (const Mesh& mesh : meshes) outcome(mesh.name, mesh.springs.system);
     memory();
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "step_table: %s\n", error.what());
+    return 1;
 }

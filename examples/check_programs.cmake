@@ -18,9 +18,10 @@ file(WRITE ${folder}/empty.obj "")
 string(ASCII 1 2 200 255 13 10 3 control)
 file(WRITE ${folder}/binary.obj "glTF${control}")
 file(WRITE ${folder}/range.obj "${corners}f 1 2 9\n")
+file(WRITE ${folder}/edge.obj "${corners}f 1 2\n")
 file(WRITE ${folder}/wrap.obj "${corners}f 4294967297 2 3\n")
 file(WRITE ${folder}/rope.obj "${corners}l 1 2 3\n")
-file(WRITE ${folder}/net.obj "${corners}v 1 1 0\nf 1 2 3\nf 2 4\nl 3 4\n")
+file(WRITE ${folder}/net.obj "${corners}v 1 1 0\nf 1 2 3\nl 2 4\nl 3 4\n")
 file(WRITE ${folder}/short.obj "v 0 0 0\nv 1 0\nv 0 1 0\nf 1 2 3\n")
 file(WRITE ${folder}/nan.obj "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
 
@@ -56,6 +57,7 @@ expect(stability_report "missing.obj" 1 "missing.obj: cannot be opened")
 expect(stability_report "empty.obj" 1 "empty.obj: has 0 vertices")
 expect(stability_report "binary.obj" 1 "binary.obj:1: ")
 expect(stability_report "range.obj" 1 "range.obj:4: a corner is vertex 9; there are 3")
+expect(stability_report "edge.obj" 1 "edge.obj:4: a face needs three corners")
 expect(stability_report "wrap.obj" 1 "wrap.obj:4: a corner is vertex 4294967297")
 expect(stability_report "." 1 "[.]: has 0 vertices")
 expect(stability_report "short.obj" 1 "short.obj:2: ")
@@ -99,15 +101,15 @@ if(CMAKE_HOST_SYSTEM_NAME STREQUAL Linux)
 endif()
 
 # Scenes as people have them.
-file(WRITE ${folder}/seam.obj "mtllib m.mtl\nv 0 0 0\nv 100 0 0\nv 0 0 100\nv 100 0 100.00001\n"
+file(WRITE ${folder}/seam.obj "mtllib m.mtl\nv 0 0 0\nv 100 0 0\nvv 0 0 0\nv 0 0 100\nv 100 0 100.00001\n"
     "v 100 0 0\nv 0 0 100.00001\nv 7 7 7\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 1 0\n"
     "g front\nusemtl red\nf 1/1/1 2/2/1 3/3/1\ng back\nf -3/-2 -4/-1/-1 -2//-1\n")
 expect(stability_report "seam.obj --units cm --up z" 0
-    "6 particles .0 pinned., 6 springs; 1 left out, which no face.*\n1 x 0 x 1 m, up is [+]z, gravity 9[.]81 m/s")
+    "6 particles .0 pinned., 6 springs; 1 left out, which no face or line uses; skipped 1 statement, the first in line 4 .1 .vv.., 18 degrees of freedom\n1 x 0 x 1 m, up is [+]z, gravity 9[.]81 m/s")
 expect(stability_report "seam.obj --scale 0.01 --weld 1mm --flip --gravity 1.62" 0
     "4 particles .0 pinned., 6 springs; 2 welded to others; 1 left out, which no face.*\n1 x 0 x 1 m, up is -y, gravity 1[.]62 m/s")
 expect(stability_report "seam.obj --weld 0" 0 "5 particles")
-expect(stability_report "seam.obj --gravity 0" 0 "no gravity")
+expect(stability_report "seam.obj --gravity 0" 0 "^seam.obj: skipped 1 statement, the first in line 4 .1 .vv..\n.*no gravity")
 expect(stability_report "seam.obj --units cm --weld 1mm --mass-by-area --stiffness-by-length" 0 "any pose")
 expect(stability_report "net.obj --stiffness-by-length" 0 "any pose")
 expect(stability_report "rope.obj --mass-by-area --stiffness-by-length" 0 "any pose")

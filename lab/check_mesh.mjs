@@ -71,7 +71,8 @@ const REFUSED = [
   ["twice.obj", [...square, "", "f 1 2 2"], "Line 6: vertex 2 is a corner twice."],
   ["short.obj", ["v 0 0"], "Line 1: a vertex needs three finite numbers."],
   ["picture.obj", "\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "Line 1:"],
-  ["letter.txt", ["Dear reader,", "this is no mesh."], 'Line 1: "Dear" begins no line of an OBJ file.'],
+  ["letter.txt", ["Dear reader,", "this is no mesh."], "The file has 0 vertices and 0 faces or lines; a mesh in OBJ text form is needed."],
+  ["edge.obj", [...square, "f 1 2 3", "f 1 3"], "Line 6: a face needs three corners."],
   ["points.obj", square, "The file has 4 vertices and 0 faces or lines; a mesh in OBJ text form is needed."],
   ["empty.obj", "", "The file is empty."],
   ["point.obj", ["v 1 1 1", "v 1 1 1", "v 1 1 1", "f 1 2 3"], "All vertices lie within a micrometre of vertex 1 (line 1). Is the unit right?"],
@@ -89,10 +90,10 @@ export async function checkFiles(page, name) {
     await page.evaluate(() => (document.getElementById("wrong").textContent = ""));
   }
   // One that is odd, but a mesh.
-  await page.setInputFiles("#file", named("odd.obj", ["# z up", ...square, "v 0 1 0", "v 7 7 7", "f 1 2 3", "f 1 3 4", "f 4 5 3"]));
+  await page.setInputFiles("#file", named("odd.obj", ["# z up", ...square, "v 0 1 0", "v 7 7 7", "vv 0 0 0", "f 1 2 3", "f 1 3 4", "f 4 5 3"]));
   await showsScene(page, "odd.obj");
   const notes = await text(page, "#notes");
-  expect(!(await shown(page, "#wrong")) && /1 vertex that no face or line uses is left out\./.test(notes) && /1 spring has no length: the first joins vertex 4 \(line 5\) and vertex 5 \(line 6\)/.test(notes), `${name}: odd.obj: ${notes}`);
+  expect(!(await shown(page, "#wrong")) && /1 vertex that no face or line uses is left out\./.test(notes) && /skipped 1 statement, the first in line 8 \(1 "vv"\)\./.test(notes) && /1 spring has no length: the first joins vertex 4 \(line 5\) and vertex 5 \(line 6\)/.test(notes), `${name}: odd.obj: ${notes}`);
   await page.locator("#weld").check();
   await page.waitForFunction(() => window.labState().size === 4 && !window.labState().busy);
   expect(/1 vertex/.test(await text(page, "#notes")), `${name}: welded it has ${(await state(page)).size} particles: ${await text(page, "#notes")}`);

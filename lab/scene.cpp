@@ -287,6 +287,7 @@ int lab_open_mesh(double scale, int up, int options) {
         lab::tell(lab::vertices(left_out) + " that no face or line uses " +
                   (left_out == 1 ? "is" : "are") + " left out.");
     }
+    if (!obj.mesh.skipped.empty()) lab::tell("The reader " + obj.mesh.skipped + ".");
     lab::tell_coincident(obj, mesh.system, mesh.particle_of_vertex);
     lab::take(std::move(mesh.system), std::move(faces));
     lab_pin_top();

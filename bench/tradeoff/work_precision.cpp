@@ -6,6 +6,8 @@
 
 #include <cmath>
 #include <cstdio>
+#include <exception>
+#include <optional>
 #include <string>
 #include <taut/projective/projective.hpp>
 #include <taut/recommend/recommend.hpp>
@@ -145,11 +147,16 @@ void rows(const Scene& scene) {
 }  // namespace
 
 /// Arguments: the mesh; nothing for the chain and the cloth alone.
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
+    const std::optional<Scene> garment =
+        argc > 1 ? std::optional<Scene>(skirt(argv[1])) : std::nullopt;
     std::printf(
         "scene,integrator,tolerance,h_s,steps,cpu_ms_per_s,position_error,energy_drift,finished,"
         "reference_error,reference_settled\n");
     rows(chain());
     rows(cloth());
-    if (argc > 1) rows(skirt(argv[1]));
+    if (garment) rows(*garment);
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "work_precision: %s\n", error.what());
+    return 1;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <fstream>
+#include <iostream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -13,7 +14,8 @@
 namespace example {
 
 /// Reads an OBJ file. Throws std::runtime_error naming the file and the line.
-inline MeshFile read_obj(const std::string& path) {
+/// @param warnings  gets a line if statements were skipped
+inline MeshFile read_obj(const std::string& path, std::ostream& warnings = std::cerr) {
     std::ifstream file(path, std::ios::binary);
     if (!file) throw std::runtime_error(path + ": cannot be opened");
     std::ostringstream bytes;
@@ -23,6 +25,7 @@ inline MeshFile read_obj(const std::string& path) {
         const std::string line = text.line > 0 ? ":" + std::to_string(text.line) : "";
         throw std::runtime_error(path + line + ": " + text.why);
     }
+    if (!text.mesh.skipped.empty()) warnings << path << ": " << text.mesh.skipped << '\n';
     return std::move(text.mesh);
 }
 

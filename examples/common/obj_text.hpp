@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <string>
 #include <string_view>
 #include <taut/core/types.hpp>
@@ -19,6 +20,7 @@ namespace example {
 struct MeshFile {
     taut::Points<double, 3> vertices;             // 3 × V, m
     std::vector<std::vector<taut::Index>> faces;  // corners, 0-based; two are a piece of a line
+    std::string skipped;  // how many statements the reader does not know; empty: none
 };
 
 /// What a text is: a mesh, or no mesh and why.
@@ -83,9 +85,20 @@ inline bool ObjLines::next() {
     return true;
 }
 
-/// What reads an OBJ file: vertices, faces and lines. A vertex's weight or colour, textures,
-/// normals, groups, materials and free-form surfaces are passed over; what is no line of an OBJ
-/// file is refused. Each part returns whether it could be read.
+/// Whether a statement is one of the format's that says nothing of where a mesh is or what it
+/// joins: textures, normals, points, groups, materials and how it is drawn.
+inline bool is_beside_mesh(std::string_view kind) {
+    constexpr std::string_view known[] = {
+        "vt",     "vn",    "vp",       "p",        "g",          "s",
+        "mg",     "o",     "usemtl",   "mtllib",   "usemap",     "lod",
+        "maplib", "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj"};
+    return std::find(std::begin(known), std::end(known), kind) != std::end(known);
+}
+
+/// What reads an OBJ file: vertices, faces and lines. A vertex's weight or colour is passed over,
+/// and so is_beside_mesh. Other statements, as free-form surfaces and what only one program writes,
+/// are skipped and counted; what begins with no name of a statement is refused. Each part returns
+/// whether it could be read.
 class ObjReader {
 public:
     explicit ObjReader(std::string text) : lines_(std::move(text)) {}
@@ -101,8 +114,10 @@ private:
     }
     bool read_lines();
     bool read_line(std::string_view words);
+    bool skip(std::string_view kind);
+    std::string skipped() const;
     bool read_vertex(std::string_view words);
-    bool read_corners(std::string_view words, std::vector<taut::Index>& corners);
+    bool read_corners(std::string_view words, std::size_t least, std::vector<taut::Index>& corners);
     bool read_corner(std::string_view word, taut::Index& index);
     bool add_face(std::vector<taut::Index> corners);
 
@@ -110,8 +125,10 @@ private:
     std::vector<std::array<double, 3>> vertices_;
     std::vector<long long> vertex_lines_;
     std::vector<std::vector<taut::Index>> faces_;
-    taut::Index last_ = -1;    // the largest corner
-    long long last_line_ = 0;  // where it stands
+    taut::Index last_ = -1;                                  // the largest corner
+    long long last_line_ = 0;                                // where it stands
+    std::map<std::string, long long, std::less<>> skipped_;  // how many of each
+    long long first_skipped_ = 0;                            // its line
     std::string why_;
     long long line_ = 0;
 };
@@ -157,13 +174,15 @@ inline bool ObjReader::read_corner(std::string_view word, taut::Index& index) {
     return true;
 }
 
-inline bool ObjReader::read_corners(std::string_view words, std::vector<taut::Index>& corners) {
+inline bool ObjReader::read_corners(std::string_view words, std::size_t least,
+                                    std::vector<taut::Index>& corners) {
     for (auto word = next_word(words); !word.empty(); word = next_word(words)) {
         taut::Index corner = 0;
         if (!read_corner(word, corner)) return false;
         corners.push_back(corner);
     }
-    return corners.size() >= 2 || fail("a face or line needs at least two corners");
+    return corners.size() >= least ||
+           fail(least == 2 ? "a line needs two corners" : "a face needs three corners");
 }
 
 inline bool ObjReader::add_face(std::vector<taut::Index> corners) {
@@ -174,29 +193,47 @@ inline bool ObjReader::add_face(std::vector<taut::Index> corners) {
            fail("vertex " + std::to_string(*twin + 1) + " is a corner twice");
 }
 
+inline bool ObjReader::skip(std::string_view kind) {
+    const auto has = [](char low, char high, char c) { return low <= c && c <= high; };
+    const bool named =
+        (has('a', 'z', kind[0]) || has('A', 'Z', kind[0])) &&
+        std::all_of(kind.begin(), kind.end(), [&](char c) { return has('!', '~', c); });
+    if (!named) return fail(in_quotes(kind) + " begins no line of an OBJ file");
+    if (skipped_.empty()) first_skipped_ = lines_.number();
+    ++skipped_[std::string(kind)];
+    return true;
+}
+
+/// skipped 3 statements, the first in line 2 (2 "vv", 1 "curv")
+inline std::string ObjReader::skipped() const {
+    if (skipped_.empty()) return {};
+    constexpr int most_named = 5;
+    std::string names;
+    long long all = 0;
+    int kinds = 0;
+    for (const auto& [kind, count] : skipped_) {
+        all += count;
+        if (kinds < most_named)
+            names += (kinds > 0 ? ", " : "") + std::to_string(count) + ' ' + in_quotes(kind);
+        if (kinds++ == most_named) names += ", ...";
+    }
+    return "skipped " + std::to_string(all) + (all == 1 ? " statement" : " statements") +
+           ", the first in line " + std::to_string(first_skipped_) + " (" + names + ')';
+}
+
 inline bool ObjReader::read_line(std::string_view words) {
-    constexpr std::string_view passed_over[] = {
-        "vt",   "vn",     "vp",     "p",        "g",          "s",        "mg",
-        "o",    "usemtl", "mtllib", "usemap",   "lod",        "maplib",   "bevel",
-        "end",  "step",   "deg",    "c_interp", "d_interp",   "parm",     "cstype",
-        "bmat", "curv",   "curv2",  "surf",     "trim",       "hole",     "scrv",
-        "sp",   "con",    "ctech",  "stech",    "bsp",        "bzp",      "cdc",
-        "cdp",  "res",    "vw",     "t",        "shadow_obj", "trace_obj"};
     const std::string_view kind = next_word(words);
     if (kind == "v") return read_vertex(words);
-    if (kind == "f" || kind == "l") {
-        std::vector<taut::Index> corners;
-        if (!read_corners(words, corners)) return false;
-        if (kind == "f") return add_face(std::move(corners));
+    std::vector<taut::Index> corners;
+    if (kind == "f") return read_corners(words, 3, corners) && add_face(std::move(corners));
+    if (kind == "l") {
+        if (!read_corners(words, 2, corners)) return false;
         for (std::size_t i = 1; i < corners.size(); ++i) {
             if (!add_face({corners[i - 1], corners[i]})) return false;
         }
         return true;
     }
-    return kind.empty() ||
-           std::find(std::begin(passed_over), std::end(passed_over), kind) !=
-               std::end(passed_over) ||
-           fail(in_quotes(kind) + " begins no line of an OBJ file");
+    return kind.empty() || is_beside_mesh(kind) || skip(kind);
 }
 
 inline bool ObjReader::read_lines() {
@@ -223,6 +260,7 @@ inline ObjText ObjReader::read() {
     text.mesh.vertices = Eigen::Map<const taut::Points<double, 3>>(
         vertices_.front().data(), 3, static_cast<taut::Index>(vertices_.size()));
     text.mesh.faces = std::move(faces_);
+    text.mesh.skipped = skipped();
     text.vertex_lines = std::move(vertex_lines_);
     return text;
 }

@@ -31,7 +31,7 @@ struct Scene {
     taut::Points<double, 3> vertices;       // as they were read
     std::vector<Index> particle_of_vertex;  // −1: no face or line uses it
     double unit = 1;                        // m
-    std::string remarks;                    // on vertices welded or left out
+    std::string remarks;  // on vertices welded or left out, and on what was skipped
 
     /// The mesh's vertices, in its own units, where the particles are: 3 × V. Of a built-in scene
     /// the particles.
@@ -110,6 +110,7 @@ inline Scene mesh_scene(const SceneOptions& options) {
     };
     remark(welded.welded, " welded to others");
     remark(mesh.unused_vertices - welded.welded, " left out, which no face or line uses");
+    if (!file.skipped.empty()) scene.remarks += "; " + file.skipped;
     return scene;
 }
 

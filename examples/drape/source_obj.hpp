@@ -56,13 +56,14 @@ inline std::string obj_without_positions(const std::string& path, const std::str
         std::string_view words = lines.line();
         const std::string_view kind = example::next_word(words);
         if (kind == "v") ++vertices;
-        if (kind.empty() || kind == "v" || kind == "vn") continue;
+        const bool joins = kind == "f" || kind == "l" || kind == "p";
+        if ((!joins && !example::is_beside_mesh(kind)) || kind == "vn") continue;
         if (kind == "mtllib") {
             rest += moved_library(words, path, folder);
             continue;
         }
         rest += kind;
-        if (kind == "f" || kind == "l" || kind == "p") {
+        if (joins) {
             for (auto word = example::next_word(words); !word.empty();
                  word = example::next_word(words)) {
                 rest += ' ' + moved_corner(word, vertices);

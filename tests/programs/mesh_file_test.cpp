@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <fstream>
 #include <numeric>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <taut/scene/mesh.hpp>
@@ -28,6 +29,8 @@ struct Written {
     std::vector<Eigen::Vector3d> vertices;
     Faces faces;
     std::vector<long long> mesh_lines;  // those of v, f and l, from 1
+    int skipped = 0;                    // statements that no reader of meshes knows
+    long long first_skipped = 0;        // the line of the first
 };
 
 /// Writes meshes in all the ways that the format allows.
@@ -37,6 +40,7 @@ public:
         static constexpr const char* ends[] = {"\n", "\r\n", "\r"};
         end_ = ends[seed % 3];
         if (seed % 7 == 0) out_.text = "\xEF\xBB\xBF";
+        unknown_ = seed % 4 == 0;
     }
 
     Written mesh(Index vertices, Index faces, Index most_corners) {
@@ -45,9 +49,11 @@ public:
             const auto known = static_cast<Index>(out_.vertices.size());
             if (known < vertices && random_.below(3) == 0) add_vertex();
             if (random_.below(4) == 0) add_other();
+            if (unknown_ && random_.below(4) == 0) add_unknown();
             const Index most = std::min(most_corners, vertices);
             const Index corners = 2 + random_.below(random_.below(5) == 0 ? most - 1 : 4);
-            random_.below(4) == 0 ? add_line(corners, vertices) : add_face(corners, vertices);
+            const bool line = corners == 2 || random_.below(4) == 0;
+            line ? add_line(corners, vertices) : add_face(corners, vertices);
         }
         while (static_cast<Index>(out_.vertices.size()) < vertices) add_vertex();
         if (random_.below(2) == 0) out_.text.erase(out_.text.size() - end_.size());
@@ -102,6 +108,14 @@ private:
             {"p", "1"},      {"vn", "0 0 1"},    {"vp", "0.1", "0.25"}, {""}};
         add_statement(others[random_.below(12)]);
     }
+    void add_unknown() {
+        static const std::vector<std::string> unknown[] = {
+            {"vv", "0", "0", "0"},    {"t", "0"},   {"ny", "1", "2", "nan"}, {"end"},
+            {"cstype", "bspline"},    {"deg", "3"}, {"call", "other.obj"},   {"F", "1", "2"},
+            {"curv", "0", "1", "-9"}, {"parm", "u"}};
+        if (out_.skipped++ == 0) out_.first_skipped = line_;
+        add_statement(unknown[random_.below(10)]);
+    }
     /// `count` different vertices.
     std::vector<Index> choose(Index count, Index vertices) {
         std::vector<Index> all(static_cast<std::size_t>(vertices));
@@ -137,6 +151,7 @@ private:
 
     Random random_;
     std::string end_;
+    bool unknown_;
     Written out_;
     long long line_ = 1;
 };
@@ -161,13 +176,23 @@ std::string complaint(const std::string& text) {
 /// The same mesh, read and meant.
 void check_read(const Written& written) {
     const MeshText file(written.text);
-    const auto mesh = example::read_obj(file.path);
+    std::ostringstream warnings;
+    const auto mesh = example::read_obj(file.path, warnings);
     REQUIRE(mesh.vertices.cols() == static_cast<Index>(written.vertices.size()));
     bool same = true;
     for (Index i = 0; i < mesh.vertices.cols(); ++i)
         same = same && mesh.vertices.col(i) == written.vertices[static_cast<std::size_t>(i)];
     CHECK(same);
     CHECK((mesh.faces == written.faces));
+    if (written.skipped == 0) {
+        CHECK(mesh.skipped == "");
+        CHECK(warnings.str() == "");
+    } else {
+        CHECK_THAT(mesh.skipped,
+                   ContainsSubstring("skipped " + std::to_string(written.skipped) + " statement") &&
+                       ContainsSubstring("in line " + std::to_string(written.first_skipped)));
+        CHECK(warnings.str() == file.path + ": " + mesh.skipped + "\n");
+    }
 }
 
 std::vector<std::string> split(const std::string& text) {
@@ -188,6 +213,58 @@ TEST_CASE("mesh_file: what was written is read, however it was written", "[progr
         INFO("seed " << seed);
         check_read(Writer(seed).mesh(8 + seed % 5, 20, 8));
     }
+}
+
+TEST_CASE("mesh_file: what other programs write is read, and what is skipped is counted",
+          "[programs]") {
+    const std::vector<Eigen::Vector3d> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    const auto reads = [&](const std::string& text, const Faces& faces,
+                           const std::string& skipped = "") {
+        INFO(text);
+        const MeshText file(text);
+        std::ostringstream warnings;
+        const auto mesh = example::read_obj(file.path, warnings);
+        REQUIRE(mesh.vertices.cols() >= 4);
+        for (Index v = 0; v < 4; ++v) CHECK(mesh.vertices.col(v) == square[std::size_t(v)]);
+        CHECK((mesh.faces == faces));
+        CHECK(mesh.skipped == skipped);
+    };
+    // Blender: colours behind the places, a loose edge, and a NURBS path beside the cloth.
+    reads(
+        "# Blender 4.2.1 LTS\n# www.blender.org\nmtllib cloth.mtl\no Plane\n"
+        "v 0.000000 0.000000 0.000000 0.8000 0.8000 0.8000\nv 1.000000 0.000000 0.000000 1 0 0\n"
+        "v 1.000000 1.000000 0.000000 0 1 0\nv 0.000000 1.000000 0.000000 0 0 1\n"
+        "vn -0.0000 -0.0000 1.0000\nvt 0.000000 0.000000\ns 0\nusemtl Material.001\n"
+        "f 1/1/1 2/1/1 3/1/1 4/1/1\nl 1 3\no NurbsPath\nv -1.5 0 0\nv -1 0 0\nv 1 0 0\n"
+        "v 1.5 0 0\ng NurbsPath\ncstype bspline\ndeg 3\ncurv 0.0 1.0 -1 -2 -3 -4\n"
+        "parm u 0.0 0.0 0.0 0.0 1.0 1.0 1.0 1.0\nend\n",
+        {{0, 1, 2, 3}, {0, 2}},
+        "skipped 5 statements, the first in line 21 (1 \"cstype\", 1 \"curv\", 1 \"deg\", "
+        "1 \"end\", 1 \"parm\")");
+    // Maya: lines end in CR LF; groups have no name or several.
+    reads(
+        "# This file uses centimeters as units for non-parametric coordinates.\r\n\r\n"
+        "mtllib pPlane1.mtl\r\ng default\r\nv 0.000000 0.000000 0.000000\r\n"
+        "v 1.000000 0.000000 0.000000\r\nv 1.000000 1.000000 -0.000000\r\n"
+        "v 0.000000 1.000000 0.000000\r\nvt 0.000000 0.000000\r\nvn 0.000000 0.000000 1.000000"
+        "\r\ns off\r\ng pPlane1 set1\r\nusemtl initialShadingGroup\r\n"
+        "f 1/1/1 2/1/1 3/1/1\r\nf 1/1/1 3/1/1 4/1/1\r\ng\r\n",
+        {{0, 1, 2}, {0, 2, 3}});
+    // Marvelous Designer and CLO: names of patterns and fabrics have blanks, and letters of any
+    // alphabet.
+    reads(
+        "# Exported from a garment program\r\nmtllib T shirt.mtl\r\no Pattern2D_1 Front\r\n"
+        "g \xEC\x95\x9E\xED\x8C\x90\r\nv  0 0 0\r\nv  1 0 0\r\nv  1 1 0\r\nv  0 1 0\r\n"
+        "vt  0 0\r\nvt  1 0\r\nvn  0 0 1\r\nusemtl FABRIC 1_FRONT_4193\r\ns 1\r\n"
+        "f  1/1/1 2/2/1 3/1/1 \r\nf  1/1/1 3/1/1 4/2/1 \r\n",
+        {{0, 1, 2}, {0, 2, 3}});
+    // ARCSim: velocities, rest places, labels and damage beside vertices, edges and faces.
+    reads(
+        "vt 0 0\nvl 1\nv 0 0 0\nvv 0 0 0\nv 1 0 0\nvv 0 0 0\nny 1 0 0\nv 1 1 0\nnv 0 0 1\n"
+        "nl 2\nv 0 1 0\ne 1 2\nea 0.1\nel 1\nf 1/1 2/1 3/1\nt 0\ntl 4\nf 1/1 3/1 4/1\nt 0\n",
+        {{0, 1, 2}, {0, 2, 3}},
+        "skipped 12 statements, the first in line 2 (1 \"e\", 1 \"ea\", 1 \"el\", 1 \"nl\", "
+        "1 \"nv\", ...)");
 }
 
 TEST_CASE("mesh_file: faces and lines have any number of corners", "[programs]") {
@@ -275,10 +352,10 @@ TEST_CASE("mesh_file: bad input: what is no line of a mesh is refused", "[progra
         return complaint(corners_of_square + line + "\nf 1 2 3\n");
     };
     CHECK(refused("l 1 2") == "");
+    CHECK_THAT(refused("f 1 2"), ContainsSubstring("a face needs three corners"));
     for (const std::string line :
          {"v 1", "v 1 2", "v", "f 1", "f", "l 3", "l", "f 1 1", "f 1 2 -4", "f 1 2 3 2", "l 2 2",
-          "l 1 2 2 3", "V 1 2 3", "F 1 2 3", "v\v1\v2\v3", "f1 2 3", "face 1 2 3", "call other.obj",
-          "1 2 3"}) {
+          "l 1 2 2 3", "v\v1\v2\v3", "f 1 2", "f 1/1 2/2", "1 2 3", "-1 2", "f\x01 1 2 3"}) {
         INFO(line);
         CHECK_THAT(refused(line), ContainsSubstring("mesh_file.obj:5: "));
     }
