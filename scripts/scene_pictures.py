@@ -82,7 +82,7 @@ class Picture:
         self.depth = [-1e9] * (self.wide * self.tall)
         self.colour = [BACK] * (self.wide * self.tall)
         eye = unit(self.place(LIGHT))
-        for kind, points, size, colour, shadow in self.shapes:
+        for kind, points, size, colour, shadow in sorted(self.shapes, key=lambda shape: not shape[4]):
             placed = [(self.x0 + self.scale * p[0], self.y0 - self.scale * p[1], p[2]) for p in points]
             if kind == "triangle":
                 self.fill_triangle(placed, size, colour, shadow)
@@ -146,7 +146,7 @@ class Picture:
 
 
 def lit(cosine):
-    return 0.66 + 0.42 * max(-0.5, cosine)
+    return 0.62 + 0.48 * max(-0.5, cosine)
 
 
 def read(path, up):
@@ -192,7 +192,7 @@ def flag(read_frame):
     vertices, faces, _ = read_frame("flag", "y")
     stripes = [RED, WHITE, BLUE]
     add_faces(picture, vertices, faces, lambda i: stripes[i // 36 // 8], False, False)
-    picture.line((-0.02, 0, -0.35), (-0.02, 0, 1.06), 0.04, STEEL)
+    picture.line((-0.02, 0, -0.15), (-0.02, 0, 1.06), 0.04, STEEL)
     return picture
 
 
@@ -225,14 +225,12 @@ def rope(read_frame):
 
 def soft_cube(read_frame):
     picture = Picture(18, 16)
-    for index, frame in enumerate(CUBE):
+    for index, frame in enumerate((0, 18, 33, 170)):  # side by side, turned so that it tumbles to the right
         vertices, faces, _ = read_frame("soft_cube%05d" % frame, "z")
-        vertices = [(x + 0.62 * index, y, z) for x, y, z in vertices]
+        middle = sum(x for x, _, _ in vertices) / len(vertices)
+        vertices = [(0.56 * index + middle - x, -y, z) for x, y, z in vertices]
         add_faces(picture, vertices, faces, lambda i: mix(TEAL, WHITE, 0.3 * ((i // 6 + i) % 2)), True, True)
     return picture
-
-
-CUBE = (0, 15, 18, 24)
 
 
 def net(read_frame):
@@ -251,12 +249,11 @@ def net(read_frame):
 
 def curtain(read_frame):
     picture = Picture(8, 5)
-    for index, frame in enumerate((0, 22, 90)):
+    for frame, at in ((0, 0), (22, 2.15), (90, 3.6)):
         vertices, faces, _ = read_frame("curtain%05d" % frame, "y")
-        at = 2.3 * index
         vertices = [(x + at, y, z) for x, y, z in vertices]
-        add_faces(picture, vertices, faces, lambda i: (184, 62, 78), False, False)
-        picture.line((at - 0.1, 0, 0.03), (at + 2.1, 0, 0.03), 0.04, STEEL)
+        add_faces(picture, vertices, faces, lambda i: (188, 62, 78), False, False)
+    picture.line((-0.1, 0, 0.03), (4.55, 0, 0.03), 0.04, STEEL)
     return picture
 
 
