@@ -249,7 +249,7 @@ def net(read_frame):
 
 def curtain(read_frame):
     picture = Picture(8, 5)
-    for frame, at in ((0, 0), (22, 2.15), (90, 3.6)):
+    for frame, at in ((0, 0), (22, 2.15), (69, 3.6)):
         vertices, faces, _ = read_frame("curtain%05d" % frame, "y")
         vertices = [(x + at, y, z) for x, y, z in vertices]
         add_faces(picture, vertices, faces, lambda i: (188, 62, 78), False, False)
@@ -266,13 +266,15 @@ def png(rows):
     palette = [c for c, _ in Counter(p for row in coarse for p in row).most_common(256)]
     index = {c: i for i, c in enumerate(palette)}
     for pixel in {p for row in coarse for p in row} - set(palette):
-        index[pixel] = min(range(len(palette)), key=lambda i: sum((a - b) ** 2 for a, b in zip(palette[i], pixel)))
+        index[pixel] = min(range(len(palette)),
+                           key=lambda i: sum((a - b) ** 2 for a, b in zip(palette[i], pixel)))
     data = b"".join(b"\0" + bytes(index[p] for p in row) for row in coarse)
 
     def chunk(kind, body):
         return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
 
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 3, 0, 0, 0))
+    header = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 3, 0, 0, 0)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header)
             + chunk(b"PLTE", b"".join(bytes(c) for c in palette))
             + chunk(b"IDAT", zlib.compress(data, 9)) + chunk(b"IEND", b""))
 

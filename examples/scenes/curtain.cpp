@@ -44,7 +44,7 @@ int main() {
     auto state = curtain.initial_state();
     taut::ImplicitEuler stepper(curtain);
     taut::ObjSequence files("curtain", faces);
-    for (int frame = 0; frame < 600; ++frame) {
+    for (int frame = 0; frame < 420; ++frame) {
         if (frame % 6 == 0 && !files.write(state.x)) return 1;
         // A pinned particle moves with the velocity that it is given: for two seconds.
         for (const Index ring : rings) {
