@@ -9,7 +9,7 @@
 cmake_minimum_required(VERSION 3.21)
 
 # Every program becomes a page, under the comment that it begins with.
-file(GLOB programs ${EXAMPLES}/*.cpp)
+file(GLOB programs ${EXAMPLES}/*.cpp ${EXAMPLES}/scenes/*.cpp)
 set(pages "")
 foreach(program IN LISTS programs)
     cmake_path(GET program FILENAME name)
