@@ -10,7 +10,7 @@
 # read: they are rounded, and for orientation alone.
 set -eu
 cd "$(dirname "$0")/.."
-git ls-files README.md 'docs/*.md' | xargs awk '
+git ls-files README.md 'docs/*.md' | LC_ALL=C xargs awk '
     function complain(text) { printf "%s:%d: %s\n", page, row, text; wrong = 1 }
     # Whether one of the files holds the number.
     function recorded(number, files,    list, n, i, line, found) {
