@@ -57,10 +57,9 @@ awk '/^```cpp$/ { inside = 1; text = ""; next }
      /^```$/ { if (inside && text ~ /int main/) { printf "%s", text; exit } inside = 0 }
      inside { text = text $0 "\n" }' "$name/README.md" >first.cpp
 [ -s first.cpp ] || die "README.md shows no program"
-eigen=${EIGEN:-$(pkg-config --variable=includedir eigen3 2>/dev/null || echo /usr/include)}
-[ -d "$eigen/eigen3" ] && eigen=$eigen/eigen3
+eigen=${EIGEN:-$(pkg-config --cflags-only-I eigen3 2>/dev/null | sed 's/^ *-I//; s/ *$//')}
 # shellcheck disable=SC2086  # flags are a list of words
-${CXX:-c++} -std=c++17 ${CXXFLAGS:--O1} -Wall -Wextra -Werror -isystem "$eigen" -I"$name/include" first.cpp -o first ||
+${CXX:-c++} -std=c++17 ${CXXFLAGS:--O1} -Wall -Wextra -Werror -isystem "${eigen:-/usr/include/eigen3}" -I"$name/include" first.cpp -o first ||
     die "README's first program does not compile from the archive"
 ./first || die "README's first program fails"
 cd "$root"
