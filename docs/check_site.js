@@ -34,9 +34,9 @@ function typeset(page, view) {
   return until(ask, 20000).then(() => until(() => done && view.document.querySelector(".MathJax_SVG svg"), 60000));
 }
 
-/// Whether the element, or one around it, scrolls what is wider than itself.
+/// Whether the element, or one around it within the page, scrolls what is wider than itself.
 function scrolls(element, view) {
-  for (let box = element; box && box !== view.document.body; box = box.parentElement) {
+  for (let box = element; box && box !== view.document.body && box.id !== "doc-content"; box = box.parentElement) {
     if (/auto|scroll/.test(view.getComputedStyle(box).overflowX)) return true;
   }
   return false;
@@ -45,7 +45,8 @@ function scrolls(element, view) {
 function checkWidth(page, view) {
   const { document } = view;
   const room = view.innerWidth;
-  const wide = Math.max(document.documentElement.scrollWidth, document.body.scrollWidth);
+  const parts = [document.documentElement, document.body, document.getElementById("doc-content")];
+  const wide = Math.max(...parts.map((part) => (part ? part.scrollWidth : 0)));
   if (wide > room) {
     const out = [...document.querySelectorAll("#doc-content *, #top *")].filter((e) => e.getBoundingClientRect().right > room + 1 && !scrolls(e, view));
     const names = [...new Set(out.map((e) => `${e.tagName.toLowerCase()}.${e.getAttribute("class") || e.id}`))].slice(0, 4);
