@@ -17,6 +17,8 @@
 #include <taut/stability/bracket.hpp>
 #include <type_traits>
 
+#include "../examples/common/number.hpp"
+
 namespace {
 
 using taut::Index;
@@ -32,6 +34,10 @@ std::string number(double value, const char* format = "%.3g") {
     char text[32];
     std::snprintf(text, sizeof text, format, value);
     return text;
+}
+
+std::string certified_text(double h) {
+    return std::isinf(h) ? "any" : example::rounded_down(h, 3, 'g');
 }
 
 /// Velocities of about 0.1 m/s that differ from particle to particle; the same in every precision.
@@ -100,7 +106,7 @@ void row(const char* asked, const Make& make, double h = 1.0 / 60, double explic
     const double any = taut::any_pose_limit(system).certified;
     if (explicit_h == 0) explicit_h = std::isfinite(any) ? 0.9 * any : 1.0 / 60;
     const double width = limit.refuted / limit.certified - 1;
-    std::printf("| %s | %s | %s | %s | %s | %s |\n", asked, number(limit.certified).c_str(),
+    std::printf("| %s | %s | %s | %s | %s | %s |\n", asked, certified_text(limit.certified).c_str(),
                 std::isfinite(limit.certified) ? number(width, "%.1e").c_str() : "–",
                 name(limit.cause), both<Reference, taut::SymplecticEuler>(make, explicit_h).c_str(),
                 both<Reference, Implicit>(make, h).c_str());

@@ -11,6 +11,7 @@
 #include <taut/imex/imex.hpp>
 #include <taut/taut.hpp>
 
+#include "../examples/common/number.hpp"
 #include "measure.hpp"
 
 namespace {
@@ -62,8 +63,9 @@ Run run(const Cloth& cloth, Stepper&& stepper, double longest) {
 
 void row(const char* name, double h, const Run& run, const Run& reference, const Run& explicitly) {
     const double off = (run.end.x - reference.end.x).colwise().norm().maxCoeff();
-    std::printf("| %s | %.2e | %.1f | %.3f | %.1f | %+.4f |\n", name, h, run.time,
-                run.time / explicitly.time, 1e3 * off, run.energy);
+    std::printf("| %s | %s | %.1f | %.3f | %.1f | %+.4f |\n", name,
+                example::rounded_down(h, 3).c_str(), run.time, run.time / explicitly.time,
+                1e3 * off, run.energy);
 }
 
 }  // namespace

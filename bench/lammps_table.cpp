@@ -16,6 +16,7 @@
 #include <taut/lattice/lattice.hpp>
 #include <taut/stability/bracket.hpp>
 
+#include "../examples/common/number.hpp"
 #include "measure.hpp"
 
 #include <sys/resource.h>
@@ -107,10 +108,11 @@ int limit(const std::string& folder, Index edge, Index steps) {
     Eigen::Map<Eigen::VectorXd>(state.x.data(), state.x.size()) +=
         kick / mode.shape.cwiseAbs().maxCoeff() * mode.shape;
     std::printf(
-        "lattice of %lld^3 particles, %lld springs; certified %.6e s, refuted %.6e s\n\n"
+        "lattice of %lld^3 particles, %lld springs; certified %s s, refuted %s s\n\n"
         "| step | steps | largest displacement / kick |\n|---|---|---|\n",
         static_cast<long long>(edge), static_cast<long long>(lattice.spring_count()),
-        bracket.certified, bracket.refuted);
+        example::rounded_down(bracket.certified, 7).c_str(),
+        example::rounded_up(bracket.refuted, 7).c_str());
     std::fflush(stdout);
     for (const bool below : {true, false}) {
         taut::LammpsOptions options;

@@ -11,7 +11,7 @@ int main() {
     auto state = cloth.initial_state();
 
     auto limit = taut::energy_limit(cloth);
-    std::printf("no step up to %.4g s gains energy\n", limit.certified);
+    std::printf("no step up to about %.4g s gains energy\n", limit.certified);
 
     taut::EnergyStableEuler stepper(cloth);
     if (auto report = stepper.step(state, limit.certified, 1000); !report) {

@@ -19,12 +19,13 @@ int main() {
 
     std::printf("How large may my step be?\n");
     const auto limit = taut::bracket(stability, Method::symplectic_euler);
-    std::printf("  %.5e s is proved stable, %.5e s is not; set by %s\n", limit.certified,
-                limit.refuted, name(limit.cause));
+    std::printf("  about %.5e s is proved stable, about %.5e s is not; set by %s\n",
+                limit.certified, limit.refuted, name(limit.cause));
 
     std::printf("And to six digits?\n");
     const auto narrow = taut::max_step(stability, Method::symplectic_euler, 1e-6);
-    std::printf("  %.9e s is proved, %.9e s is not\n", narrow.certified, narrow.refuted);
+    std::printf("  about %.9e s is proved, about %.9e s is not\n", narrow.certified,
+                narrow.refuted);
 
     std::printf("Is my step safe?\n");
     std::printf("  1e-4 s: %s\n", taut::certify(stability, Method::symplectic_euler, 1e-4).proved
@@ -37,11 +38,11 @@ int main() {
 
     std::printf("And while the cloth moves?\n");
     const auto moving = taut::any_pose_limit(cloth, 1e-6);
-    std::printf("  %.3e s, at any pose\n", moving.certified);
+    std::printf("  about %.3e s, at any pose\n", moving.certified);
 
     std::printf("And so that it never gains energy?\n");
     const auto stable = taut::energy_limit(cloth, 1e-6);
-    std::printf("  %.3e s, by EnergyStableEuler\n", stable.certified);
+    std::printf("  about %.3e s, by EnergyStableEuler\n", stable.certified);
 
     std::printf("What limits the step?\n");
     for (const auto& spring : taut::limiting_springs(stability, 1)) {
@@ -52,16 +53,16 @@ int main() {
 
     std::printf("What would make 4e-4 s safe?\n");
     const double h = 4e-4;
-    std::printf("  all stiffness times %.3f, or all masses times %.3f,\n",
+    std::printf("  all stiffness times about %.3f, or all masses times about %.3f,\n",
                 stability.max_stiffness_scale(Method::symplectic_euler, h),
                 stability.min_mass_scale(Method::symplectic_euler, h));
     const auto added = taut::added_mass(cloth, state, h);
-    std::printf("  or %.2e kg on a few particles; the lowest frequency changes by %.2g %%\n",
+    std::printf("  or about %.2e kg on a few particles; the lowest frequency changes by %.2g %%\n",
                 added.total, 100 * added.frequency_change[0]);
 
     std::printf("Which damping does explicit Euler need at 5e-5 s?\n");
     const auto window = stability.rayleigh_window(Method::explicit_euler, 5e-5);
-    std::printf("  alpha in (%.2e, %.2e) s\n", window.lower, window.upper);
+    std::printf("  alpha in about (%.2e, %.2e) s\n", window.lower, window.upper);
 
     std::printf("How much is that of critical damping?\n");
     std::printf("  a ratio of %.5f at 10 rad/s\n", taut::damping_ratio({0, window.lower}, 10));
@@ -71,5 +72,5 @@ int main() {
     std::printf("  %s\n", limit.step_for(cloth, 0.95) ? "yes" : "no: ask again");
     stability = taut::Stability<double>(cloth, state);
     const auto renewed = stability.max_step(Method::symplectic_euler).step_for(cloth, 0.95);
-    std::printf("  now %.3e s\n", renewed.value_or(0));
+    std::printf("  now about %.3e s\n", renewed.value_or(0));
 }

@@ -16,6 +16,8 @@
 #include <taut/scene/with_law.hpp>
 #include <vector>
 
+#include "common/number.hpp"
+
 namespace own {
 
 using Vector = Eigen::Vector3d;
@@ -213,8 +215,10 @@ int main() {
         rises += now > last + 1e-12;
         last = now;
     }
-    std::printf("cloth of 10 x 10: 20000 steps of %.2e s, %d gain energy\n", h, rises);
-    std::printf("energy_limit: %.2e s, %.2f of that\n", limit, limit / h);
+    std::printf("cloth of 10 x 10: 20000 steps of %s s, %d gain energy\n",
+                example::rounded_down(h, 3).c_str(), rises);
+    std::printf("energy_limit: %s s, %.2f of that\n", example::rounded_down(limit, 3).c_str(),
+                limit / h);
 
     minute("Hookean", cloth);
     const auto strings = taut::with_law<taut::TensionOnly>(cloth);

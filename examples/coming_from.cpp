@@ -12,6 +12,8 @@
 #include <taut/taut.hpp>
 #include <utility>
 
+#include "common/number.hpp"
+
 namespace {
 
 using Net = taut::SpringSystem<double, 3>;
@@ -233,10 +235,11 @@ void cloth() {
     const double moving = taut::any_pose_limit(net).certified;
     std::printf("64 x 64 cloth, 0.3 kg, 1000 N/m: compliance 1e-3 m/N\n");
     const double h = taut::energy_limit(net).certified;
-    std::printf("  h^2 k W: %.0f at 1/60 s, %.2f at the any-pose limit of %.3g s\n",
-                frame * frame * k * W, moving * moving * k * W, moving);
-    std::printf("  %.2f at %.3g s, at which energy never rises (%d a frame)\n", h * h * k * W, h,
-                int(std::ceil(frame / h)));
+    std::printf("  h^2 k W: %.0f at 1/60 s, %.2f at the any-pose limit of %s s\n",
+                frame * frame * k * W, moving * moving * k * W,
+                example::rounded_down(moving, 3, 'g').c_str());
+    std::printf("  %.2f at %s s, at which energy never rises (%d a frame)\n", h * h * k * W,
+                example::rounded_down(h, 3, 'g').c_str(), int(std::ceil(frame / h)));
     std::printf("  10 iterations at 1/60 s: PBD stiffness %.3f for one link; for a row %.2f N/m\n",
                 1 - std::pow(1 + frame * frame * k * W, -1.0 / 10),
                 stiffness_of_long(1, 10, frame, net.mass(100)));

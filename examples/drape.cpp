@@ -9,6 +9,7 @@
 #include <string>
 
 #include "common/main.hpp"
+#include "common/number.hpp"
 #include "common/progress.hpp"
 #include "drape/record.hpp"
 #include "drape/saved_state.hpp"
@@ -106,10 +107,10 @@ void print_start(const Options& options, const example::Scene& scene, const Plan
     std::printf("%s, law %s\n%s\n", example::describe(scene).c_str(), options.law.c_str(),
                 example::describe_space(scene).c_str());
     if (obstacle) std::printf("%s\n", obstacle.description().c_str());
-    std::printf("%s%s steps of %s%.4e s, %lld for each of %d frames of %.4g s\n",
+    std::printf("%s%s steps of %s%s s, %lld for each of %d frames of %.4g s\n",
                 options.integrator.c_str(), options.guard ? ", guarded" : "",
-                options.guard ? "at most " : "", plan.h, static_cast<long long>(plan.steps),
-                plan.frames, plan.frame);
+                options.guard ? "at most " : "", example::rounded_down(plan.h, 5).c_str(),
+                static_cast<long long>(plan.steps), plan.frames, plan.frame);
 }
 
 /// The end of a sentence that says which step is too large.

@@ -10,6 +10,8 @@
 #include <taut/taut.hpp>
 #include <vector>
 
+#include "common/number.hpp"
+
 namespace {
 
 using Cloth = taut::SpringSystem<float, 3>;
@@ -103,8 +105,9 @@ int main() {
                 static_cast<double>(substeps) / ticks, trimmed, again);
     std::printf("%d springs torn in %d ticks, longest of the others %.2f of its rest length\n",
                 static_cast<int>(torn), cuts, static_cast<double>(longest));
-    std::printf("any-pose limit %.3e s before, %.3e s after\n", static_cast<double>(first_limit),
-                static_cast<double>(guard.limit()->certified));
+    std::printf("any-pose limit %s s before, %s s after\n",
+                example::rounded_down(static_cast<double>(first_limit), 4).c_str(),
+                example::rounded_down(static_cast<double>(guard.limit()->certified), 4).c_str());
     std::printf("hand within %.0e m of where it should be, highest %.2f m, lowest %.2f m\n",
                 static_cast<double>(off), static_cast<double>(view.x.row(2).maxCoeff()),
                 static_cast<double>(view.x.row(2).minCoeff()));

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "common/main.hpp"
+#include "common/number.hpp"
 #include "common/progress.hpp"
 #include "common/scene.hpp"
 
@@ -93,7 +94,8 @@ bool print_trial(const char* label, double h, const Trial& trial, bool stable) {
     const bool as_predicted =
         stable ? trial.finite && trial.largest < 20
                : std::abs(std::log(trial.measured) / std::log(trial.predicted) - 1) < 0.02;
-    std::printf("  %-34s %.4e s %8lld  %10.6f %10.6f  %8.2g  %s\n", label, h,
+    const std::string step = stable ? example::rounded_down(h, 5) : example::rounded_up(h, 5);
+    std::printf("  %-34s %s s %8lld  %10.6f %10.6f  %8.2g  %s\n", label, step.c_str(),
                 static_cast<long long>(trial.steps), trial.predicted, trial.measured, trial.largest,
                 as_predicted ? (stable ? "bounded" : "grows as predicted") : "NOT AS PREDICTED");
     return as_predicted;
@@ -181,8 +183,9 @@ bool try_linearised(const Plan& plan) {
         "", "step", "steps", "predicted", "measured", "largest");
     const bool symplectic =
         try_limit<taut::SymplecticEuler<Linear>>("symplectic Euler", plan.symplectic);
-    std::printf("  with alpha = %.3e s, inside the window (%.3e, %.3e) s of h = %.3e s:\n",
-                plan.alpha, plan.window.lower, plan.window.upper, plan.window_step);
+    std::printf("  with alpha = %.3e s, inside the window (%s, %s) s of h = %.3e s:\n", plan.alpha,
+                example::rounded_up(plan.window.lower, 4).c_str(),
+                example::rounded_down(plan.window.upper, 4).c_str(), plan.window_step);
     const bool damped =
         try_limit<taut::ExplicitEuler<Linear>>("explicit Euler", plan.explicit_euler);
     return symplectic && damped;
@@ -204,9 +207,10 @@ bool try_moving(const example::System& system, double h, double duration) {
     }
     good = good && most <= 1e-9 * kinetic;  // rounding
     std::printf(
-        "The moving cloth, EnergyStableEuler, %.4e s, for %.3g s\n"
+        "The moving cloth, EnergyStableEuler, %s s, for %.3g s\n"
         "  energy changes by %+.2e J, largest kinetic energy %.2e J: %s\n",
-        h, state.time, last - start, kinetic, good ? "never rises" : "NOT AS PREDICTED");
+        example::rounded_down(h, 5).c_str(), state.time, last - start, kinetic,
+        good ? "never rises" : "NOT AS PREDICTED");
     return good;
 }
 

@@ -16,9 +16,13 @@
 #include <taut/model/tension_only.hpp>
 #include <taut/scene/with_law.hpp>
 
+#include "common/number.hpp"
+
 namespace {
 
 using Net = taut::SpringSystem<double, 3>;
+using example::rounded_down;
+using example::rounded_up;
 using taut::Index;
 using taut::Method;
 
@@ -54,10 +58,10 @@ void not_finite_at_once() {
     while (frames < 1000 && stepper.step(state, h)) ++frames;
     std::printf("1/60 s: a vibration grows %.0f-fold a step; not finite after %d frames\n", factor,
                 frames);
-    std::printf("safe: %d substeps, or all stiffness times %.1e, or all masses times %.0f\n",
+    std::printf("safe: %d substeps, or all stiffness times %s, or all masses times %s\n",
                 int(stability.max_step(Method::symplectic_euler).substeps(h).value_or(0)),
-                stability.max_stiffness_scale(Method::symplectic_euler, h),
-                stability.min_mass_scale(Method::symplectic_euler, h));
+                rounded_down(stability.max_stiffness_scale(Method::symplectic_euler, h), 2).c_str(),
+                rounded_up(stability.min_mass_scale(Method::symplectic_euler, h), 3, 'g').c_str());
     expect(frames < 100, "NaN within 100 frames");
 }
 
@@ -133,8 +137,8 @@ void only_when_it_moves() {
     const double exploded = farthest(symplectic, at_start), held = farthest(stable, proved);
     std::printf("ball on cords, %.3f s, 0.95 of the limit where it starts: it goes %.1e m far\n",
                 at_start, exploded);
-    std::printf("ball on cords, %.3f s, EnergyStableEuler at its limit: it goes %.1e m far\n",
-                proved, held);
+    std::printf("ball on cords, %s s, EnergyStableEuler at its limit: it goes %.1e m far\n",
+                rounded_down(proved, 2, 'g').c_str(), held);
     expect(exploded > 1e5 && held < 2, "only the step that is proved at every pose holds");
 }
 
@@ -189,10 +193,10 @@ void only_when_it_collides() {
         taut::resolve_contacts(net, floor, state);
         return true;
     });
-    std::printf("floor of %.0e N/m, %.2e s: %.1f m/s\n", k, h, bare);
+    std::printf("floor of %.0e N/m, %s s: %.1f m/s\n", k, rounded_down(h, 3).c_str(), bare);
     std::printf("guarded: %.1f m/s, %d of %d frames taken again\n", guarded, again, frames);
-    std::printf("counted in, %.2e s: %.1f m/s; resolve_contacts, %.2e s: %.1f m/s\n", shorter,
-                small, h, projected);
+    std::printf("counted in, %s s: %.1f m/s; resolve_contacts, %s s: %.1f m/s\n",
+                rounded_down(shorter, 3).c_str(), small, rounded_down(h, 3).c_str(), projected);
     expect(bare > 15 && small < 2 && projected < 2,
            "what the analysis does not see blows up; counted in or projected it does not");
     expect(guarded < 2 && again > 0, "the guard follows the floor in shorter steps");
@@ -222,8 +226,8 @@ void only_when_dragged() {
         dragged.pin(hand);
         dragged.add_spring(70, hand, k);
         const double less = taut::any_pose_limit(dragged).certified;
-        std::printf("mouse spring of %.0e N/m: the any-pose limit goes from %.2e s to %.2e s\n", k,
-                    limit, less);
+        std::printf("mouse spring of %.0e N/m: the any-pose limit goes from %s s to %s s\n", k,
+                    rounded_down(limit, 3).c_str(), rounded_down(less, 3).c_str());
         expect((less < 0.9 * limit) == (k > 1e4),
                "a stiff mouse spring takes step, a soft one does not");
     }
@@ -238,8 +242,9 @@ void only_after_a_change() {
     net = cloth();
     net.remove_springs([](Index s) { return s % 3 == 0; });
     const double torn = taut::any_pose_limit(net).certified;
-    std::printf("old limit %s; one mass / 8: %.2e s, a third of the springs torn: %.2e s\n",
-                stale ? "refused" : "taken", light, torn);
+    std::printf("old limit %s; one mass / 8: %s s, a third of the springs torn: %s s\n",
+                stale ? "refused" : "taken", rounded_down(light, 3).c_str(),
+                rounded_down(torn, 3).c_str());
     expect(stale && light < 0.6 * before.certified && torn >= before.certified,
            "light particles take step, torn springs do not");
 }
@@ -267,8 +272,9 @@ void sags() {
         const Net net = taut::hanging_cloth<double>(options);
         auto state = net.initial_state();
         expect(bool(taut::static_equilibrium(net, state)), "it comes to rest");
-        std::printf("%.0f N/m: hangs with l/L up to %.2f, any-pose limit %.2e s\n", k,
-                    largest_stretch(net, state), taut::any_pose_limit(net).certified);
+        std::printf("%.0f N/m: hangs with l/L up to %.2f, any-pose limit %s s\n", k,
+                    largest_stretch(net, state),
+                    rounded_down(taut::any_pose_limit(net).certified, 3).c_str());
     }
 }
 
@@ -347,8 +353,8 @@ void only_if_it_cannot_push() {
     });
     std::printf("threads, symplectic Euler, %.2e s: up to %.2f J above the start\n", linear,
                 bare.above);
-    std::printf("EnergyStableEuler, %.2e s: up to %.2f J above the start, %.0e J in one step\n", h,
-                proved.above, proved.step);
+    std::printf("EnergyStableEuler, %s s: up to %.2f J above the start, %.0e J in one step\n",
+                rounded_down(h, 3).c_str(), proved.above, proved.step);
     std::printf("the guard: up to %.2f J above the start, %d of 600 frames trimmed, %d again\n",
                 guarded.above, trimmed, again);
     expect(bare.above > 0.1, "a limit of the linearisation does not bound the energy of threads");

@@ -7,7 +7,7 @@
 import { View } from "./view.js";
 import { whole } from "./words.js";
 
-/* global seconds, percent, significant */
+/* global safeSeconds, percent, significant */
 
 const HOLD = 1.5;  // s for which the end is shown before it begins again
 const byId = (id) => document.getElementById(id);
@@ -43,7 +43,7 @@ export class Beside {
     this.view.camera.position.multiplyScalar(1.12);  // what hangs becomes longer
     this.view.each((model) => model.setPins(pinned, mesh.positions));
     byId("all").textContent = `All ${whole(this.count)} particles`;
-    byId("few").textContent = `${whole(found.chosen.particles)} particles (pins and dots), at ${seconds(found.chosen.h, 3)}`;
+    byId("few").textContent = `${whole(found.chosen.particles)} particles (pins and dots), at ${safeSeconds(found.chosen.h, 3)}`;
     this.running = true;
     this.draw();
   }
@@ -51,7 +51,7 @@ export class Beside {
   take(sent) {
     if (sent.seeds) {
       this.view.panes[1].model.setSeeds(sent.seeds.slice(this.pins));
-      byId("all").textContent += `, at ${seconds(sent.h, 3)}`;
+      byId("all").textContent += `, at ${safeSeconds(sent.h, 3)}`;
       this.slow = sent.slow;
       byId("beside").classList.toggle("one", sent.slow);
       this.view.only = sent.slow ? 1 : undefined;

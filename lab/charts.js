@@ -4,7 +4,7 @@
 // The bands behind the slider of h, and the charts of ringing and of coarser networks. Scales and SVG are those of the pages
 // of stability_report: examples/report/draw.js, loaded before.
 
-/* global decades, drawing, hatching, label, line, logarithmic, metres, path, percent, seconds, svg, axes */
+/* global decades, drawing, hatching, label, line, logarithmic, metres, path, percent, seconds, safeSeconds, failingSeconds, svg, axes */
 
 export const STEP = { least: 2e-5, most: 5e-2 };  // s, the slider's ends
 
@@ -41,9 +41,9 @@ export function drawBands(bands, scale, limits) {
   rect(c, width, { class: "refuted" });
   const middle = top + 20.5;
   if (a >= width) label(root, 14, middle, "every step certified", "start", "in");
-  else if (a > 110) label(root, a - 36, middle, seconds(limits.anyPose, 3), "end", "in");
+  else if (a > 110) label(root, a - 36, middle, safeSeconds(limits.anyPose, 3), "end", "in");
   if (c <= 0) label(root, 14, middle, "every step refuted", "start", "in");
-  else if (c < width - 90) label(root, c + 22, middle, seconds(limits.refuted, 3), "start", "in");
+  else if (c < width - 90) label(root, c + 22, middle, failingSeconds(limits.refuted, 3), "start", "in");
 
   const ruler = drawing(scale, 30, "Scale of the time step").root;
   for (const h of decades(x, width < 640 ? 5 : 11)) {

@@ -7,7 +7,7 @@ import { Beside } from "./beside.js";
 import { drawLevels } from "./charts.js";
 import { counted, whole } from "./words.js";
 
-/* global seconds, percent */
+/* global seconds, safeSeconds, percent */
 
 const LEAST = 0.005, MOST = 0.2;  // goals, of the scene's size
 const LARGE = 5000;     // particles from which on a search begins with the button only
@@ -16,7 +16,7 @@ const byId = (id) => document.getElementById(id);
 
 /// What a sentence of the library leaves open.
 function more({ outcome, chosen }) {
-  if (outcome === "coarse") return `The error is an estimate, not a certificate. The step is certified: at ${seconds(chosen.h, 3)} the network’s energy cannot rise.`;
+  if (outcome === "coarse") return `The error is an estimate, not a certificate. The step is certified: at ${safeSeconds(chosen.h, 3)} the network’s energy cannot rise.`;
   if (outcome === "fine") return "The errors are estimates, not certificates.";
   if (outcome === "unpredictable") return "That is measured on a coarser network, and no certificate.";
   return "";

@@ -15,7 +15,7 @@ import { original, shipped } from "./scenes.js";
 import { framing, View } from "./view.js";
 import { STANDING, blamedWords, blownWords, paceWords, sceneWords, sentence } from "./words.js";
 
-/* global seconds */
+/* global seconds, safeSeconds, failingSeconds */
 
 const byId = (id) => document.getElementById(id);
 const between = (low, high, share) => low * (high / low) ** share;
@@ -48,14 +48,15 @@ function readStep() {
   settings.h = between(STEP.least, STEP.most, byId("h").value / byId("h").max);
 }
 function writeStep() {
-  byId("h-value").textContent = seconds(settings.h, 3);
   if (stale) {
+    byId("h-value").textContent = seconds(settings.h, 3);
     byId("standing").textContent = "not known";
     byId("standing").className = "open";
     byId("sentence").textContent = "The limits for these knobs and pins are not known yet; those drawn are the ones from before.";
     return;
   }
   const where = standing(settings.h, limits());
+  byId("h-value").textContent = (where === "refuted" ? failingSeconds : safeSeconds)(settings.h, 3);
   byId("standing").textContent = STANDING[where];
   byId("standing").className = where;
   const window = lab.window(settings.h, settings.drag, found.mode);

@@ -6,7 +6,7 @@
 import { SYMPLECTIC } from "./engine.js";
 import { View } from "./view.js";
 
-/* global seconds, metres, significant */
+/* global safeSeconds, failingSeconds, metres, significant */
 
 const BELOW = 0.99, ABOVE = 1.01;  // of the certified step, of the refuted one
 const STEPS = 2;    // a picture: the limiting mode turns over at every step, and would flicker
@@ -38,8 +38,8 @@ export class Pair {
     this.view.each((model) => model.setPins(pinned, mesh.positions));
     this.h = [BELOW * certified, ABOVE * refuted];
     const growth = this.lab.growth(SYMPLECTIC, found.mode, this.h[1]);
-    byId("below").textContent = `${seconds(this.h[0], 3)}, 1 % below the certified step`;
-    byId("above").textContent = `${seconds(this.h[1], 3)}, 1 % above the refuted step: grows ${significant(growth, 3)}-fold a step`;
+    byId("below").textContent = `${safeSeconds(this.h[0], 3)}, 1 % below the certified step`;
+    byId("above").textContent = `${failingSeconds(this.h[1], 3)}, 1 % above the refuted step: grows ${significant(growth, 3)}-fold a step`;
     this.restart();
     this.draw();
   }

@@ -6,7 +6,7 @@
 import { ENERGY_STABLE, EXPLICIT, IMPLICIT } from "./engine.js";
 import { standing } from "./charts.js";
 
-/* global seconds, metres, percent, significant */
+/* global seconds, safeSeconds, failingSeconds, metres, percent, significant */
 
 export const FRAME = 1 / 60;  // s
 export const NAMES = ["Explicit Euler", "Symplectic Euler", "Velocity Verlet", "Implicit Euler", "BDF2", "Energy-stable Euler"];
@@ -28,7 +28,7 @@ function slowly(growth) {
 function explicitWords({ alpha, drag }, { cause }, window) {
   if (alpha === 0 && drag === 0) return `Explicit Euler: ${cause}.`;
   if (!(window.upper > 0)) return "No damping α makes explicit Euler stable at this step. Take a smaller step, or symplectic or implicit Euler.";
-  return `Explicit Euler needs damping. At this step, α between ${seconds(Math.max(0, window.lower), 3)} and ${seconds(window.upper, 3)} is proved at the starting pose; it is ${alpha > 0 ? seconds(alpha, 3) : "none"}.`;
+  return `Explicit Euler needs damping. At this step, α between ${failingSeconds(Math.max(0, window.lower), 3)} and ${safeSeconds(window.upper, 3)} is proved at the starting pose; it is ${alpha > 0 ? seconds(alpha, 3) : "none"}.`;
 }
 
 /// At any pose.
@@ -48,9 +48,9 @@ export function sentence({ method, h, alpha, drag }, limits, window, growth) {
   }
   if (where === "posed") {
     const pose = "Certified for small motions about the pose in which the mesh starts";
-    return method === EXPLICIT ? `${pose}. Explicit Euler has no limit that holds at every pose.` : `${pose}, up to ${seconds(limits.certified, 3)}. Not proved for all poses to come: that ends at ${seconds(limits.anyPose, 3)}.`;
+    return method === EXPLICIT ? `${pose}. Explicit Euler has no limit that holds at every pose.` : `${pose}, up to ${safeSeconds(limits.certified, 3)}. Not proved for all poses to come: that ends at ${safeSeconds(limits.anyPose, 3)}.`;
   }
-  if (where === "open") return `Not decided: this step lies between what is proved, up to ${seconds(limits.certified, 3)}, and what is refuted, from ${seconds(limits.refuted, 3)} on.`;
+  if (where === "open") return `Not decided: this step lies between what is proved, up to ${safeSeconds(limits.certified, 3)}, and what is refuted, from ${failingSeconds(limits.refuted, 3)} on.`;
   const times = `Refuted: ${significant(h / limits.refuted, 4)} times the refuted step.`;
   if (growth <= 1) return `${times} A vibration is known that grows.`;
   return growth <= SLOW ? `${times} ${slowly(growth)}` : `${times} The limiting vibration grows ${significant(growth, 4)}-fold with every step.`;
@@ -59,7 +59,7 @@ export function sentence({ method, h, alpha, drag }, limits, window, growth) {
 /// Why the scene has blown up.
 export function blownWords({ method, h }, limits, steps, swing) {
   const ratio = limits.refuted < Infinity && limits.refuted > 0 ? `, ${significant(h / limits.refuted, 3)} times the refuted step` : "";
-  const cure = limits.anyPose > 0 ? `At any pose${method === ENERGY_STABLE ? "" : ", linearised"}, ${seconds(limits.anyPose, 3)} is certified` : limits.certified > 0 ? `At the starting pose ${seconds(limits.certified, 3)} is certified` : "With this damping no step is certified";
+  const cure = limits.anyPose > 0 ? `At any pose${method === ENERGY_STABLE ? "" : ", linearised"}, ${safeSeconds(limits.anyPose, 3)} is certified` : limits.certified > 0 ? `At the starting pose ${safeSeconds(limits.certified, 3)} is certified` : "With this damping no step is certified";
   return `${NAMES[method]} at h = ${seconds(h, 3)}${ratio}: after ${counted(steps, "step")} particles swing by ${swing < Infinity ? metres(swing, 2) : "metres"} from one step to the next. ${cure}; with implicit Euler every step is.`;
 }
 

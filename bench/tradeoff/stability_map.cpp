@@ -16,6 +16,8 @@
 #include <taut/tight/tight.hpp>
 #include <taut/stability/bracket.hpp>
 
+#include "../../examples/common/number.hpp"
+
 namespace {
 
 using Cloth = taut::SpringSystem<double, 3>;
@@ -102,7 +104,9 @@ void print_limits() {
             const Cloth cloth = scene(alpha);
             const auto limit =
                 taut::bracket(taut::Stability<double>(cloth, cloth.initial_state()), method);
-            std::printf("%s,%.6g,%.8g,%.8g\n", name(method), alpha, limit.certified, limit.refuted);
+            std::printf("%s,%.6g,%s,%s\n", name(method), alpha,
+                        example::rounded_down(limit.certified, 8, 'g').c_str(),
+                        example::rounded_up(limit.refuted, 8, 'g').c_str());
         }
     }
 }

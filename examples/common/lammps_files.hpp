@@ -10,6 +10,7 @@
 #include <taut/lammps/lammps.hpp>
 
 #include "naming.hpp"
+#include "number.hpp"
 
 namespace example {
 
@@ -28,10 +29,10 @@ std::string write_lammps_folder(const std::string& option, const std::string& fo
     char line[256];
     std::snprintf(line, sizeof line,
                   "For LAMMPS: %lld bond types, %lld atom types, bonds up to %.4g m\n"
-                  "  step %.4e s, %.3g of the limit at any pose\n",
+                  "  step %s s, %.3g of the limit at any pose\n",
                   static_cast<long long>(report.bond_types),
-                  static_cast<long long>(report.atom_types), report.cutoff, report.step,
-                  report.step / report.certified);
+                  static_cast<long long>(report.atom_types), report.cutoff,
+                  rounded_down(report.step, 5).c_str(), report.step / report.certified);
     std::string text = line;
     for (const auto& warning : report.warnings) text += "  differs: " + warning + "\n";
     return text + "  cd " + folder + " && mpirun -n 2 lmp -in " + options.name + ".in\n";

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <string_view>
@@ -13,7 +14,9 @@
 #include <vector>
 
 // The words and numbers of text files. What is no number as a whole is none: a reader that takes
-// the start of a word for its meaning reads another file than the one that was written.
+// the start of a word for its meaning reads another file than the one that was written. And proved
+// bounds as text: nearest is not good enough for them, as half of the steps printed so would be
+// larger than the step that is proved.
 
 namespace example {
 
@@ -74,6 +77,39 @@ inline bool read_quantity(std::string_view text, const std::vector<Unit>& units,
     if (slash != number.npos && !read_number(trim(number.substr(slash + 1)), below)) return false;
     value = value / below * worth;
     return std::isfinite(value);
+}
+
+namespace detail {
+
+/// The number of so many digits that is nearest to `value` on one side of it.
+inline std::string rounded(double value, int digits, char style, bool up) {
+    const char format[] = {'%', '.', '*', style, '\0'};
+    const int places = style == 'e' ? digits - 1 : digits;
+    // Less than one unit of the last digit, so that no number of so many digits is passed over.
+    const double size = std::abs(value);
+    const double stride =
+        std::max(size * std::pow(10.0, -digits) / 2, std::nextafter(size, HUGE_VAL) - size);
+    for (double near = value;; near += up ? stride : -stride) {
+        char text[64];
+        std::snprintf(text, sizeof text, format, places, near);
+        const double read = std::strtod(text, nullptr);
+        if (up ? !(read < value) : !(read > value)) return text;
+    }
+}
+
+}  // namespace detail
+
+/// A proved upper bound of what is safe, as a certified step: the text, read back, is at most
+/// `value`.
+/// @param digits  significant ones, at most 15
+/// @param style   of printf: e, or g, which leaves out zeros at the end
+inline std::string rounded_down(double value, int digits, char style = 'e') {
+    return detail::rounded(value, digits, style, false);
+}
+
+/// A bound from the other side, as a refuted step: the text, read back, is at least `value`.
+inline std::string rounded_up(double value, int digits, char style = 'e') {
+    return detail::rounded(value, digits, style, true);
 }
 
 /// A piece of a file for a message: its start, without bytes that a terminal would obey.

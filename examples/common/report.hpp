@@ -8,24 +8,26 @@
 #include <string>
 
 #include "findings.hpp"
+#include "number.hpp"
 #include "resolution_report.hpp"
 
 // What stability_report found, as a table.
 
 namespace example {
 
-inline std::string step_text(double h, const char* if_zero, const char* if_infinite) {
-    if (h == 0) return if_zero;
-    if (!std::isfinite(h)) return if_infinite;
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4e s", h);
-    return text;
+inline std::string certified_text(double h) {
+    if (h == 0) return "none";
+    return std::isfinite(h) ? rounded_down(h, 5) + " s" : "every step";
+}
+
+inline std::string refuted_text(double h) {
+    if (h == 0) return "every step";
+    return std::isfinite(h) ? rounded_up(h, 5) + " s" : "none";
 }
 
 inline void print_limit(const char* label, const taut::StepLimit<double>& limit) {
-    std::printf("  %-22s %-14s %-14s", label,
-                step_text(limit.certified, "none", "every step").c_str(),
-                step_text(limit.refuted, "every step", "none").c_str());
+    std::printf("  %-22s %-14s %-14s", label, certified_text(limit.certified).c_str(),
+                refuted_text(limit.refuted).c_str());
     if (limit.certified > 0 && std::isfinite(limit.refuted)) {
         std::printf(" %5.1f %%", 100 * limit.certified / limit.refuted);
     } else {
@@ -68,8 +70,9 @@ inline void print_note(const char* label, const taut::StepLimit<double>& limit) 
         std::printf("  %s: %s\n    growth rate %.3g 1/s\n", label, describe(limit.cause),
                     limit.growth_rate);
     } else if (limit.certified_up_to > limit.certified) {
-        std::printf("  %s: %s.\n    %.4e s, growth at most %.3g 1/s\n", label,
-                    describe(limit.cause), limit.certified_up_to, limit.admitted_growth);
+        std::printf("  %s: %s.\n    %s s, growth at most %s 1/s\n", label, describe(limit.cause),
+                    rounded_down(limit.certified_up_to, 5).c_str(),
+                    rounded_up(limit.admitted_growth, 3, 'g').c_str());
     } else if (limit.cause != Cause::stiffness && limit.cause != Cause::unconditional) {
         std::printf("  %s: %s.\n", label, describe(limit.cause));
     }
@@ -102,6 +105,12 @@ inline void print_blame(const Findings& found) {
     }
 }
 
+/// A step that was asked for; where something is known of it, then of the printed number too.
+inline std::string step_text(const Verdict& verdict) {
+    if (verdict.standing == Verdict::Standing::refuted) return rounded_up(verdict.step, 5);
+    return rounded_down(verdict.step, 5);
+}
+
 /// The rest of a sentence that names the step.
 inline std::string describe(const Verdict& verdict) {
     if (verdict.standing == Verdict::Standing::certified) return "proved safe as the scene is";
@@ -122,8 +131,8 @@ inline std::string describe(const Verdict& verdict) {
 
 inline void print_remedies(const Findings& found) {
     const Remedies& remedies = *found.remedies;
-    std::printf("For symplectic Euler at h = %.4e s in this pose: %s\n", remedies.verdict.step,
-                describe(remedies.verdict).c_str());
+    std::printf("For symplectic Euler at h = %s s in this pose: %s\n",
+                step_text(remedies.verdict).c_str(), describe(remedies.verdict).c_str());
     if (remedies.verdict.standing == Verdict::Standing::certified) return;
     if (!(remedies.stiffness_scale > 0) || !std::isfinite(remedies.mass_scale)) {
         std::printf("  no scale of stiffness or masses is proved to make it safe\n");
@@ -134,13 +143,15 @@ inline void print_remedies(const Findings& found) {
                     std::ceil(remedies.verdict.step / found.moving_step()));
     }
     std::printf(
-        "  any one of these makes it safe:\n  all stiffness times %.4g, or all masses times %.4g\n",
-        remedies.stiffness_scale, remedies.mass_scale);
+        "  any one of these makes it safe:\n  all stiffness times %s, or all masses times %s\n",
+        rounded_down(remedies.stiffness_scale, 4, 'g').c_str(),
+        rounded_up(remedies.mass_scale, 4, 'g').c_str());
     if (!remedies.added_mass || !remedies.added_mass->reached) return;
     const auto& added = *remedies.added_mass;
     const auto heavier =
         std::count_if(added.mass.begin(), added.mass.end(), [](double m) { return m > 0; });
-    std::printf("  %.4g kg more on %lld particles", added.total, static_cast<long long>(heavier));
+    std::printf("  about %.4g kg more on %lld particles", added.total,
+                static_cast<long long>(heavier));
     if (!added.frequency_change.empty()) {
         const auto most =
             std::min_element(added.frequency_change.begin(), added.frequency_change.end());
@@ -178,8 +189,10 @@ inline void print_table(const Findings& found, double d0) {
     std::printf("\n");
 
     const auto& k = found.spectrum;
-    std::printf("Eigenvalues of K/M: k_min in [%.4g, %.4g], k_max in [%.6g, %.6g] 1/s^2\n",
-                k.k_min.lower, k.k_min.upper, k.k_max.lower, k.k_max.upper);
+    std::printf(
+        "Eigenvalues of K/M: k_min in [%s, %s], k_max in [%s, %s] 1/s^2\n",
+        rounded_down(k.k_min.lower, 4, 'g').c_str(), rounded_up(k.k_min.upper, 4, 'g').c_str(),
+        rounded_down(k.k_max.lower, 6, 'g').c_str(), rounded_up(k.k_max.upper, 6, 'g').c_str());
     if (found.zero_modes) {
         std::printf("Zero modes (rigid motions and mechanisms): %lld\n",
                     static_cast<long long>(*found.zero_modes));
@@ -188,14 +201,16 @@ inline void print_table(const Findings& found, double d0) {
     if (found.window.empty != taut::EmptyWindow::none) {
         std::printf("no alpha is proved stable: %s\n", describe(found.window.empty));
     } else {
-        std::printf("stable for alpha in (%.4e, %.4e) s\n", found.window.lower, found.window.upper);
+        std::printf("stable for alpha in (%s, %s) s\n", rounded_up(found.window.lower, 5).c_str(),
+                    rounded_down(found.window.upper, 5).c_str());
     }
     if (found.verdict) {
-        std::printf("Symplectic Euler at h = %.4e s in this pose: %s\n", found.verdict->step,
-                    describe(*found.verdict).c_str());
+        std::printf("Symplectic Euler at h = %s s in this pose: %s\n",
+                    step_text(*found.verdict).c_str(), describe(*found.verdict).c_str());
     }
     if (found.proof) {
-        std::printf("%s at h = %.9e s: %s\n", name(found.proof->method), found.proof->step,
+        std::printf("%s at h = %s s: %s\n", name(found.proof->method),
+                    rounded_down(found.proof->step, 10).c_str(),
                     found.proof->proved ? "proved stable" : "not proved");
     }
     if (!found.particles_to_blame.empty()) print_blame(found);

@@ -10,6 +10,7 @@
 
 #include "base64.hpp"
 #include "findings.hpp"
+#include "number.hpp"
 #include "scene.hpp"
 
 // How few particles would do: what stability_report --resolve prints, writes and draws.
@@ -26,9 +27,9 @@ inline void print_resolution(const ResolutionFound& told) {
         char error[32] = "compared with";
         if (std::isfinite(level.error))
             std::snprintf(error, sizeof error, "%.2g %%", 100 * level.error);
-        std::printf("  %9lld %9lld   %12.4e s   %11.3g   %s\n",
+        std::printf("  %9lld %9lld   %12s s   %11.3g   %s\n",
                     static_cast<long long>(level.particles), static_cast<long long>(level.springs),
-                    level.h, level.cost / found.fine_cost, error);
+                    rounded_down(level.h, 5).c_str(), level.cost / found.fine_cost, error);
     }
     std::printf("  %s\n", found.why.c_str());
     if (told.measured)

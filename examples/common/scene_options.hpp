@@ -106,10 +106,11 @@ inline void SceneOptions::add_material(CLI::App& app) {
     app.add_flag("--stiffness-by-length", stiffness_by_length,
                  "stiffness inverse to a spring's length; --stretch and --bend are of the mean "
                  "edge (default: equal stiffness)");
-    app.add_option("--d0", d0, "mass-proportional Rayleigh damping, 1/s")
+    app.add_option("--d0", d0, "damping of motion: mass-proportional Rayleigh damping, 1/s")
         ->check(non_negative())
         ->capture_default_str();
-    app.add_option("--alpha", alpha, "stiffness-proportional Rayleigh damping, s, or as 0.1ms")
+    app.add_option("--alpha", alpha,
+                   "damping of springs: stiffness-proportional Rayleigh damping, s, or as 0.1ms")
         ->transform(time_quantity())
         ->check(non_negative())
         ->capture_default_str();
@@ -126,7 +127,8 @@ inline void SceneOptions::add_pins(CLI::App& app) {
     app.add_option(
            "--pin-top", pin_top,
            "pin this share of the vertices, the highest: 0.02, or 2%; at least one, and all "
-           "that are as high as the lowest of them")
+           "that are as high as the lowest of them (the lab's Top edge: all within 1 % of the "
+           "height)")
         ->transform(share_quantity())
         ->check(CLI::Range(0.0, 1.0));
     app.add_flag("--free", free, "the built-in scene without its pinned corners");

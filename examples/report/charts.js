@@ -61,9 +61,9 @@ function drawLimits(box, data) {
     svg("rect", { ...bar, x: right, width: frame.right - right, class: "refuted" }, root);
     const middle = top + 18.5;
     if (certified === Infinity) label(root, frame.left + 10, middle, "every step certified", "start", "in");
-    else if (certified > 0) label(root, left - 8, middle, seconds(certified), "end", "in");
+    else if (certified > 0) label(root, left - 8, middle, safeSeconds(certified), "end", "in");
     if (refuted === 0) label(root, frame.left + 10, middle, `every step refuted: ${limit.cause.replace(/_/g, " ")}`, "start", "in");
-    else if (refuted < Infinity) label(root, right + 8, middle, seconds(refuted), "start", "in");
+    else if (refuted < Infinity) label(root, right + 8, middle, failingSeconds(refuted), "start", "in");
   });
   const frameTime = 1 / 60;
   if (frameTime > low && frameTime < high) {

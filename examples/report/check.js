@@ -32,6 +32,40 @@ function checkPictures() {
   expect(document.documentElement.scrollWidth <= innerWidth, `wider than the window, ${innerWidth}`);
 }
 
+const POWERS = { s: 0, ms: -3, "µs": -6, ns: -9, ps: -12, fs: -15 };
+/// What a step of the page reads as: 1.234 ms.
+function readStep(text) {
+  const [number, unit] = text.split("\u00a0");
+  return Number(number.includes("e") ? number : `${number}e${POWERS[unit]}`);
+}
+
+/// No text of a certified step is above it, none of a refuted step below: of generated steps, and of the page.
+function checkBounds() {
+  let seed = 1;
+  const random = () => (seed = (seed * 48271) % 2147483647) / 2147483647;
+  let moved = 0;
+  for (let trial = 0; trial < 4000; ++trial) {
+    const h = 10 ** (3 - 16 * random());
+    const digits = 2 + (trial % 5);
+    const [low, high, near] = [safeSeconds, failingSeconds, seconds].map((text) => readStep(text(h, digits)));
+    expect(low <= h && high >= h && (low === near || high === near), `${h} s is written as ${low} and ${high} s`);
+    moved += near > h;
+  }
+  expect(moved > 1000, "to nearest, hardly any step would have been too large");
+  const cells = [...document.querySelectorAll("#table tbody td")].map((cell) => parseFloat(cell.textContent));
+  knownLimits(data).forEach(([key], row) => {
+    const { certified, refuted } = bracket(data.findings[key]);
+    expect(!(cells[3 * row] > certified), `${key}: the table certifies ${cells[3 * row]} s, proved is ${certified} s`);
+    expect(!(cells[3 * row + 1] < refuted), `${key}: the table refutes ${cells[3 * row + 1]} s, known is ${refuted} s`);
+  });
+  for (const box of document.querySelectorAll("#facts div")) {
+    const [name, value] = [...box.children].map((child) => child.textContent);
+    if (!/certified/.test(name) || !/^[0-9]/.test(value)) continue;
+    const key = /energy/.test(name) ? "energy_stable" : /any pose/.test(name) ? "any_pose" : "symplectic_euler";
+    expect(readStep(value) <= data.findings[key].certified, `${name} ${value}, proved is ${data.findings[key].certified} s`);
+  }
+}
+
 function scrubTo(frame) {
   byId("scrub").value = frame;
   byId("scrub").dispatchEvent(new Event("input"));
@@ -84,6 +118,7 @@ function checkResolution() {
 
 async function check() {
   checkPictures();
+  checkBounds();
   if (data.resolution) checkResolution();
   if (data.runs) await checkRuns();
   expect(pageErrors.length === 0, `errors: ${pageErrors.join("; ")}`);

@@ -22,6 +22,20 @@ function withPrefix(value, unit, digits = 4) {
   return `${+(value / size).toPrecision(digits)}\u00a0${prefix}${unit}`;
 }
 const seconds = (h, digits) => withPrefix(h, "s", digits);
+/// Bounds that are proved, as text: nearest is not good enough for them, as half of the steps written so
+/// would be larger than the step that is proved. Each is the nearest number of so many digits on its side.
+function bounded(value, digits, side) {
+  if (!(value > 0 && value < Infinity)) return value;
+  const stride = (side * value * 10 ** -digits) / 2; // less than one unit of the last digit
+  for (let near = value; ; near += stride) {
+    const read = +near.toExponential(digits - 1);
+    if (side * (read - value) >= 0) return read;
+  }
+}
+const atMost = (value, digits = 4) => bounded(value, digits, -1);
+const atLeast = (value, digits = 4) => bounded(value, digits, 1);
+const safeSeconds = (h, digits = 4) => seconds(atMost(h, digits), digits); // of what is certified
+const failingSeconds = (h, digits = 4) => seconds(atLeast(h, digits), digits); // of what is refuted
 const metres = (l, digits) => withPrefix(l, "m", digits);
 const percent = (share, digits = 3) => `${+(100 * share).toPrecision(digits)}\u00a0%`;
 

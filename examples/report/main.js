@@ -14,8 +14,8 @@ const whole = (n) => n.toLocaleString("en-US");
 function limitSentence(limit) {
   const { certified, refuted } = bracket(limit);
   if (certified === Infinity) return "every step is certified";
-  if (certified > 0 && refuted < Infinity) return `steps up to ${seconds(certified)} are certified, from ${seconds(refuted)} on refuted`;
-  if (certified > 0) return `steps up to ${seconds(certified)} are certified`;
+  if (certified > 0 && refuted < Infinity) return `steps up to ${safeSeconds(certified)} are certified, from ${failingSeconds(refuted)} on refuted`;
+  if (certified > 0) return `steps up to ${safeSeconds(certified)} are certified`;
   return "no step is certified";
 }
 
@@ -29,14 +29,14 @@ function writeHead() {
   fill("scene", [parts.join(", "), data.space && data.space.replaceAll(" x ", " × ").replace("^2", "²")].filter(Boolean).join("; "));
   const fact = (name, limit) => {
     const { certified } = bracket(limit);
-    const [value, unit] = certified === Infinity ? ["every step", ""] : certified > 0 ? seconds(certified).split("\u00a0") : ["none", ""];
+    const [value, unit] = certified === Infinity ? ["every step", ""] : certified > 0 ? safeSeconds(certified).split("\u00a0") : ["none", ""];
     return [name, value, unit];
   };
   const facts = [fact(mesh ? "Symplectic Euler, certified at this pose" : "Symplectic Euler, certified", findings.symplectic_euler)];
   if (findings.any_pose.cause) facts.push(fact("Symplectic Euler, certified at any pose", findings.any_pose));
   if (findings.energy_stable.cause) facts.push(fact("Energy-stable Euler, certified for the energy", findings.energy_stable));
   const stiffest = findings.k_max.upper;
-  facts.push(["Fastest vibration, at most", ...(stiffest > 0 ? frequency(Math.sqrt(stiffest) / (2 * Math.PI)) : ["none", ""])]);
+  facts.push(["Fastest vibration, at most", ...(stiffest > 0 ? frequency(atLeast(Math.sqrt(stiffest) / (2 * Math.PI))) : ["none", ""])]);
   byId("facts").replaceChildren(
     ...facts.map(([name, value, unit]) => {
       const box = document.createElement("div");
@@ -63,11 +63,11 @@ function writeHead() {
 /// What would make the step of --want-step safe.
 function remedy(want) {
   if (!want) return "";
-  const asked = ` The step asked for, ${seconds(want.h)},`;
+  const asked = ` The step asked for, ${want.standing === "refuted" ? failingSeconds(want.h) : safeSeconds(want.h)},`;
   const refuted = want.standing === "refuted" ? ` is refuted: the limiting vibration grows ${significant(want.growth)}-fold with every step. It` : "";
   if (want.standing === "certified") return `${asked} is certified at this pose as the mesh is.`;
-  const added = want.added_mass === null ? "" : `, or ${significant(want.added_mass)} kg more on the particles that need it`;
-  return `${asked}${refuted} is certified at this pose with all stiffness times ${significant(want.stiffness_scale)}, or all masses times ${significant(want.mass_scale)}${added}.`;
+  const added = want.added_mass === null ? "" : `, or ${significant(atLeast(want.added_mass))} kg more on the particles that need it`;
+  return `${asked}${refuted} is certified at this pose with all stiffness times ${significant(atMost(want.stiffness_scale))}, or all masses times ${significant(atLeast(want.mass_scale))}${added}.`;
 }
 
 function frequency(f) {
@@ -98,7 +98,7 @@ function writeCaptions() {
   if (data.multipliers) {
     const { below, above } = data.multipliers;
     for (const side of ["below", "above"])
-      for (const place of [side, `multipliers-${side}`]) fill(place, `h = ${seconds(data.multipliers[side].h)}`);
+      for (const place of [side, `multipliers-${side}`]) fill(place, `h = ${(side === "below" ? safeSeconds : failingSeconds)(data.multipliers[side].h)}`);
     const swept = below.others.length ? " The small dots are all softer vibrations." : "";
     fill("multipliers", `A step of symplectic Euler multiplies every vibration by its μ. Inside the unit circle or on it the vibration dies out or goes on ringing; outside it grows at every step. Large dots: the limiting vibration, whose larger |μ| is ${below.radius.toFixed(4)} below the limit and ${above.radius.toFixed(4)} above.${swept}`);
   }
@@ -120,7 +120,7 @@ function writeCaptions() {
   }
   if (data.window) {
     const mark = findings.rayleigh_window;
-    const at = mark.empty ? `At h = ${seconds(mark.h, 3)} none is left.` : `At h = ${seconds(mark.h, 3)}, the heavy line, explicit Euler needs α between ${seconds(mark.lower, 3)} and ${mark.upper === "unbounded" ? "any length" : seconds(mark.upper, 3)}.`;
+    const at = mark.empty ? `At h = ${seconds(mark.h, 3)} none is left.` : `At h = ${seconds(mark.h, 3)}, the heavy line, explicit Euler needs α between ${failingSeconds(mark.lower, 3)} and ${mark.upper === "unbounded" ? "any length" : safeSeconds(mark.upper, 3)}.`;
     fill("window", `Shaded: the damping α (the damping matrix is α times the stiffness matrix${mark.d0 > 0 ? `, beside d0 = ${significant(mark.d0)} 1/s on the mass` : ""}) for which a step is certified${mesh ? " at this pose" : ""}. ${at} Explicit Euler needs some damping and bears no more than the upper edge; symplectic Euler needs none. Both windows close at h = 2/√k, where k is the proved bound on the stiffest vibration.`);
   }
 }
@@ -136,7 +136,7 @@ function writeResolution() {
   fill("resolution", `${told.why}${compared}${measured}`, text);
 }
 
-/// As the program prints it.
+/// As the program prints it, once rounded to its side.
 const printed = (h) => `${h.toExponential(4).replace(/([+-])(\d)$/, "$10$2")} s`;
 const ordinal = (n) => (n === 1 ? "" : n === 2 ? "second" : n === 3 ? "third" : `${n}th`);
 
@@ -144,7 +144,7 @@ function writeTable() {
   const rows = knownLimits(data).map(([key, name, where]) => {
     const limit = data.findings[key];
     const { certified, refuted } = bracket(limit);
-    return [where ? `${name}, ${where}` : name, certified === Infinity ? "every step" : certified > 0 ? `${printed(certified)}` : "none", refuted === Infinity ? "none" : refuted > 0 ? `${printed(refuted)}` : "every step", limit.cause.replace(/_/g, " ")];
+    return [where ? `${name}, ${where}` : name, certified === Infinity ? "every step" : certified > 0 ? printed(atMost(certified, 5)) : "none", refuted === Infinity ? "none" : refuted > 0 ? printed(atLeast(refuted, 5)) : "every step", limit.cause.replace(/_/g, " ")];
   });
   const table = byId("table");
   const row = (cells, kind) => {

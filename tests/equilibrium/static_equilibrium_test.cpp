@@ -170,6 +170,65 @@ TEST_CASE("static_equilibrium: metres or millionths of one are the same to it", 
     }
 }
 
+/// A straight row of `masses` particles between two pins, a metre apart, along the first axis,
+/// whose springs have random lengths that add up to `length` times the distance of the pins.
+template <class Scalar, int Dim>
+taut::SpringSystem<Scalar, Dim> strut(Random& random, int masses, double length) {
+    taut::SpringSystem<Scalar, Dim> system;
+    using Vector = Eigen::Matrix<Scalar, Dim, 1>;
+    for (int i = 0; i <= masses + 1; ++i)
+        system.add_particle(Vector(Scalar(i) * Vector::Unit(0)),
+                            static_cast<Scalar>(random.uniform(0.5, 2)));
+    system.pin(0);
+    system.pin(masses + 1);
+    for (int i = 0; i <= masses; ++i) {
+        system.add_spring(taut::Spring<Scalar, taut::Hookean>{
+            i, i + 1, {static_cast<Scalar>(random.uniform(50, 500))}, static_cast<Scalar>(length)});
+    }
+    return system;
+}
+
+TEMPLATE_TEST_CASE(
+    "static_equilibrium: a strut that is compressed is a saddle, one that is pulled or slack is "
+    "none",
+    "[equilibrium]", (Case<float, 1>), (Case<double, 1>), (Case<float, 2>), (Case<double, 2>),
+    (Case<float, 3>), (Case<double, 3>)) {
+    using Scalar = typename TestType::Scalar;
+    constexpr int Dim = TestType::Dim;
+    taut::EquilibriumOptions options;
+    if (sizeof(Scalar) == 4) options.tolerance = 1e-5;
+    for (std::uint32_t seed = 1; seed <= 12; ++seed) {
+        Random random(seed);
+        const int masses = 1 + static_cast<int>(random.below(30));
+        const double strain = std::pow(10, random.uniform(-2.5, -0.5));
+        CAPTURE(seed, masses, strain);
+        for (const double length : {1 - strain, 1.0, 1 + strain}) {
+            const auto system = strut<Scalar, Dim>(random, masses, length);
+            auto state = system.initial_state();
+            state.x(0, 1) += Scalar(0.1) * static_cast<Scalar>(masses % 2);  // along the row
+            if (length == 1 && Dim > 1) state.x(0, 1) = 1;  // slack: nothing to find
+            const auto before = state;
+            const Report report = static_equilibrium(system, state, options);
+            CAPTURE(length, report.residual);
+            if (Dim == 1 || length <= 1) {
+                CHECK(report.status == Status::ok);
+                continue;
+            }
+            CHECK(report.status == Status::saddle);
+            CHECK(report.residual < 1e-3);  // of float, what rounding leaves
+            CHECK(same_bits(state, before));
+            // Disturbed, it buckles: the pose that is found has less energy, and is stable.
+            for (int i = 1; i <= masses; ++i) {
+                state.x.col(i) += random.vector<Scalar, Dim>(-0.02, 0.02);
+            }
+            const double energy = static_cast<double>(system.potential_energy(state));
+            const Report buckled = static_equilibrium(system, state, options);
+            CHECK(buckled.status == Status::ok);
+            CHECK(static_cast<double>(system.potential_energy(state)) < 0.5 * energy);
+        }
+    }
+}
+
 TEST_CASE("static_equilibrium: an external force is balanced", "[equilibrium]") {
     auto system = taut::chain<double, 2>({3, ChainEnds::fixed_fixed, 1, 100, 0.5});
     system.set_external_force([](const auto&, auto& f) { f.row(1).leftCols(3).array() += 20; });

@@ -17,7 +17,8 @@ enum class Status {
     not_converged,          ///< the iteration cap was reached
     masses_lost,            ///< a step so large that rounding loses masses beside stiffness
     too_large,              ///< a factor would not fit the memory allowed
-    frozen                  ///< a part was stopped: no step resolves a force given as code
+    frozen,                 ///< a part was stopped: no step resolves a force given as code
+    saddle                  ///< forces balance in a pose that the smallest push would leave
 };
 
 /// One sentence for people.
@@ -37,6 +38,8 @@ constexpr const char* describe(Status status) {
             return "the factor of the step matrix would not fit the memory allowed";
         case Status::frozen:
             return "a part was stopped: no step that was tried resolves a force given as code";
+        case Status::saddle:
+            return "forces balance, but not stably: the smallest push would leave this pose";
     }
     return "unknown status";
 }

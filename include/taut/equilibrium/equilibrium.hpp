@@ -46,6 +46,7 @@ public:
         return scale_ > 0 ? static_cast<double>(residual_.norm() / scale_) : 0;
     }
     Status iterate();
+    bool at_saddle();
     const State& state() const { return state_; }
 
 private:
@@ -152,13 +153,40 @@ Status EquilibriumSearch<System>::iterate() {
     return Status::ok;
 }
 
+/// Whether K at this pose is negative in some direction, by more than what rounding and the
+/// tolerance leave in it. Mechanisms, in whose directions K is 0, are none. K is factorised with √ε
+/// of each spring's stiffness more at both of its ends: then that the factor exists proves K no
+/// more negative than that, and its absence that K + this is indefinite, or within rounding of it.
+template <class System>
+bool EquilibriumSearch<System>::at_saddle() {
+    const auto& free = tangent_.free();
+    VectorX<Scalar> shift = VectorX<Scalar>::Zero(free.count());
+    const auto add = [&](Index particle, Scalar stiffness) {
+        if (free.place(particle) >= 0) shift[free.place(particle)] += stiffness;
+    };
+    system_.for_each_tangent(state_.x, [&](const SpringTangent<Scalar, Dim>& t) {
+        const Scalar most = std::max({t.bound, std::abs(t.axial), std::abs(t.transverse)});
+        add(t.a, most);
+        add(t.b, most);
+    });
+    tangent_.assemble(system_, state_.x, matrices::K, A_);
+    const Scalar share = std::sqrt(std::numeric_limits<Scalar>::epsilon());
+    for (Index i = 0; i < A_.cols(); ++i) {
+        const Scalar own = share * shift[i / Dim];
+        A_.coeffRef(i, i) += own > 0 ? own : Scalar(1);  // no spring: any number keeps it definite
+    }
+    llt_.factorize(A_);
+    return llt_.info() != Eigen::Success;
+}
+
 }  // namespace solver_detail
 
 /// Moves the free particles of `state` to a pose where no force is left: Newton's method and
 /// a line search on the potential energy. Velocities become 0. An external force is taken as
-/// constant within a line search.
-/// @returns not_converged after max_iterations (what falls for ever has no equilibrium),
-///          with the state as it was; residual is the relative force left
+/// constant within a line search, and where it is asked whether the pose is stable.
+/// @returns not_converged after max_iterations (what falls for ever has no equilibrium), or saddle
+///          where the forces balance as on a column that is about to buckle: disturb the pose and
+///          ask again. Both leave the state as it was; residual is the relative force left
 template <class Scalar, int Dim, class... Laws>
 Report static_equilibrium(const SpringSystem<Scalar, Dim, Laws...>& system,
                           State<Scalar, Dim>& state, const EquilibriumOptions& options = {}) {
@@ -181,6 +209,7 @@ Report static_equilibrium(const SpringSystem<Scalar, Dim, Laws...>& system,
         ++report.iterations;
         report.residual = search.relative_force();
     }
+    if (report && search.at_saddle()) report.status = Status::saddle;
     if (report) state = search.state();
     return report;
 }

@@ -103,7 +103,7 @@ std::string sentence(const Resolution<System>& found, Index all, double duration
     switch (found.outcome) {
         case Resolved::coarse: {
             const auto& level = found.levels[static_cast<std::size_t>(found.chosen)];
-            std::string text = particles(level.particles) + formatted(" at %.3g s", level.h) +
+            std::string text = particles(level.particles) + formatted(" at about %.3g s", level.h) +
                                " are estimated to stay within " + percent(level.error) + " " +
                                over + "(goal " + percent(found.goal) + "), " +
                                ratio(found.cheaper()) + " times cheaper than all " +
