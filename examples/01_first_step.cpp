@@ -1,22 +1,21 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
-// A cloth, the step at which it cannot gain energy, and a thousand such steps.
+// A cloth is thrown at 20 m/s; a second of it, and what became of its energy.
 
 #include <cstdio>
+#include <taut/guard/guard.hpp>
 #include <taut/taut.hpp>
 
 int main() {
-    auto cloth = taut::hanging_cloth<double>({64, 64});  // 1 m × 1 m, 0.3 kg
+    auto cloth = taut::hanging_cloth<float>({64, 64});  // 1 m × 1 m, 0.3 kg, by two corners
     auto state = cloth.initial_state();
+    state.v.row(2).tail(63 * 64).setConstant(20);
+    const float before = cloth.energy(state);
 
-    auto limit = taut::energy_limit(cloth);
-    std::printf("no step up to about %.4g s gains energy\n", limit.certified);
-
-    taut::EnergyStableEuler stepper(cloth);
-    if (auto report = stepper.step(state, limit.certified, 1000); !report) {
-        std::printf("particle %d: %s\n", int(report.where), describe(report.status));
-        return 1;
+    taut::Guarded guard(cloth);
+    for (int frame = 0; frame < 60; ++frame) {
+        if (!guard.advance(state, 1.0f / 60)) return 1;
     }
-    std::printf("after %.3f s the energy is %.2e J\n", state.time, cloth.energy(state));
+    std::printf("%.1f J before, %.1f J after\n", before, cloth.energy(state));
 }

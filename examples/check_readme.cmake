@@ -1,19 +1,38 @@
 # SPDX-FileCopyrightText: 2026 Taut contributors
 # SPDX-License-Identifier: MIT
 
-# The code in the README is examples/01_first_step.cpp, from its first comment on, and each block of
-# output is what a program prints about the 64 × 64 cloth, its numbers within the range that
-# check/same_output.cpp and check/ranges.txt state.
+# The code in the README is from examples: all of 01_first_step.cpp behind its first comment, and parts of two
+# others. Each block of output in examples/README.md is what a program prints about the 64 × 64 cloth, its numbers
+# within the range that check/same_output.cpp and check/ranges.txt state.
 file(MAKE_DIRECTORY ${folder})
-file(READ ${CMAKE_CURRENT_LIST_DIR}/01_first_step.cpp example)
 file(READ ${CMAKE_CURRENT_LIST_DIR}/../README.md readme)
-string(FIND "${example}" "// A cloth" start)
-string(SUBSTRING "${example}" ${start} -1 example)
-string(FIND "${readme}" "```cpp\n${example}```" found)
-if(start EQUAL -1 OR found EQUAL -1)
-    message(FATAL_ERROR "README.md does not show examples/01_first_step.cpp as it is")
+string(REPLACE ";" "<semicolon>" code "${readme}")  # or it would part a list
+string(REGEX MATCHALL "```cpp\n[^`]*```" blocks "${code}")
+list(LENGTH blocks count)
+if(NOT count EQUAL 3)
+    message(FATAL_ERROR "README.md has ${count} blocks of C++; this script compares three")
 endif()
+foreach(name IN ITEMS 01_first_step own_arrays 07_paper)
+    file(READ ${CMAKE_CURRENT_LIST_DIR}/${name}.cpp example)
+    string(REPLACE ";" "<semicolon>" example "${example}")
+    list(POP_FRONT blocks block)
+    string(REGEX REPLACE "^```cpp\n(.*)```$" "\\1" block "${block}")
+    if(name STREQUAL "01_first_step")
+        string(FIND "${example}" "// A cloth" start)
+        string(SUBSTRING "${example}" ${start} -1 example)
+        if(NOT block STREQUAL example)
+            message(FATAL_ERROR "README.md does not show examples/${name}.cpp as it is")
+        endif()
+    endif()
+    string(REGEX REPLACE "\n +" "\n" example "${example}")  # README does not indent a part
+    string(REGEX REPLACE "\n +" "\n" block "${block}")
+    string(FIND "${example}" "${block}" found)
+    if(found EQUAL -1)
+        message(FATAL_ERROR "README.md shows what is not in examples/${name}.cpp:\n${block}")
+    endif()
+endforeach()
 
+file(READ ${CMAKE_CURRENT_LIST_DIR}/README.md readme)
 string(FIND "${readme}" "```text\n" block)
 foreach(program IN ITEMS ${stability_report} ${prediction})
     string(SUBSTRING "${readme}" ${block} -1 readme)

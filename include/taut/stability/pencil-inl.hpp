@@ -249,6 +249,19 @@ SparseMatrix<double> Pencil::assemble_in(const CoefficientsOf& coefficients_of) 
     return S;
 }
 
+template <class Real>
+SparseMatrix<Real> Pencil::assemble(const Combination& c) const {
+    if (matrices_) return matrices_->assemble(c);
+    return assemble_links<Real>(c, [&](const Link& link) { return coefficients(c, link); });
+}
+
+template <class Real>
+SparseMatrix<Real> Pencil::assemble_least(const Combination& c) const {
+    if (matrices_) return matrices_->assemble(c);
+    return assemble_links<Real>(
+        c, [&](const Link& link) { return extreme_coefficients(c, link, -1); });
+}
+
 /// Each entry of a link's block carries ≤ 24 roundings of its magnitude (the tangent's own among
 /// them), and adding d of them up d more; a row of Dim entries meets two blocks of each link.
 template <class Real>

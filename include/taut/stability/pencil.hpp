@@ -140,18 +140,11 @@ public:
     }
     /// S as a sparse matrix, both triangles.
     template <class Real = double>  // a template, as below: only its callers compile it
-    SparseMatrix<Real> assemble(const Combination& c) const {
-        if (matrices_) return matrices_->assemble(c);
-        return assemble_links<Real>(c, [&](const Link& link) { return coefficients(c, link); });
-    }
+    SparseMatrix<Real> assemble(const Combination& c) const;
     /// The same with each spring that may be on either side of a kink on the side where its part of
     /// S is the least, so that a proof of S ≻ 0 holds on both.
     template <class Real = double>
-    SparseMatrix<Real> assemble_least(const Combination& c) const {
-        if (matrices_) return matrices_->assemble(c);
-        return assemble_links<Real>(
-            c, [&](const Link& link) { return extreme_coefficients(c, link, -1); });
-    }
+    SparseMatrix<Real> assemble_least(const Combination& c) const;
     /// A bound on max_i Σ_j s_i |E_ij| s_j, E the rounding errors of assemble(c) and of
     /// the tangents.
     template <class Real = double>
