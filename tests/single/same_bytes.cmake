@@ -9,7 +9,7 @@ cmake_path(GET scripts PARENT_PATH root)
 file(REMOVE_RECURSE ${WORK}/elsewhere)
 file(COPY ${root}/include ${root}/LICENSE ${scripts} DESTINATION ${WORK}/elsewhere)
 execute_process(
-    COMMAND ${CMAKE_COMMAND} -D OUTPUT=second.hpp -P scripts/single_header.cmake
+    COMMAND ${CMAKE_COMMAND} -D OUTPUT=second.hpp -D ALSO=guard/guard.hpp -P scripts/single_header.cmake
     WORKING_DIRECTORY ${WORK}/elsewhere COMMAND_ERROR_IS_FATAL ANY)
 execute_process(
     COMMAND ${CMAKE_COMMAND} -E compare_files ${FIRST} ${WORK}/elsewhere/second.hpp
