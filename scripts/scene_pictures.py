@@ -3,14 +3,15 @@
 # SPDX-License-Identifier: MIT
 
 """Builds and runs examples/scenes/NAME.cpp and draws the OBJ files that it writes as
-docs/images/scenes/NAME.png.
+docs/images/scenes/NAME.png; of thrown.cpp, docs/images/thrown.png.
 
 Needs Python 3, a C++ compiler and Eigen, nothing else. Usage: scene_pictures.py [NAME...]; without a
-name, all six. $CXX names the compiler, $EIGEN Eigen's folder.
+name, all. $CXX names the compiler, $EIGEN Eigen's folder.
 """
 
 import math
 import os
+import re
 import struct
 import subprocess
 import sys
@@ -18,6 +19,8 @@ import tempfile
 import zlib
 from collections import Counter
 from pathlib import Path
+
+import stroke_font
 
 ROOT = Path(__file__).resolve().parent.parent
 WIDTH, MOST, MARGIN, SAMPLES = 640, 420, 18, 2  # pixels, and the square root of samples a pixel
@@ -49,8 +52,9 @@ def mix(a, b, share):
 class Picture:
     """Triangles, lines and balls in parallel projection: collected first, then drawn by a depth buffer."""
 
-    def __init__(self, turn, tilt):
-        """The camera's angles, degrees."""
+    def __init__(self, turn, tilt, width=WIDTH, most=MOST):
+        """The camera's angles, degrees; the width and the largest height, pixels."""
+        self.width, self.most = width, most
         c, s = math.cos(math.radians(turn)), math.sin(math.radians(turn))
         up, down = math.cos(math.radians(tilt)), math.sin(math.radians(tilt))
         self.axes = (c, -s, 0), (down * s, down * c, up), (-up * s, -up * c, down)  # right, up, to the eye
@@ -68,13 +72,23 @@ class Picture:
     def ball(self, centre, radius, colour):
         self.shapes.append(("ball", [self.place(centre)], radius, colour, False))
 
+    def text(self, middle, height, words, colour):
+        """A line of text that faces the eye, its middle there, capitals of that height."""
+        size = height / 6
+        pieces, width = stroke_font.lines(words)
+        right, up, _ = self.axes
+        for piece in pieces:
+            ends = [tuple(m + size * ((x - width / 2) * r + y * u) for m, r, u in zip(middle, right, up))
+                    for x, y in piece]
+            self.shapes.append(("ink", [self.place(p) for p in ends], 0.36 * size, colour, False))
+
     def rows(self):
         """Rows of (red, green, blue)."""
         ends = [(p, s[2] if s[0] != "triangle" else 0) for s in self.shapes for p in s[1]]
         left, right = min(p[0] - r for p, r in ends), max(p[0] + r for p, r in ends)
         low, high = min(p[1] - r for p, r in ends), max(p[1] + r for p, r in ends)
-        pixels = min((WIDTH - 2 * MARGIN) / (right - left), (MOST - 2 * MARGIN) / (high - low))  # per m
-        self.wide = WIDTH * SAMPLES
+        pixels = min((self.width - 2 * MARGIN) / (right - left), (self.most - 2 * MARGIN) / (high - low))  # per m
+        self.wide = self.width * SAMPLES
         self.tall = round(pixels * (high - low) + 2 * MARGIN) * SAMPLES
         self.scale = pixels * SAMPLES
         self.x0 = self.wide / 2 - self.scale * (left + right) / 2
@@ -86,14 +100,14 @@ class Picture:
             placed = [(self.x0 + self.scale * p[0], self.y0 - self.scale * p[1], p[2]) for p in points]
             if kind == "triangle":
                 self.fill_triangle(placed, size, colour, shadow)
-            elif kind == "line":
-                self.fill_line(placed, size, colour, eye)
+            elif kind in ("line", "ink"):
+                self.fill_line(placed, size, colour, eye if kind == "line" else None)
             else:
                 self.fill_ball(placed[0], size, colour, eye)
         across = range(SAMPLES)
         return [[tuple(sum(self.colour[(y * SAMPLES + j) * self.wide + x * SAMPLES + i][c]
                            for i in across for j in across) // SAMPLES ** 2 for c in range(3))
-                 for x in range(WIDTH)] for y in range(self.tall // SAMPLES)]
+                 for x in range(self.width)] for y in range(self.tall // SAMPLES)]
 
     def box(self, points, margin=0):
         x = range(max(0, int(min(p[0] for p in points) - margin)),
@@ -139,7 +153,7 @@ class Picture:
                 left = 1 - ox * ox - oy * oy
                 if left >= 0:
                     n = (ox, -oy, math.sqrt(left))
-                    self.put(x, y, az + t * (bz - az) + half * n[2], colour, lit(dot(n, eye)))
+                    self.put(x, y, az + t * (bz - az) + half * n[2], colour, lit(dot(n, eye)) if eye else 1)
 
     def fill_ball(self, centre, radius, colour, eye):
         self.fill_line([centre, centre], radius, colour, eye)
@@ -185,6 +199,7 @@ def add_faces(picture, vertices, faces, colour_of, flat, floor):
 
 WOOD, ROPE, STEEL, ORANGE = (190, 146, 96), (122, 96, 68), (150, 156, 162), (232, 126, 44)
 RED, WHITE, BLUE, TEAL = (204, 68, 60), (240, 238, 232), (52, 108, 164), (94, 176, 190)
+INK = (52, 58, 66)
 
 
 def flag(read_frame):
@@ -257,7 +272,28 @@ def curtain(read_frame):
     return picture
 
 
-SCENES = {f.__name__: f for f in (flag, bridge, rope, soft_cube, net, curtain)}
+def thrown(read_frame):
+    picture = Picture(24, 8, 1200, 700)
+    right, up, _ = picture.axes
+    halves, low = [], 0
+    for at, name, method in ((-0.72, "others", "symplectic Euler"), (0.72, "taut", "Taut, Guarded")):
+        vertices, faces, _ = read_frame("thrown_" + name, "z")
+        vertices = [tuple(p + (at - right[0] / 2) * r for p, r in zip(v, right)) for v in vertices]
+        low = min([low] + [dot(v, up) for v in vertices])
+        add_faces(picture, vertices, faces, lambda i: WHITE if i // 63 // 9 % 2 else RED, False, False)
+        for pin in (0, 63):
+            picture.ball(vertices[pin], 0.018, STEEL)
+        fact = method.split()[-1] + r", (\d+) steps of .*: (\S+) J become (\S+) J"
+        steps, before, now = (round(float(n)) for n in re.search(fact, read_frame.printed).groups())
+        halves.append((at, f"{method}: {steps} steps a frame", f"{before} J became {now} J"))
+    for at, *lines in halves:
+        for line, words in enumerate(lines):
+            middle = [at * r + (low - 0.09 - 0.1 * line) * u for r, u in zip(right, up)]
+            picture.text(middle, 0.045, words, INK)
+    return picture
+
+
+SCENES = {f.__name__: f for f in (flag, bridge, rope, soft_cube, net, curtain, thrown)}
 
 
 def png(rows):
@@ -279,9 +315,13 @@ def png(rows):
             + chunk(b"IDAT", zlib.compress(data, 9)) + chunk(b"IEND", b""))
 
 
-def draw(name, folder):
-    picture = SCENES[name](lambda file, up: read(folder / f"{file}.obj", up))
-    target = ROOT / "docs" / "images" / "scenes" / f"{name}.png"
+def draw(name, folder, printed):
+    def read_frame(file, up):
+        return read(folder / f"{file}.obj", up)
+
+    read_frame.printed = printed
+    picture = SCENES[name](read_frame)
+    target = ROOT / "docs" / "images" / ("" if name == "thrown" else "scenes") / f"{name}.png"
     target.parent.mkdir(parents=True, exist_ok=True)
     target.write_bytes(png(picture.rows()))
     print(f"{target.relative_to(ROOT)}: {target.stat().st_size / 1000:.0f} kB")
@@ -294,8 +334,9 @@ def main(names):
             subprocess.run([os.environ.get("CXX", "g++"), "-std=c++17", "-O2", f"-I{ROOT}/include",
                             "-I" + os.environ.get("EIGEN", "/usr/include/eigen3"),
                             f"{ROOT}/examples/scenes/{name}.cpp", "-o", program], check=True)
-            subprocess.run([program], cwd=folder, check=True)
-            draw(name, Path(folder))
+            printed = subprocess.run([program], cwd=folder, check=True, stdout=subprocess.PIPE, text=True).stdout
+            print(printed, end="")
+            draw(name, Path(folder), printed)
 
 
 if __name__ == "__main__":

@@ -136,6 +136,20 @@ bool soft_cube(const Numbers& n) {
            near("m, pressed by its weight", 6 * a - n[1], sag, 0.2 * sag);
 }
 
+/// No force from outside does work on a thrown cloth, so the guard promises at most 0.1 of the
+/// kinetic energy more; it keeps 3 % here, both ways. The other step is within the limit at rest,
+/// above that of any pose, and its energy grows more than tenfold, then overflows.
+bool thrown(const Numbers& n) {
+    const double at_rest = n[0], any_pose = n[1], by_hand = n[3], guard_h = n[9];  // ms
+    const double before = 0.5 * 0.3 * 4094 / 4096 * 20 * 20;                       // J
+    const bool steps = by_hand < at_rest && by_hand > any_pose && guard_h < any_pose;
+    const bool explodes = n[5] > 10 * before && n[7] > n[6] && n[7] <= 60;
+    if (!steps) std::puts("steps and limits: FAILS");
+    if (!explodes) std::puts("the unguarded cloth explodes: FAILS");
+    return near("J, thrown", n[4], before, 0.01) && near("J, thrown", n[10], before, 0.01) &&
+           near("J, guarded, after 60 frames", n[13], before, 0.03 * before) && steps && explodes;
+}
+
 struct Fact {
     const char* printed;
     bool (*holds)(const Numbers&);
@@ -147,7 +161,13 @@ const std::map<std::string, Fact> facts{
     {"flag", {"pole carries # N and the air # N of # kg", flag, 0}},
     {"net", {"pins carry # N of # kg, the ball is # m down", net, 0}},
     {"rope", {"strand of # m, let go at # rad, has a period of # s", rope, 2}},
-    {"soft_cube", {"lowest # m above the floor, at rest # m high", soft_cube, 1}}};
+    {"soft_cube", {"lowest # m above the floor, at rest # m high", soft_cube, 1}},
+    {"thrown",
+     {"proved: about # ms at rest, about # ms at any pose\n"
+      "symplectic Euler, # steps of # ms a frame: # J become # J in frame #, not finite in frame "
+      "#\n"
+      "Guarded, # steps of # ms a frame: # J become # J in frame #, # J in frame 60",
+      thrown, 13}}};
 
 }  // namespace
 
