@@ -26,6 +26,7 @@ set(groups_stability
 set(groups_support
     "scene_any_double_1 scene_any_double_2 scene_any_double_3 scene_any_float_3"
     "analysis compiled_once"
+    held_once
     "scene_double scene_laws_double scene_float scene_laws_float"
     decompositions)
 

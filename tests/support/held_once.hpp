@@ -3,6 +3,7 @@
 #pragma once
 
 #include <taut/constraints/constraints.hpp>
+#include <taut/integrator/implicit_euler.hpp>
 #include <taut/solver/sparse_cholesky.hpp>
 
 // What steps that hold particles share, compiled once for the tests.
