@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include <taut/stability/detail/explicit_limit-inl.hpp>
-#include <taut/stability/detail/scales-inl.hpp>
-#include <taut/stability/detail/small_eigenvalue-inl.hpp>
 #include <taut/stability/detail/symplectic_limit-inl.hpp>
 #include <taut/stability/pencil-inl.hpp>
+#include <taut/stability/pencil_matrix-inl.hpp>
 #include <taut/stability/rayleigh-inl.hpp>
 #include <taut/stability/stability-inl.hpp>
 

@@ -14,7 +14,8 @@
 # CXX and CXXFLAGS choose the compiler (g++) and its flags (-O2). The budget is for g++ 12 -O2 on Debian 12.
 #
 # The core is what taut.hpp reaches; a module is a folder of include/taut, as far as taut.hpp does not reach it.
-# core.unasked counts functions that taut.hpp, nothing called, compiles at -O0 and Eigen's headers do not.
+# core.unasked counts functions that taut.hpp, nothing called, compiles at -O0 and Eigen's headers do not;
+# core.public_headers those headers that are in no detail/ or sweep/. x-inl.hpp is a part of x.hpp: its lines count.
 #
 # What is 3 % off its budget fails, above and below. A number of the budget may rise only with a line "Budget:
 # REASON" in a message since, one of the core not at all; a module's may be dropped, any other only with such a
@@ -56,7 +57,7 @@ risen() {
         $2 !~ /^[0-9]+$/ { print $1 ": " $2 " is no number"; next }
         !($1 in old) { if (!reasons) print $1 ": new in the budget" wanted; next }
         $2 <= old[$1] { next }
-        !/^(module|tests|readme)\./ { print $1 ": up from " old[$1] " to " $2 "; the core may not rise"; next }
+        !/^(module|tests)\./ { print $1 ": up from " old[$1] " to " $2 "; the core may not rise"; next }
         !reasons { print $1 ": up from " old[$1] " to " $2 wanted }
         END {
             for (name in old)
@@ -143,17 +144,17 @@ measure() {
         echo "$unit.memory_mb $(least $unit | cut -d ' ' -f 2)"
         echo "$unit.bytes $(size "$work/$unit.o" | awk 'NR == 2 { print $1 + $2 }')"
         echo "$unit.functions $(functions $unit | wc -l)"
-        echo "$unit.headers $(reached $unit | wc -l)"
+        echo "$unit.headers $(reached $unit | grep -cv -e -inl)"
         echo "$unit.lines $(reached $unit | lines)"
     done
     echo "core.unasked $(unasked | wc -l)"
     reached core >"$work/core"
+    echo "core.public_headers $(grep -cv -e -inl -e /detail/ -e /sweep/ "$work/core")"
     find include -type f | sort | comm -23 - "$work/core" >"$work/modules"
     for module in $(sed -E 's#^include/taut/([^/.]*).*#\1#' "$work/modules" | sort -u); do
         echo "module.$module $(grep "^include/taut/$module[/.]" "$work/modules" | lines)"
     done
     echo "tests.lines $(find tests -type f | lines)"
-    echo "readme.words $(wc -w <README.md)"
 }
 
 units="core first_program by_compiled steps limit"

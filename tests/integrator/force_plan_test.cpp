@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <taut/integrator/sweep/force_plan.hpp>
-#include <taut/integrator/sweep/sorted_springs-inl.hpp>
+#include <taut/integrator/sweep/planner-inl.hpp>
 #include <taut/scene/cloth.hpp>
 #include <vector>
 

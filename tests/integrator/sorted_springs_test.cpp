@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include <taut/integrator/sweep/sorted_springs-inl.hpp>
+#include <taut/integrator/sweep/planner-inl.hpp>
 #include <taut/scene/cloth.hpp>
 
 #include <algorithm>

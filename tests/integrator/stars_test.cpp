@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include <taut/integrator/sweep/stars-inl.hpp>
+#include <taut/integrator/sweep/planner-inl.hpp>
 
 #include <algorithm>
 #include <map>

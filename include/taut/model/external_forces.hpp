@@ -5,7 +5,7 @@
 #include <functional>
 #include <memory>
 
-#include "outside_force.hpp"
+#include "detail/outside_force.hpp"
 #include "state.hpp"
 
 namespace taut {

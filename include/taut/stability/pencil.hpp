@@ -19,7 +19,6 @@
 #include "../model/damping.hpp"
 #include "../model/spring_mechanics.hpp"
 #include "detail/range_check.hpp"
-#include "detail/small_eigenvalue.hpp"
 #include "step_limit.hpp"
 
 namespace taut {
@@ -138,7 +137,7 @@ public:
         const double bound = std::max(0.0, upper_bound(-c));
         return matrices_ ? matrices_->deficit(*this, c, bound) : bound;
     }
-    /// S as a sparse matrix, both triangles.
+    /// S as a sparse matrix, both triangles. Defined by pencil_matrix.hpp, as the next two.
     template <class Real = double>  // a template, as below: only its callers compile it
     SparseMatrix<Real> assemble(const Combination& c) const;
     /// The same with each spring that may be on either side of a kink on the side where its part of
@@ -207,8 +206,6 @@ public:
     }
 
 private:
-    using Block = stability_detail::SymmetricBlock;
-
     struct Link {
         int a;  // free particle, or −1 when pinned
         int b;
@@ -252,20 +249,7 @@ private:
         return c.mass() + c.damping() * rayleigh_.mass_proportional;
     }
     double particle_mass(std::size_t i) const { return mass_.data()[i * std::size_t(dim())]; }
-    /// One choice of weights in [T26]: of each free particle the block Σ_b (1 + p_b/p_i) P_b, and a
-    /// bound on its rounding error, N/m.
-    struct Splitting {
-        /// A spring's P.
-        struct Term {
-            int a, b;
-            double axial, transverse, size;
-            const double* d;
-        };
-        Buffer<Term> term;
-        Buffer<double> line;  // of one dimension in place of blocks
-        Buffer<Block> block;
-        Buffer<double> rounding;
-    };
+    struct Splitting;
     Splitting splitting(const Combination& c) const;
     void spread(const double* p, Splitting& split) const;
     double load(const Splitting& split, std::size_t i) const;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "../stability/pencil.hpp"
+#include "../stability/pencil_matrix.hpp"
 #include "eigen_cholesky.hpp"
 
 namespace taut {

@@ -10,7 +10,7 @@
 
 #include "../method/mode.hpp"
 #include "detail/arnoldi.hpp"
-#include "../stability/pencil.hpp"
+#include "../stability/pencil_matrix.hpp"
 
 namespace taut {
 /// An estimate, s, of the largest stable step of explicit Euler under any damping, for systems too

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "../model/outside_force.hpp"
+#include "../model/detail/outside_force.hpp"
 #include "triangle_fours.hpp"
 #include "triangle_pairing.hpp"
 #include "triangle_rows.hpp"

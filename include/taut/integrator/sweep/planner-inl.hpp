@@ -3,13 +3,132 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <utility>
 
 #include "planner.hpp"
-#include "stars-inl.hpp"
 
 namespace taut::integrator_detail::sweep {
+
+inline Buffer<int> numbers(std::size_t count) {
+    Buffer<int> result(count);
+    for (std::size_t i = 0; i < count; ++i) result[i] = static_cast<int>(i);
+    return result;
+}
+
+inline void sort_by(const Buffer<int>& key, Buffer<int>& items) {
+    int most = -1;
+    for (const int item : items) most = std::max(most, key[item]);
+    Buffer<int> next(static_cast<std::size_t>(most) + 2, 0);
+    for (const int item : items) ++next[key[item] + 1];
+    for (int i = 0; i <= most; ++i) next[i + 1] += next[i];
+    Buffer<int> sorted(items.size());
+    for (const int item : items) sorted[next[key[item]]++] = item;
+    items = std::move(sorted);
+}
+
+inline SortedSprings::SortedSprings(const SpringEnds& ends, const Buffer<int>& place) {
+    const std::size_t count = ends.count;
+    Buffer<int> a(count), offset(count);
+    for (std::size_t s = 0; s < count; ++s) {
+        const int p = place.empty() ? ends.a[s] : place[ends.a[s]];
+        const int q = place.empty() ? ends.b[s] : place[ends.b[s]];
+        a[s] = std::min(p, q);
+        offset[s] = std::max(p, q) - a[s];
+    }
+    Buffer<int> order = numbers(count);
+    sort_by(a, order);
+    sort_by(offset, order);
+    springs_.reserve(count);
+    for (const int s : order) springs_.push_back({a[s], a[s] + offset[s], s});
+    find_runs();
+}
+
+inline void SortedSprings::find_runs() {
+    const int count = static_cast<int>(springs_.size());
+    for (Run run{0, 0}; run.begin < count; run.begin = run.end) {
+        run.end = run.begin + 1;
+        while (run.end < count && goes_on(springs_[run.end - 1], springs_[run.end])) ++run.end;
+        const int length = run.end - run.begin;
+        const int places = springs_[run.end - 1].a - springs_[run.begin].a;
+        if (length >= shortest_run && 2 * length > places) {
+            runs_.push_back(run);
+        } else {
+            for (int s = run.begin; s < run.end; ++s) scattered_.push_back(s);
+        }
+    }
+}
+
+inline Buffer<HubSpring> choose_hubs(const Buffer<PlacedSpring>& springs, int places) {
+    // By lower ends, and so the springs from each place by their other ends.
+    Buffer<int> a(springs.size());
+    for (std::size_t s = 0; s < springs.size(); ++s) a[s] = springs[s].a;
+    Buffer<int> later = numbers(springs.size());
+    sort_by(a, later);
+    Buffer<HubSpring> result;
+    result.reserve(springs.size());
+    Buffer<int> handed(places, -1);          // the last to each
+    Buffer<int> before(springs.size(), -1);  // the one handed there before
+    const int count = static_cast<int>(springs.size());
+    for (int p = 0, first = 0; p < places; ++p) {
+        int last = first;
+        while (last < count && springs[later[last]].a == p) ++last;
+        const std::size_t mine = result.size();
+        for (int s = handed[p]; s != -1; s = before[s]) {
+            result.push_back({p, springs[s].a, springs[s].index});
+        }
+        std::reverse(result.begin() + static_cast<std::ptrdiff_t>(mine), result.end());
+        const int own = last - first;
+        const int surplus = (own + static_cast<int>(result.size() - mine)) % star_size;
+        for (const int kept = first + (surplus <= own ? surplus : 0); first != kept; ++first) {
+            const int s = later[first];
+            before[s] = std::exchange(handed[springs[s].b], s);
+        }
+        for (; first != last; ++first) {
+            const auto& spring = springs[later[first]];
+            result.push_back({p, spring.b, spring.index});
+        }
+    }
+    return result;
+}
+
+inline Buffer<PlannedStar> plan_stars(const Buffer<HubSpring>& by_hub, const Blocks& blocks) {
+    Buffer<PlannedStar> stars;
+    const int springs = static_cast<int>(by_hub.size());
+    const auto spring = [&](int s) { return by_hub[static_cast<std::size_t>(s)]; };
+    for (int s = 0; s < springs;) {
+        const int hub = spring(s).hub;
+        std::array<int, star_size + 1> places{};  // ascending, like the tips of a hub
+        int count = 0;
+        for (; count < star_size && s + count < springs && spring(s + count).hub == hub; ++count) {
+            places[count] = spring(s + count).tip;
+        }
+        int at = count;
+        for (; at > 0 && places[at - 1] > hub; --at) places[at] = places[at - 1];
+        places[at] = hub;
+        const bool outer = blocks.of(places[0]) != blocks.of(places[count]);
+        for (int i = 0; i <= count; ++i) {
+            const int block = blocks.of(places[i]);
+            if (i > 0 && block == blocks.of(places[i - 1])) continue;
+            const int tile = outer ? blocks.first_tile(block) : places[i] / tile_size;
+            stars.push_back({tile, outer, s, count});
+        }
+        s += count;
+    }
+    // A star goes no later than those after it, so that springs are read in order.
+    int tile = blocks.tiles();
+    for (std::size_t i = stars.size(); i-- > 0;) {
+        if (!stars[i].outer) tile = stars[i].tile = std::min(tile, stars[i].tile);
+    }
+    Buffer<int> key(stars.size()), order = numbers(stars.size());
+    for (std::size_t i = 0; i < key.size(); ++i) key[i] = 2 * stars[i].tile + !stars[i].outer;
+    sort_by(key, order);
+    Buffer<PlannedStar> sorted;
+    sorted.reserve(stars.size());
+    for (const int i : order) sorted.push_back(stars[i]);
+    return sorted;
+}
 
 /// Scattered springs tile by tile, one for each block of an end. In a tile, neighbours have
 /// different ends: first one of each a, then another of each. To add to the force just stored would

@@ -72,7 +72,3 @@ private:
 };
 
 }  // namespace taut::integrator_detail::sweep
-
-#if !defined(TAUT_COMPILED)
-#include "sorted_springs-inl.hpp"
-#endif

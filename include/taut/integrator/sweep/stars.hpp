@@ -55,7 +55,3 @@ struct StarGroups {
 };
 
 }  // namespace taut::integrator_detail::sweep
-
-#if !defined(TAUT_COMPILED)
-#include "stars-inl.hpp"
-#endif

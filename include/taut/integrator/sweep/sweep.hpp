@@ -141,7 +141,7 @@
 //   hub, tip      that end, and another end of a star                                 stars.hpp
 //   outer         of a star: in more than one block
 //   point         one vector of one place, x y z 0; with stars a plane has points
-//   outside       of a force: a module's, with a plan of its own         model/outside_force.hpp
+//   outside       of a force: a module's, with a plan of its own  model/detail/outside_force.hpp
 //   grain         scalars of a place in a plane: 1, or 4 with stars                  layout.hpp
 //   scattered     of a spring: in no run
 //   batch         scattered springs of one tile that touch few places               planner.hpp

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+#include "../../stability/pencil_matrix.hpp"
 #include "../../tight/dense.hpp"
 #include "../../tight/detail/arnoldi.hpp"
 

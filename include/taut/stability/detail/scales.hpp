@@ -2,6 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "../../core/detail/bisection.hpp"
+#include "../../method/visit.hpp"
 #include "explicit_limit.hpp"
 #include "symplectic_limit.hpp"
 
@@ -10,26 +16,57 @@
 namespace taut::stability_detail {
 
 /// The step that the bound certifies by what limits the method, s.
-double certified_by(method::LimitedByDamping, const Pencil& pencil);
+inline double certified_by(method::LimitedByDamping, const Pencil& pencil) {
+    const double k = std::max(0.0, pencil.upper_bound(K_plus));
+    const double d = std::max(0.0, pencil.upper_bound(D));
+    return k > 0 || d > 0 ? certified_explicit(pencil, k, d) : infinity;
+}
 
-double certified_by(method::LimitedByStiffness, const Pencil& pencil);
+inline double certified_by(method::LimitedByStiffness, const Pencil& pencil) {
+    return certified_symplectic(pencil).h;
+}
 
-double certified_by(method::LimitedByIndefiniteness, const Pencil& pencil);
+inline double certified_by(method::LimitedByIndefiniteness, const Pencil& pencil) {
+    const double kappa = std::max(0.0, pencil.upper_bound(-K_plus));
+    return kappa == 0 || pencil.stiffness_semidefinite() ? infinity : 1 / std::sqrt(kappa);
+}
 
 /// How well the two scales below are found, relative.
 inline constexpr double scale_tolerance = 1e-9;
 
 /// The step that the bound certifies after scaling, s.
-double certified_when_scaled(Method method, const Pencil& pencil, double stiffness, double mass);
+inline double certified_when_scaled(Method method, const Pencil& pencil, double stiffness,
+                                    double mass) {
+    return method::visit_limited("Stability", method, [&](auto descriptor) {
+        using Limit = typename decltype(descriptor)::Limit;
+        return certified_by(Limit{}, pencil.scaled(stiffness, mass));
+    });
+}
 
 /// The largest factor on all stiffness that leaves step h, s, certified.
-double max_stiffness_scale(Method method, const Pencil& pencil, double h);
+inline double max_stiffness_scale(Method method, const Pencil& pencil, double h) {
+    if (pencil.size() == 0) return infinity;
+    if (!pencil.damping_semidefinite()) return 0;
+    return detail::last_that_passes(1.0, scale_tolerance, [&](double scale) {
+        return certified_when_scaled(method, pencil, scale, 1) >= h;
+    });
+}
 
 /// The least factor on all masses that makes step h, s, certified.
-double min_mass_scale(Method method, const Pencil& pencil, double h);
+inline double min_mass_scale(Method method, const Pencil& pencil, double h) {
+    if (pencil.size() == 0) return 0;
+    if (!pencil.damping_semidefinite()) return infinity;
+    // As far as double holds the masses, and d0·M, as normal numbers.
+    const Eigen::VectorXd& mass = pencil.mass();
+    const double d0 = pencil.rayleigh().mass_proportional;
+    const double least = std::numeric_limits<double>::min() / mass.minCoeff();
+    const double most =
+        std::numeric_limits<double>::max() / 8 / mass.maxCoeff() / std::max(1.0, d0);
+    return 1 / detail::last_that_passes(1.0, scale_tolerance, [&](double lighter) {
+               const double scale =
+                   std::clamp(1 / lighter, std::min(least, 1.0), std::max(most, 1.0));
+               return certified_when_scaled(method, pencil, 1, scale) >= h;
+           });
+}
 
 }  // namespace taut::stability_detail
-
-#if !defined(TAUT_COMPILED)
-#include "scales-inl.hpp"
-#endif

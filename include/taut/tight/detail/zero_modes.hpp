@@ -4,7 +4,7 @@
 
 #include <Eigen/SparseCholesky>
 
-#include "../../stability/pencil.hpp"
+#include "../../stability/pencil_matrix.hpp"
 
 namespace taut::stability_detail {
 

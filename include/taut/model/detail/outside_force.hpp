@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "state.hpp"
+#include "../state.hpp"
 
 namespace taut {
 
