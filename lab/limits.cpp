@@ -24,7 +24,7 @@ using taut::Method;
 struct Limits {
     taut::StepLimit<double> any_pose, energy_stable;
     std::optional<taut::Stability<double>> stability;
-    std::array<std::optional<taut::StepLimit<double>>, 6> at_pose;  // by method
+    std::array<std::optional<taut::StepLimit<double>>, int(Method::last) + 1> at_pose;
     LabMode mode{};
     taut::Points<double, 3> kick;
     std::vector<int> blamed;
@@ -121,9 +121,9 @@ void lab_analyse_pose() {
     // Pins change the size of what the search began at.
     found.stability.emplace(cloth, cloth.initial_state());
     found.at_pose = {};
-    for (const Method method : {Method::explicit_euler, Method::symplectic_euler,
-                                Method::velocity_verlet, Method::implicit_euler})
-        at_pose(static_cast<int>(method));
+    for (int method = 0; method <= static_cast<int>(Method::last); ++method) {
+        if (!taut::method::is_limited_by<taut::method::Absent>(Method(method))) at_pose(method);
+    }
 }
 
 void lab_analyse_mode() {

@@ -94,6 +94,10 @@ auto draw_parameters(Draw& draw, double order, Scalar L, taut::Buckling) {
                                               std::isfinite(bending) ? bending : Scalar(1), onset};
 }
 
+/// Springs of all laws that are judged.
+template <class Scalar, int Dim>
+using Springs = taut::SpringSystem<Scalar, Dim, taut::Hookean, taut::TensionOnly, taut::Buckling>;
+
 /// A scene and the pose to analyse.
 template <class System>
 struct Scene {

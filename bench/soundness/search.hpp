@@ -47,7 +47,6 @@ private:
 
 /// Judges the spring scene, or the linear system, of a seed. @returns false if it was refused
 inline bool judge_seed(bool springs, std::uint32_t seed, Tally& tally) {
-    using taut::SpringSystem, taut::Hookean, taut::TensionOnly, taut::Buckling;
     Draw draw(seed);
     const Index kind = draw.below(5);
     tally.scene = std::string(springs ? "--springs" : "--linear") + " --seed " +
@@ -59,28 +58,21 @@ inline bool judge_seed(bool springs, std::uint32_t seed, Tally& tally) {
             switch (kind) {
                 case 0:
                     say("1-D");
-                    judge_springs<SpringSystem<double, 1, Hookean, TensionOnly, Buckling>>(draw,
-                                                                                           tally);
+                    judge_springs<Springs<double, 1>>(draw, tally);
                     break;
                 case 1:
                     say("3-D, float");
-                    judge_springs<SpringSystem<float, 3, Hookean, TensionOnly, Buckling>>(draw,
-                                                                                          tally);
+                    judge_springs<Springs<float, 3>>(draw, tally);
                     break;
                 case 2:
                     say("3-D");
-                    judge_springs<SpringSystem<double, 3, Hookean, TensionOnly, Buckling>>(draw,
-                                                                                           tally);
+                    judge_springs<Springs<double, 3>>(draw, tally);
                     break;
-                default:
-                    say("2-D");
-                    judge_springs<SpringSystem<double, 2, Hookean, TensionOnly, Buckling>>(draw,
-                                                                                           tally);
+                default: say("2-D"); judge_springs<Springs<double, 2>>(draw, tally);
             }
         } else if (kind == 0) {
             say("from springs");
-            const auto scene =
-                random_scene<SpringSystem<double, 2, Hookean, TensionOnly, Buckling>>(draw);
+            const auto scene = random_scene<Springs<double, 2>>(draw);
             judge_matrices(draw, tally, taut::linearize(scene.system, scene.state));
         } else if (kind == 1) {
             say("float");

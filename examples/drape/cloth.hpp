@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <stdexcept>
 #include <taut/model/buckling.hpp>
 #include <taut/model/tension_only.hpp>
 
@@ -19,8 +20,10 @@ inline void add_spring(Cloth& cloth, const Options& options, bool bends,
         const double k = parameters.stiffness;
         const double rigidity = options.bending.value_or(0.01 * k * L * L * L);
         cloth.add_spring<taut::Buckling>({a, b, {k, rigidity, k}, L, damping});
-    } else {
+    } else if (options.law == "tension-only" || options.law == "buckling") {
         cloth.add_spring<taut::TensionOnly>({a, b, parameters, L, damping});
+    } else {
+        throw std::logic_error("--law: no springs of " + options.law);
     }
 }
 

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
@@ -79,7 +80,9 @@ inline Record::Frames Record::make_frames(const Options& options, const example:
     }
     if (options.format == "ply")
         return taut::PlySequence(std::move(prefix), std::move(polygons), std::move(lines), first);
-    return taut::ObjSequence(std::move(prefix), std::move(polygons), std::move(lines), first);
+    if (options.format == "obj")
+        return taut::ObjSequence(std::move(prefix), std::move(polygons), std::move(lines), first);
+    throw std::logic_error("--format: no frames as " + options.format);
 }
 
 inline void Record::require_different_files(const Options& options, int first, int frames) const {
@@ -144,7 +147,7 @@ inline void Record::close() {
 }
 
 inline std::string Record::springs_path(std::string frame) const {
-    return frame.replace(frame.size() - 3, 3, "vtk");
+    return frame.replace(frame.rfind('.') + 1, std::string::npos, "vtk");
 }
 
 inline void Record::warn_of_old_frames() const {

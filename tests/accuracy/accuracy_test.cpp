@@ -5,6 +5,7 @@
 
 #include "../support/catch.hpp"
 #include "../support/message.hpp"
+#include "../support/methods.hpp"
 #include "../support/random.hpp"
 
 namespace taut_test::accuracy_test {
@@ -17,12 +18,6 @@ using taut::ModeTolerance;
 
 namespace {
 
-constexpr Method all_methods[] = {Method::explicit_euler,
-                                  Method::symplectic_euler,
-                                  Method::velocity_verlet,
-                                  Method::implicit_euler,
-                                  Method::bdf2,
-                                  Method::energy_stable_euler};
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Steps of a stepper on one mass and one spring, seen as a swing about rest. The spring is far
@@ -63,6 +58,7 @@ TEST_CASE("accuracy: at small steps the errors of the theory [T25]", "[accuracy]
                           {Method::implicit_euler, 0.5, 1, 1.0 / 3},
                           {Method::bdf2, 0.25, 3, 1.0 / 3},
                           {Method::energy_stable_euler, 0.5, 1, -1.0 / 6}};
+    CHECK(std::size(terms) == all_methods.size());
     for (const Term& term : terms) {
         for (const double z : {1e-4, 1e-3, 1e-2}) {
             INFO(name(term.method) << ", z = " << z);

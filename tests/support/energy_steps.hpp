@@ -13,10 +13,6 @@
 
 namespace taut_test {
 
-/// Springs of all laws that the tests know; those without springs cost nothing.
-template <class Scalar, int Dim>
-using AnyLaw = taut::SpringSystem<Scalar, Dim, taut::Hookean, TensionOnly, Buckling, Glue>;
-
 /// What one spring does in a step.
 template <int Dim>
 struct SpringAhead {

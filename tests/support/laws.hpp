@@ -80,6 +80,10 @@ Glue::Parameters<Scalar> draw_parameters(Random& random, Glue) {
     return {stiffness, static_cast<Scalar>(random.uniform(0.3, 1))};
 }
 
+/// Springs of all laws that the tests know; those without springs cost nothing.
+template <class Scalar, int Dim>
+using AnyLaw = taut::SpringSystem<Scalar, Dim, taut::Hookean, TensionOnly, Buckling, Glue>;
+
 // Systems of which Taut::Compiled holds the steppers: to name others costs a test minutes.
 
 /// Springs of two laws; in one dimension of one.

@@ -18,10 +18,6 @@
 
 namespace taut_test {
 
-/// Springs of all laws that the tests know; those without springs cost nothing.
-template <class Scalar, int Dim>
-using AnyLaw = taut::SpringSystem<Scalar, Dim, taut::Hookean, TensionOnly, Buckling, Glue>;
-
 class Scene::Base {
 public:
     virtual ~Base() = default;

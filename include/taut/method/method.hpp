@@ -47,7 +47,8 @@ struct LimitedByIndefiniteness {};
 /// Which steps a moving scene may be given, linearised at each of its poses.
 enum class AnyPose {
     no_step,    ///< none is certified: Guarded refuses the method, recommend() passes it over
-    limited,    ///< those below any_pose_limit [T23]
+    limited,    ///< those below any_pose_limit [T23]: symplectic Euler's, whatever `Limit` is, so
+                ///< only of a method that no scene holds to a smaller step
     proved,     ///< those below energy_limit, and not linearised only [T42]
     every_step  ///< all, of an implicit method
 };
