@@ -32,6 +32,14 @@ foreach(name IN ITEMS 01_first_step own_arrays 07_paper)
     endif()
 endforeach()
 
+string(REGEX MATCH "`([^`]+ J before, [^`]+ J after)`" found "${readme}")
+file(WRITE ${folder}/quoted "${CMAKE_MATCH_1}\n")
+execute_process(COMMAND ${first_step} OUTPUT_FILE ${folder}/printed COMMAND_ERROR_IS_FATAL ANY)
+execute_process(
+    COMMAND ${same_output} ${CMAKE_CURRENT_LIST_DIR}/check/ranges.txt readme ${folder}/quoted ${folder}/printed
+        together
+    COMMAND_ERROR_IS_FATAL ANY)
+
 file(READ ${CMAKE_CURRENT_LIST_DIR}/README.md readme)
 string(FIND "${readme}" "```text\n" block)
 foreach(program IN ITEMS ${stability_report} ${prediction})
