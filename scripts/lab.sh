@@ -7,6 +7,7 @@
 #   scripts/lab.sh [port]         builds what has changed and serves, on port 8000 unless told
 #   scripts/lab.sh --build [DIR]  builds only: DIR and DIR.html, build/lab/site unless told
 #   scripts/lab.sh --test         builds, compares with a native program, and clicks through the page
+#   scripts/lab.sh --picture      builds, and makes docs/images/lab.png anew
 set -eu
 from=$(pwd)
 cd "$(dirname "$0")/.."
@@ -27,7 +28,8 @@ case "${1-}" in
         site=${site%/}
         ;;
     --test) task=test ;;
-    *[!0-9]*) echo "lab: '$1' is neither a port nor --build nor --test" >&2; exit 1 ;;
+    --picture) task=picture ;;
+    *[!0-9]*) echo "lab: '$1' is neither a port nor --build, --test or --picture" >&2; exit 1 ;;
     *) port=$1 ;;
 esac
 
@@ -39,10 +41,8 @@ need em++ emscripten
 need node nodejs
 need npm npm
 [ "$task" = build ] || need python3 python3
-if [ "$task" = test ]; then
-    need g++ g++
-    need chromium chromium
-fi
+[ "$task" != test ] || need g++ g++
+case $task in test | picture) need chromium chromium ;; esac
 eigen=${EIGEN3_INCLUDE_DIR:-/usr/include/eigen3}
 [ -f "$eigen/Eigen/Core" ] || missing="$missing libeigen3-dev"
 if [ -n "$missing" ]; then
@@ -99,6 +99,10 @@ case $task in
     serve)
         echo "lab: http://127.0.0.1:$port/ until you press Ctrl-C"
         exec python3 -m http.server --bind 127.0.0.1 --directory "$site" "$port"
+        ;;
+    picture)
+        node lab/check_page.mjs "$site" "$packages" "$work" skirt
+        cp "$work/skirt_beyond.png" docs/images/lab.png
         ;;
     test)
         # shellcheck disable=SC2086  # a list of words
