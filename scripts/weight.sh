@@ -123,8 +123,8 @@ reached() { # UNIT: headers, each by its shortest name
     tr -s ' \\' '\n' <"$work/$1.made_of" |
         sed -n -e :up -e 's#[^/.][^/]*/\.\./##' -e 't up' -e '/^include\//p' | sort -u
 }
-functions() { # UNIT: names, without the cold parts of functions and what runs before main
-    nm -P --defined-only "$work/$1.o" | awk '$2 ~ /^[tTwW]$/ && $1 !~ /\.cold|^_GLOBAL__/ { print $1 }' | sort
+functions() { # UNIT: names, without parts of functions and what runs before main
+    nm -P --defined-only "$work/$1.o" | awk '$2 ~ /^[tTwW]$/ && $1 !~ /\.(cold|part)|^_GLOBAL__/ { print $1 }' | sort
 }
 least() { # UNIT: seconds and MB of its runs
     awk '
