@@ -12,7 +12,7 @@
 #include "../model/free_particles.hpp"
 #include "../newton/detail/step_objective.hpp"
 #include "../solver/interleaved_llt.hpp"
-#include "../stability/pencil.hpp"
+#include "../stability/pencil_matrix.hpp"
 #include "detail/limited_memory.hpp"
 
 namespace taut {
