@@ -129,10 +129,24 @@ inline std::string describe(const Verdict& verdict) {
     return text;
 }
 
+/// What becomes of a step while the scene moves.
+inline void print_while_moving(const Findings& found, const Verdict& verdict) {
+    if (!found.any_pose) return;
+    const auto steps = found.any_pose->substeps(verdict.step, 1);
+    if (steps == 1) {
+        std::printf("  and at any pose: proved\n");
+    } else if (const auto safe = found.any_pose->substeps(verdict.step)) {
+        std::printf(
+            "  while it moves: %d steps take its place, each at most 0.95 of the any-pose limit\n",
+            int(*safe));
+    }
+}
+
 inline void print_remedies(const Findings& found) {
     const Remedies& remedies = *found.remedies;
     std::printf("For symplectic Euler at h = %s s in this pose: %s\n",
                 step_text(remedies.verdict).c_str(), describe(remedies.verdict).c_str());
+    print_while_moving(found, remedies.verdict);
     if (remedies.verdict.standing == Verdict::Standing::certified) return;
     if (!(remedies.stiffness_scale > 0) || !std::isfinite(remedies.mass_scale)) {
         std::printf("  no scale of stiffness or masses is proved to make it safe\n");
@@ -207,6 +221,7 @@ inline void print_table(const Findings& found, double d0) {
     if (found.verdict) {
         std::printf("Symplectic Euler at h = %s s in this pose: %s\n",
                     step_text(*found.verdict).c_str(), describe(*found.verdict).c_str());
+        print_while_moving(found, *found.verdict);
     }
     if (found.proof) {
         std::printf("%s at h = %s s: %s\n", name(found.proof->method),
