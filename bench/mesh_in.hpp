@@ -2,11 +2,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
+#include <string>
 #include <taut/scene/mesh.hpp>
 
 #include "../examples/common/mesh_file.hpp"
 
 namespace bench {
+
+/// The name of a file without its folders.
+inline std::string file_name(const std::string& path) {
+    return std::filesystem::path(path).filename().string();
+}
 
 /// The springs and triangles of a mesh that hangs by its first vertex.
 template <class Scalar>

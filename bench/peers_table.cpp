@@ -163,7 +163,7 @@ int main(int argc, char** argv) try {
         if (read.ec == std::errc() && read.ptr == text.data() + text.size()) {
             sizes.push_back(size);
         } else {
-            meshes.emplace_back(text.substr(text.find_last_of('/') + 1),
+            meshes.emplace_back(bench::file_name(argv[i]),
                                 bench::mesh_in<double>(example::read_obj(argv[i])).system);
         }
     }

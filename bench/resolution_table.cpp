@@ -21,6 +21,7 @@
 
 #include "../examples/common/mesh_file.hpp"
 #include "../examples/common/pins.hpp"
+#include "mesh_in.hpp"
 
 namespace {
 
@@ -41,7 +42,7 @@ Scene mesh(const std::string& path) {
     for (const Index v :
          example::highest_vertices(file.vertices, Eigen::Vector3d::UnitY(), 0.02, is_used))
         springs.system.pin(springs.particle_of_vertex[v]);
-    return {path.substr(path.find_last_of('/') + 1), std::move(springs.system)};
+    return {bench::file_name(path), std::move(springs.system)};
 }
 
 Scene cloth(Index side) {

@@ -64,9 +64,8 @@ int main(int argc, char** argv) try {
     std::vector<std::pair<std::string, taut::SpringSystem<float, 3>>> scenes{
         {"hanging_cloth 100", taut::hanging_cloth<float>({100, 100})}};
     for (int i = 1; i < argc; ++i) {
-        const std::string path = argv[i];
-        scenes.emplace_back(path.substr(path.find_last_of('/') + 1),
-                            bench::mesh_in<float>(example::read_obj(path)).system);
+        scenes.emplace_back(bench::file_name(argv[i]),
+                            bench::mesh_in<float>(example::read_obj(argv[i])).system);
     }
     std::printf(
         "## A step of EnergyStableEuler, ms, in float\n\n"

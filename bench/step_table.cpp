@@ -275,9 +275,8 @@ struct Mesh {
 int main(int argc, char** argv) try {
     std::vector<Mesh> meshes;
     for (int i = 1; i < argc; ++i) {
-        const std::string path = argv[i];
-        const auto file = example::read_obj(path);
-        meshes.push_back({path.substr(path.find_last_of('/') + 1), bench::mesh_in<double>(file),
+        const auto file = example::read_obj(argv[i]);
+        meshes.push_back({bench::file_name(argv[i]), bench::mesh_in<double>(file),
                           bench::mesh_in<float>(file).system});
     }
     std::printf(

@@ -14,13 +14,14 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
-#include <iostream>
 #include <random>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "common/main.hpp"
+#include "common/output_text.hpp"
 
 namespace {
 
@@ -130,11 +131,9 @@ int main(int argc, char** argv) {
         std::snprintf(line, sizeof line, "f %d %d %d\n", t[0] + 1, t[1] + 1, t[2] + 1);
         text += line;
     }
-    std::ofstream file(output, std::ios::binary);
-    file << text << std::flush;
-    if (!file) {
-        std::cerr << "make_poncho: --output: cannot write '" << output << "'\n";
-        return 1;
-    }
-    return 0;
+    text.pop_back();  // write_text ends the last line
+    return example::guarded_main("make_poncho", [&] {
+        example::write_text(text, "--output", output);
+        return 0;
+    });
 }

@@ -9,9 +9,10 @@
 
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <iostream>
 #include <string>
+
+#include "common/main.hpp"
+#include "common/output_text.hpp"
 
 // Rounded to a micrometre, so that no digit hangs on the mathematics library; never -0.
 static double rounded(double metres) { return std::round(metres * 1e6) / 1e6 + 0.0; }
@@ -67,11 +68,9 @@ int main(int argc, char** argv) {
             text += line;
         }
     }
-    std::ofstream file(output, std::ios::binary);
-    file << text << std::flush;
-    if (!file) {
-        std::cerr << "make_skirt: --output: cannot write '" << output << "'\n";
-        return 1;
-    }
-    return 0;
+    text.pop_back();  // write_text ends the last line
+    return example::guarded_main("make_skirt", [&] {
+        example::write_text(text, "--output", output);
+        return 0;
+    });
 }

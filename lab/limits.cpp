@@ -39,8 +39,7 @@ std::array<double, 2> window{};
 /// none, implicit steps no need of one.
 double any_pose(Method method) {
     using taut::method::AnyPose;
-    const AnyPose safe =
-        taut::method::visit(method, [](auto descriptor) { return decltype(descriptor)::any_pose; });
+    const AnyPose safe = taut::method::any_pose(method);
     if (safe == AnyPose::limited) return found.any_pose.certified;
     if (safe == AnyPose::proved) return found.energy_stable.certified;
     return safe == AnyPose::every_step ? std::numeric_limits<double>::infinity() : 0;

@@ -6,6 +6,8 @@
 #include <taut/model/spring_system.hpp>
 #include <taut/stability/bracket.hpp>
 
+#include "../support/scene.hpp"
+
 namespace taut_test {
 namespace {
 
@@ -29,19 +31,8 @@ std::vector<Scalar> cast(const std::vector<double>& numbers) {
 }
 
 template <class Scalar>
-taut::StepLimit<double> in_double(const taut::StepLimit<Scalar>& limit) {
-    return {static_cast<double>(limit.certified),
-            static_cast<double>(limit.refuted),
-            limit.cause,
-            static_cast<double>(limit.estimate),
-            limit.growth_rate,
-            static_cast<double>(limit.certified_up_to),
-            limit.admitted_growth,
-            0};
-}
-template <class Scalar>
 taut::StepAnswer<double> in_double(const taut::StepAnswer<Scalar>& answer) {
-    return {answer.safe, answer.substeps, in_double(answer.limit), answer.to_blame};
+    return {answer.safe, answer.substeps, to_any(answer.limit), answer.to_blame};
 }
 template <class Scalar>
 taut::StepCheck<double> in_double(const taut::StepCheck<Scalar>& check) {
@@ -208,9 +199,9 @@ Answers system_answers(const Net& net, taut::Method method, Index springs) {
         for (const int i : net.pins) system.pin(i);
         system.set_rayleigh(net.rayleigh);
         const taut::Stability<Scalar> stability(system, system.initial_state());
-        Answers answers{in_double(taut::any_pose_limit(system, method)), {}, {}};
+        Answers answers{to_any(taut::any_pose_limit(system, method)), {}, {}};
         if (method == taut::Method::energy_stable_euler) return answers;  // nothing at a pose
-        answers.at_pose = in_double(stability.max_step(method));
+        answers.at_pose = to_any(stability.max_step(method));
         answers.springs = taut::limiting_springs(stability, springs);
         return answers;
     });

@@ -78,6 +78,19 @@ struct AnyState {
     }
 };
 
+/// A limit of whatever scalar.
+template <class Scalar>
+taut::StepLimit<double> to_any(const taut::StepLimit<Scalar>& limit) {
+    return {static_cast<double>(limit.certified),
+            static_cast<double>(limit.refuted),
+            limit.cause,
+            static_cast<double>(limit.estimate),
+            limit.growth_rate,
+            static_cast<double>(limit.certified_up_to),
+            limit.admitted_growth,
+            limit.revision};
+}
+
 class AnyStepper {
 public:
     virtual ~AnyStepper() = default;

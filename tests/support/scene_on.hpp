@@ -67,18 +67,6 @@ AnyState to_any(const State& state) {
             static_cast<double>(state.time)};
 }
 
-template <class Scalar>
-taut::StepLimit<double> to_any(const taut::StepLimit<Scalar>& limit) {
-    return {static_cast<double>(limit.certified),
-            static_cast<double>(limit.refuted),
-            limit.cause,
-            static_cast<double>(limit.estimate),
-            limit.growth_rate,
-            static_cast<double>(limit.certified_up_to),
-            limit.admitted_growth,
-            limit.revision};
-}
-
 /// A stepper behind AnyStepper, or behind a Base of it that has more.
 template <class Stepper, class System, class Base = AnyStepper>
 class StepperOn : public Base {

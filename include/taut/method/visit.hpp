@@ -93,6 +93,11 @@ constexpr bool is_limited_by(Method method) {
     });
 }
 
+/// What is proved of the method at any pose.
+constexpr AnyPose any_pose(Method method) {
+    return visit(method, [](auto descriptor) { return decltype(descriptor)::any_pose; });
+}
+
 /// The descriptors as another type, never called.
 template <class... Descriptors>
 std::tuple<Descriptors...> as_tuple(List<Descriptors...>);

@@ -51,8 +51,7 @@ std::vector<Plan> feasible_plans(const SpringSystem<Scalar, Dim, Laws...>& syste
     const auto limit = static_cast<double>(any_pose_limit(system).certified);
     std::vector<Plan> plans;
     for (const Candidate& candidate : candidates) {
-        const method::AnyPose safe = method::visit(
-            candidate.method, [](auto descriptor) { return decltype(descriptor)::any_pose; });
+        const method::AnyPose safe = method::any_pose(candidate.method);
         if (safe == method::AnyPose::every_step) {
             plans.push_back(
                 plan_for(candidate, std::numeric_limits<double>::infinity(), goal, zeta));

@@ -129,16 +129,25 @@ StiffnessSpectrum stiffness_spectrum(const Stability<Scalar>& stability) {
     return spectrum;
 }
 
+namespace stability_detail {
+
+/// The vector of the largest eigenvalue of M⁻¹S, to 1e-6, of a pencil that is not empty.
+template <class Real = double>  // a template: only its callers compile it
+RitzPair largest_mode(const Pencil& pencil, const Combination& c) {
+    LanczosOptions options;
+    options.basis = 60;
+    options.tolerance = 1e-6;
+    return largest_ritz_pair<Real>(pencil, c, options, leading_pair<Real>(pencil, c).vector);
+}
+
+}  // namespace stability_detail
+
 /// The vibration that holds explicit steps down, as the Lanczos iteration found it.
 template <class Scalar>
 LimitingMode limiting_mode(const Stability<Scalar>& stability) {
     if (stability.size() == 0) return {};
-    LanczosOptions options;
-    options.basis = 60;
-    options.tolerance = 1e-6;
     const Pencil& pencil = stability.pencil();
-    RitzPair pair = largest_ritz_pair(pencil, matrices::K_plus, options,
-                                      leading_pair(pencil, matrices::K_plus).vector);
+    RitzPair pair = stability_detail::largest_mode(pencil, matrices::K_plus);
     const auto [k, d] = stability_detail::quotients(pencil, pair.vector, matrices::K_plus);
     return {k.value, d.value, std::move(pair.vector)};
 }

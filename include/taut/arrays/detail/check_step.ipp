@@ -166,11 +166,7 @@ std::vector<SpringShare> to_blame(const Stability<Scalar>& stability,
         using namespace matrices;
         const double h = static_cast<double>(limit.certified);
         const Combination force = 2 * h * D + h * h * K_plus;
-        LanczosOptions lanczos;
-        lanczos.basis = 60;
-        lanczos.tolerance = 1e-6;
-        const RitzPair mode =
-            largest_ritz_pair(pencil, force, lanczos, leading_pair(pencil, force).vector);
+        const RitzPair mode = stability_detail::largest_mode(pencil, force);
         shares = stability_detail::largest_shares(pencil.spring_shares(mode.vector, force), count);
     } else {
         shares = limiting_springs(stability, count);
@@ -225,13 +221,14 @@ StepCheck<Scalar> check_step(const SpringArrays<Scalar, Dim, Int>& arrays, Metho
         return system.complete(Pencil::any_pose(system, counted),
                                counted == Damping::half ? 0.5 : 1);
     };
-    const auto limit = stability_detail::rounded<Scalar>(
-        stability_detail::at_any_pose(method,
-                                      laplacians(stability_detail::counted_at_any_pose(method))),
-        0);
+    const auto moving = arrays_detail::stability_of<Scalar>(laplacians(Damping::all));
+    const Damping counted = stability_detail::counted_at_any_pose(method);
+    const auto limit = counted == Damping::all
+                           ? stability_detail::at_any_pose(method, moving.pencil())
+                           : stability_detail::at_any_pose(method, laplacians(counted));
     StepCheck<Scalar> check;
-    static_cast<StepAnswer<Scalar>&>(check) = arrays_detail::answer(
-        arrays_detail::stability_of<Scalar>(laplacians(Damping::all)), limit, h, options);
+    static_cast<StepAnswer<Scalar>&>(check) =
+        arrays_detail::answer(moving, stability_detail::rounded<Scalar>(limit, 0), h, options);
     if (arrays.position && method != Method::energy_stable_euler) {
         const auto here = arrays_detail::stability_of<Scalar>(
             system.complete(Pencil::at_pose(system, arrays_detail::pose(arrays))));

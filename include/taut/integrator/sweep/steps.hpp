@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 #include "force_plan.hpp"
 #include "place_update.hpp"

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "../../core/assert.hpp"
-
 namespace taut::stability_detail {
 
 /// A symmetric matrix of up to three rows: the columns of its lower triangle, zero beyond its

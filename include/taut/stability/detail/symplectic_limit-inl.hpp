@@ -56,16 +56,13 @@ TAUT_INLINE UnroundedLimit by_laplacian(const Pencil& laplacian, double part) {
 }
 
 TAUT_INLINE Pencil::Damping counted_at_any_pose(Method method) {
-    return method::visit(method, [](auto descriptor) {
-        return decltype(descriptor)::any_pose == method::AnyPose::proved ? Pencil::Damping::half
-                                                                         : Pencil::Damping::all;
-    });
+    const bool proved = method::any_pose(method) == method::AnyPose::proved;
+    return proved ? Pencil::Damping::half : Pencil::Damping::all;
 }
 
 TAUT_INLINE UnroundedLimit at_any_pose(Method method, const Pencil& laplacian) {
     using method::AnyPose;
-    const AnyPose proof =
-        method::visit(method, [](auto descriptor) { return decltype(descriptor)::any_pose; });
+    const AnyPose proof = method::any_pose(method);
     const bool proved = proof == AnyPose::proved;
     const UnroundedLimit limit = by_laplacian(laplacian, proved ? 0.5 : 1);
     if (proved || proof == AnyPose::limited) return limit;
