@@ -188,9 +188,8 @@ void advance_frames(Guarded& guard, System& system, typename System::State state
     const double speed_up = std::exp2(bytes.byte() / 32.0 - 2);
     const bool respond = bytes.one_in(4);
     const bool by_code = system.has_external_force();
-    guard_books::Promise promise;
     Books last = guard_books::books_of(system, state);
-    promise.open(last);
+    guard_books::Promise promise(unit, last);
     const int frames = 4 + bytes.byte() % 60;
     for (int i = 0; i < frames; ++i) {
         if (bytes.one_in(8)) {
@@ -233,7 +232,7 @@ void advance_frames(Guarded& guard, System& system, typename System::State state
         const double unseen = 8 * unit *
                               std::max(outside_size(system, before, frame, steps),
                                        outside_size(system, state, frame, steps));
-        require(promise.keeps(now, report, unit, unseen, by_code), "E ≤ E + 0.1 K + ΣW + d");
+        require(promise.keeps(now, report, unseen, by_code), "E ≤ E + 0.1 K + ΣW + d");
         require(std::abs(report.energy - now.energy) <= 16 * unit * now.size + now.hidden,
                 "the report's energy is that of the state");
         bool moves = false;

@@ -114,8 +114,7 @@ void one_scene(Scene<System> scene, Row& row) {
     auto bare = scene.state;
     auto part = guard_books::parts_of(scene.system);
     auto books = guard_books::books_of(scene.system, scene.state, part);
-    guard_books::Promise promise;
-    promise.open(books);
+    guard_books::Promise promise(unit_of<Scalar>(), books);
     for (Index i = 0; i < frames_a_scene; ++i) {
         if (scene.edit(i)) {
             part = guard_books::parts_of(scene.system);
@@ -137,7 +136,7 @@ void one_scene(Scene<System> scene, Row& row) {
         }
         if (!fine || !(bare.v.norm() < 1e4)) bare = scene.state;
         books = guard_books::books_of(scene.system, scene.state, part);
-        const bool kept = promise.keeps(books, report, unit_of<Scalar>());
+        const bool kept = promise.keeps(books, report);
         row.tally.broken += !kept;
         if (!kept && row.tally.broken == 1) {
             std::fprintf(stderr,

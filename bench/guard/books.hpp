@@ -98,25 +98,28 @@ Books books_of(const System& system, const typename System::State& state) {
 /// is the guard's word, which may be no more than ρ and that of the frames taken again.
 class Promise {
 public:
-    void open(const Books& books) { allowed_ = books.energy + books.kinetic / 10; }
-    /// Whoever edits the scene changes E; what is pinned takes with it what it owes.
+    /// @param unit  the unit roundoff of what the guard measures in   @param start  of the first
+    /// frame
+    Promise(double unit, const Books& start)
+        : unit_(unit), allowed_(start.energy + start.kinetic / 10 + rounding(start)) {}
+    /// Whoever edits the scene changes E; what is pinned takes with it what it owes. The guard
+    /// measures on both sides.
     void edit(const Books& before, const Books& after) {
         scale_ = std::max({scale_, before.size, after.size});
-        allowed_ += after.energy - before.energy + owing_;
+        allowed_ += after.energy - before.energy + owing_ + rounding(before) + rounding(after);
     }
     /// A frame that ended so. @returns whether it kept the promise
-    /// @param report  of the guard   @param unit  the unit roundoff of what it measures in
-    /// @param unseen  what rounding may hide beside ρ, J   @param by_code  whether forces are code
+    /// @param report  of the guard   @param unseen  what rounding may hide beside ρ, J
+    /// @param by_code  whether forces are code
     template <class Report>
-    bool keeps(const Books& end, const Report& report, double unit, double unseen = 0,
-               bool by_code = false) {
+    bool keeps(const Books& end, const Report& report, double unseen = 0, bool by_code = false) {
         allowed_ += Real(report.work) + unseen;
         rounded_ += unseen;
         if (report.taken >= taut::Taken::again) rounded_ += report.slack;
         scale_ = std::max({scale_, end.size, std::abs(allowed_)});
         hidden_ = std::max(hidden_, end.hidden);
-        // Measured by the guard in a few roundings of its own; an edit may take away most of E.
-        const Real grain = 8 * Real(unit) * end.size + 1e-13L * scale_ + hidden_;
+        // An edit may take away most of E.
+        const Real grain = rounding(end) + 1e-13L * scale_ + hidden_;
         over_ = end.energy - allowed_ - report.balance;
         const Real owed =
             report.slack + unseen + (report.taken >= taut::Taken::again ? rounded_ : 0);
@@ -127,14 +130,19 @@ public:
         const bool owes = stands && report.balance > owed + grain + 2e-12L * end.kinetic;
         const bool kept = !(over_ > grain) && !owes;
         // Forces given as code hold back up to σ.
-        allowed_ = std::min(allowed_, end.energy + end.kinetic / 10 + (by_code ? report.slack : 0));
+        allowed_ = std::min(
+            allowed_, end.energy + end.kinetic / 10 + rounding(end) + (by_code ? report.slack : 0));
         return kept;
     }
     /// By how much the last frame was above what is allowed, J; below 0 if it was not.
     Real over() const { return over_; }
 
 private:
-    Real allowed_ = std::numeric_limits<Real>::infinity();
+    /// The guard measures an energy in a few roundings of its own.
+    Real rounding(const Books& books) const { return 8 * unit_ * books.size; }
+
+    Real unit_;
+    Real allowed_;
     Real over_ = 0;
     Real rounded_ = 0;  // Σρ of the frames taken again, J
     Real owing_ = 0;    // d where it is above 0, J

@@ -17,15 +17,14 @@ bool minute(const char* law, Index side) {
     auto state = system.initial_state();
     const auto start = guard_books::books_of(system, state, part);
     auto books = start, most = start;
-    guard_books::Promise promise;
-    promise.open(start);
+    guard_books::Promise promise(unit_of<double>(), start);
     taut::Guarded guard(system);
     Tally tally;
     for (int i = 0; i < 3600; ++i) {
         const auto report = guard.advance(state, frame);
         if (!tally.add(report)) break;
         books = guard_books::books_of(system, state, part);
-        tally.broken += !promise.keeps(books, report, unit_of<double>());
+        tally.broken += !promise.keeps(books, report);
         most.moving = std::max(most.moving, books.moving);
     }
     std::printf("| %s, %ld × %ld | %+.2f | %.1f | %.2f |\n", law, count(side), count(side),
@@ -71,10 +70,9 @@ bool rest_row(const char* law, double offset) {
     typename System::State state;
     const System system = hanging<System>(16, offset, state);
     const auto part = guard_books::parts_of(system);
-    guard_books::Promise promise;
     const auto start = guard_books::books_of(system, state, part);
     auto books = start;
-    promise.open(start);
+    guard_books::Promise promise(unit_of<float>(), start);
     taut::Guarded guard(system);
     Tally tally;
     double fastest = 0, rounding = 0;
@@ -82,7 +80,7 @@ bool rest_row(const char* law, double offset) {
         const auto report = guard.advance(state, static_cast<float>(frame));
         if (!tally.add(report)) break;
         books = guard_books::books_of(system, state, part);
-        tally.broken += !promise.keeps(books, report, unit_of<float>());
+        tally.broken += !promise.keeps(books, report);
         rounding = std::max(rounding, report.slack);
         fastest = std::max(fastest, static_cast<double>(state.v.colwise().norm().maxCoeff()));
     }

@@ -27,9 +27,8 @@ Row two_seconds(const System& system, typename System::State state, Motion motio
     if (motion == Motion::thrown) throw_free(system, state);
     Row row;
     const auto part = guard_books::parts_of(system);
-    guard_books::Promise promise;
     auto books = guard_books::books_of(system, state, part);
-    promise.open(books);
+    guard_books::Promise promise(unit_of<typename System::Scalar>(), books);
     const auto start = books;
     double work = 0;
     auto most = books.moving;
@@ -39,7 +38,7 @@ Row two_seconds(const System& system, typename System::State state, Motion motio
         if (!row.tally.add(report)) break;
         work += report.work;
         books = guard_books::books_of(system, state, part);
-        row.tally.broken += !promise.keeps(books, report, unit_of<typename System::Scalar>());
+        row.tally.broken += !promise.keeps(books, report);
         most = std::max(most, books.moving);
     }
     row.moved = most > 1e-6 * books.size;
