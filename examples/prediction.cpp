@@ -41,7 +41,7 @@ double amplitude(const Linear& system, const Linear::State& state, double k) {
 
 /// The part of the state along the mode's eigenvector of μ: a step multiplies it by |μ|, whatever
 /// the phase and the other modes.
-double amplitude(const Linear& system, const Linear::State& state, const taut::LimitingMode& mode,
+double amplitude(const Linear& system, const Linear::State& state, const taut::Mode& mode,
                  Method method, std::complex<double> mu, double h) {
     const Eigen::VectorXd weight = system.mass().cwiseProduct(mode.shape);
     const double q = state.x.row(0).dot(weight);
@@ -54,7 +54,7 @@ double amplitude(const Linear& system, const Linear::State& state, const taut::L
 
 /// Starts along the eigenvector of the limiting mode's larger multiplier and steps on.
 template <class Stepper>
-Trial try_step(const Linear& system, const taut::LimitingMode& mode, double h, bool stable) {
+Trial try_step(const Linear& system, const taut::Mode& mode, double h, bool stable) {
     const auto mu = taut::multipliers(Stepper::method, mode.k, mode.d, h);
     const auto larger = std::abs(mu[0]) >= std::abs(mu[1]) ? mu[0] : mu[1];
     Trial trial;
@@ -105,7 +105,7 @@ bool print_trial(const char* label, double h, const Trial& trial, bool stable) {
 struct Limited {
     Linear linear;
     taut::StepLimit<double> limit;
-    taut::LimitingMode mode;
+    taut::Mode mode;
 };
 
 /// All that the trials need, found before the first of them.

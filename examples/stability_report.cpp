@@ -71,7 +71,7 @@ void analyse(const taut::Stability<double>& stability, const Options& options, P
         if (h > 0 && std::isfinite(h))
             found.proof = taut::certify(stability, Method::symplectic_euler, h);
     }
-    const auto limiting_mode = [&]() -> const taut::LimitingMode& {
+    const auto limiting_mode = [&]() -> const taut::Mode& {
         if (!found.limiting_mode) {
             progress.at("finding the limiting vibration");
             found.limiting_mode = taut::limiting_mode(stability);

@@ -66,7 +66,7 @@ double refuted_energy_stable(const Eigen::VectorXd& shape) {
 
 /// Of a large mesh a rougher shape must do: the fine one takes ten times as long, and differs by
 /// less than can be seen.
-taut::LimitingMode limiting_mode() {
+taut::Mode limiting_mode() {
     constexpr taut::Index large = 15'000;  // particles
     const auto& cloth = lab::scene().cloth;
     if (cloth.size() <= large) return taut::limiting_mode(*found.stability);
@@ -79,7 +79,7 @@ taut::LimitingMode limiting_mode() {
     return {pair.value, d, pair.vector};
 }
 
-void take_kick(const taut::LimitingMode& mode) {
+void take_kick(const taut::Mode& mode) {
     const auto& limit = at_pose(static_cast<int>(Method::symplectic_euler));
     const bool bounded = limit.certified > 0 && std::isfinite(limit.refuted);
     if (!bounded || mode.shape.size() == 0) return;
@@ -90,7 +90,7 @@ void take_kick(const taut::LimitingMode& mode) {
     found.mode.steps = static_cast<double>(kick.steps);
 }
 
-void take_blamed(const taut::LimitingMode& mode) {
+void take_blamed(const taut::Mode& mode) {
     constexpr double least = 1e-3;  // of what the foremost holds
     found.blamed.clear();
     found.shares.clear();

@@ -107,18 +107,18 @@ std::vector<Mode> row_modes(const Cell& cell, const Net& system,
     std::vector<Mode> chosen;
     for (Index j = 0; j < rows; ++j) {
         Mode mode;
-        mode.omega = std::sqrt(std::max(0.0, modes.eigenvalues()[j]));
-        if (mode.omega < 0.1 || mode.omega > highest) continue;
+        mode.k = modes.eigenvalues()[j];
+        if (mode.omega() < 0.1 || mode.omega() > highest) continue;
         mode.shape = rigid * modes.eigenvectors().col(j);
-        mode.zeta = taut::damping_ratio(system.rayleigh(), mode.omega);
-        if (mode.zeta < 0.9) chosen.push_back(mode);
+        mode.d = 2 * mode.omega() * taut::damping_ratio(system.rayleigh(), mode.omega());
+        if (mode.zeta() < 0.9) chosen.push_back(mode);
     }
     if (chosen.size() > 2) chosen = {chosen.front(), chosen.back()};
     Mode prong;
-    prong.omega = fork;
-    prong.zeta = taut::damping_ratio(system.rayleigh(), fork);
+    prong.k = fork * fork;
+    prong.d = 2 * fork * taut::damping_ratio(system.rayleigh(), fork);
     prong.shape = Eigen::VectorXd::Unit(linear.size(), linear.size() - 2) / std::sqrt(0.01);
-    if (prong.zeta < 0.9) chosen.push_back(prong);
+    if (prong.zeta() < 0.9) chosen.push_back(prong);
     return chosen;
 }
 

@@ -33,16 +33,16 @@ struct Verdict {
 
 /// @param limit  of symplectic Euler at this pose
 /// @param mode   returns the limiting vibration; called only where the step is refuted
-template <class Mode>
+template <class FindMode>
 Verdict judge(const taut::Stability<double>& stability, const taut::StepLimit<double>& limit,
-              const Mode& mode, double h) {
+              const FindMode& mode, double h) {
     using Standing = Verdict::Standing;
     if (h <= limit.certified) return {h, Standing::certified};
     if (h < limit.refuted) {
         const bool proved = taut::certify(stability, Method::symplectic_euler, h).proved;
         return {h, proved ? Standing::certified : Standing::undecided};
     }
-    const taut::LimitingMode& limiting = mode();
+    const taut::Mode& limiting = mode();
     return {h, Standing::refuted,
             std::max(taut::spectral_radius(Method::symplectic_euler, limiting.k, limiting.d, h),
                      taut::spectral_radius(stability, Method::symplectic_euler, h))};
@@ -86,7 +86,7 @@ struct Findings {
     std::optional<taut::StepLimit<double>> any_pose;
     std::optional<taut::StepLimit<double>> energy_stable;
     std::optional<taut::Certificate> proof;
-    std::optional<taut::LimitingMode> limiting_mode;  // where something needed it
+    std::optional<taut::Mode> limiting_mode;  // where something needed it
     std::vector<taut::SpringShare> springs_to_blame;
     std::vector<taut::ParticleShare> particles_to_blame;
     double participants = 0;         // 1/Σ of the squared shares of all particles

@@ -25,7 +25,7 @@ struct Kick {
 /// @param edge  m, an edge's length: the kick is small beside it
 /// @param mode  the limiting mode of symplectic Euler
 inline Kick kick_along(const taut::SpringSystem<double, 3>& system, double edge,
-                       const taut::StepLimit<double>& limit, const taut::LimitingMode& mode) {
+                       const taut::StepLimit<double>& limit, const taut::Mode& mode) {
     constexpr double kick_of_edge = 1e-4;
     const double h = above_limit * limit.refuted;
     const auto mu = taut::multipliers(taut::Method::symplectic_euler, mode.k, mode.d, h);

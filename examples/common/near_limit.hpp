@@ -71,8 +71,7 @@ struct RunsNearLimit {
 };
 
 inline RunsNearLimit run_near_limit(const System& system, double edge,
-                                    const taut::StepLimit<double>& limit,
-                                    const taut::LimitingMode& mode) {
+                                    const taut::StepLimit<double>& limit, const taut::Mode& mode) {
     const Kick kick = kick_along(system, edge, limit, mode);
     const auto rest = system.initial_state().x;
     const double far = 0.25 * (rest.rowwise().maxCoeff() - rest.rowwise().minCoeff()).norm();

@@ -27,7 +27,7 @@ inline double rounded(double value) { return std::round(1e6 * value) / 1e6; }
 
 /// The multipliers of symplectic Euler at h: of the limiting mode and, with Rayleigh damping, of
 /// every stiffness from 0 to that mode's.
-inline Json multipliers_json(const taut::LimitingMode& mode,
+inline Json multipliers_json(const taut::Mode& mode,
                              const std::optional<taut::RayleighDamping>& rayleigh, double h) {
     constexpr int samples = 240;
     const auto pair = [&](double k, double d) {
@@ -76,7 +76,7 @@ inline Json window_json(const taut::Stability<double>& stability, const Findings
 
 /// @param rayleigh  of the system, if Rayleigh damping is all it has
 inline Json page_data(const taut::Stability<double>& stability, const Findings& found,
-                      const taut::LimitingMode& mode,
+                      const taut::Mode& mode,
                       const std::optional<taut::RayleighDamping>& rayleigh) {
     Json json;
     json["multipliers"] = nullptr;
@@ -98,7 +98,7 @@ inline Json page_data(const taut::Stability<double>& stability, const Findings& 
 /// Triangles, a line as one without area, and the springs that hold at least a thousandth of what
 /// the foremost one holds.
 inline void add_mesh(Json& page, const Scene& scene, const taut::Stability<double>& stability,
-                     const taut::LimitingMode& mode) {
+                     const taut::Mode& mode) {
     constexpr std::size_t most_springs = 20'000;
     const auto x = scene.system.initial_state().x;
     const int width = scene.system.size() < 65536 ? 2 : 4;
@@ -176,7 +176,7 @@ inline Json run_json(const KickedRun& run, const std::vector<taut::Index>& moved
 /// The runs at 0.99 of the certified and 1.01 of the refuted step, without gravity, so that the
 /// pose is at rest and nothing but the step moves it.
 inline void add_runs(Json& page, const Scene& scene, const taut::StepLimit<double>& limit,
-                     const taut::LimitingMode& mode) {
+                     const taut::Mode& mode) {
     if (page["multipliers"].is_null()) return;
     System still = scene.system;
     still.set_gravity({0, 0, 0});

@@ -78,8 +78,8 @@ void blow(Scene& scene) {
     taut::set_wind(dynamic_cast<SceneOn<AnyLaw<double, 3>>&>(scene.base()).system, wind);
 }
 
-taut::LimitingMode limiting_mode(const Scene& scene, const AnyState& state) {
-    taut::LimitingMode mode;
+taut::Mode limiting_mode(const Scene& scene, const AnyState& state) {
+    taut::Mode mode;
     visit_system<Plain<double, 3>>(scene, [&](const auto& system) {
         const taut::Stability<double> stability(system, from_any<taut::State<double, 3>>(state));
         mode = taut::limiting_mode(stability);

@@ -33,6 +33,6 @@ std::unique_ptr<AnyDump> open_dump(const Kind& kind, const std::string& path, In
 Scene cloth_scene(Index rows, Index columns);
 Scene lattice_scene(const std::array<Index, 3>& size);
 void blow(Scene& scene);
-taut::LimitingMode limiting_mode(const Scene& scene, const AnyState& state);
+taut::Mode limiting_mode(const Scene& scene, const AnyState& state);
 
 }  // namespace taut_test

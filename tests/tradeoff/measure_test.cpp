@@ -173,8 +173,8 @@ TEST_CASE("measure_tradeoff: the modes' errors are those predicted", "[tradeoff]
         REQUIRE(point.modes.size() == 2);
         for (std::size_t j = 0; j < 2; ++j) {
             REQUIRE(point.modes[j]);
-            const auto predicted =
-                taut::mode_error(point.candidate.method, point.candidate.h * result.modes[j].omega);
+            const auto predicted = taut::mode_error(point.candidate.method,
+                                                    point.candidate.h * result.modes[j].omega());
             CHECK_THAT(
                 point.modes[j]->artificial_damping,
                 WithinAbs(predicted.artificial_damping, 0.1 * predicted.artificial_damping + 1e-9));

@@ -15,6 +15,7 @@
 #include "detail/pencil_shares.ipp"
 #include "detail/symplectic_bracket.hpp"
 #include "energy_limit.hpp"
+#include "mode.hpp"
 #include "stability.hpp"
 
 // What bounds a limit from above, and what sets it: by vectors that a Lanczos iteration finds.
@@ -73,13 +74,6 @@ struct EigenvalueBracket {
 struct StiffnessSpectrum {
     EigenvalueBracket k_min;  ///< zero modes included
     EigenvalueBracket k_max;  ///< upper: proved; lower: refuted by a vector
-};
-
-/// The mode that limits explicit steps: K'⁺u ≈ ku, uᵀMu = 1.
-struct LimitingMode {
-    double k = 0;           ///< its Rayleigh quotient, 1/s²
-    double d = 0;           ///< uᵀDu/uᵀMu, 1/s
-    Eigen::VectorXd shape;  ///< u, one entry for each free degree of freedom
 };
 
 /// Stability::max_step with `refuted`, s, and growth_rate: by Ritz vectors.
@@ -144,7 +138,7 @@ RitzPair largest_mode(const Pencil& pencil, const Combination& c) {
 
 /// The vibration that holds explicit steps down, as the Lanczos iteration found it.
 template <class Scalar>
-LimitingMode limiting_mode(const Stability<Scalar>& stability) {
+Mode limiting_mode(const Stability<Scalar>& stability) {
     if (stability.size() == 0) return {};
     const Pencil& pencil = stability.pencil();
     RitzPair pair = stability_detail::largest_mode(pencil, matrices::K_plus);
@@ -155,7 +149,7 @@ LimitingMode limiting_mode(const Stability<Scalar>& stability) {
 /// The `count` springs that hold most of a mode's elastic energy, the first one most.
 template <class Scalar>
 std::vector<SpringShare> limiting_springs(const Stability<Scalar>& stability, Index count,
-                                          const LimitingMode& mode) {
+                                          const Mode& mode) {
     if (stability.size() == 0 || count <= 0) return {};
     return stability_detail::largest_shares(stability.pencil().spring_shares(mode.shape), count);
 }
@@ -169,7 +163,7 @@ std::vector<SpringShare> limiting_springs(const Stability<Scalar>& stability, In
 /// The `count` particles that hold most of a mode's kinetic energy, the first one most.
 template <class Scalar>
 std::vector<ParticleShare> limiting_particles(const Stability<Scalar>& stability, Index count,
-                                              const LimitingMode& mode) {
+                                              const Mode& mode) {
     if (stability.size() == 0 || count <= 0) return {};
     return stability_detail::largest_shares(stability.pencil().particle_shares(mode.shape), count);
 }

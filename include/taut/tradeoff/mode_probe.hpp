@@ -12,6 +12,7 @@
 
 #include "../mass_scaling/detail/low_modes.hpp"
 #include "../own_matrices/linear_system.hpp"
+#include "../stability/mode.hpp"
 #include "../stability/pencil.hpp"
 #include "../accuracy/accuracy.hpp"
 #include "../recommend/candidate.hpp"
@@ -19,13 +20,6 @@
 // The errors of accuracy.hpp, measured: a stepper is started in one mode and its swing is fitted.
 
 namespace taut {
-
-/// A mode of vibration as linear theory has it.
-struct Mode {
-    double omega = 0;       ///< √k, rad/s
-    double zeta = 0;        ///< uᵀDu/(2ω)
-    Eigen::VectorXd shape;  ///< u, one entry for each free degree of freedom, uᵀMu = 1
-};
 
 namespace tradeoff_detail {
 
@@ -68,9 +62,9 @@ std::vector<Mode> lowest_modes(const SpringSystem<Scalar, Dim, Laws...>& system,
         Mode mode;
         mode.shape = shapes.col(j);
         pencil.multiply(matrices::K_plus, mode.shape, y);
-        mode.omega = std::sqrt(std::max(0.0, mode.shape.dot(y)));
+        mode.k = mode.shape.dot(y);
         pencil.multiply(matrices::D, mode.shape, y);
-        mode.zeta = mode.shape.dot(y) / (2 * mode.omega);
+        mode.d = mode.shape.dot(y);
         modes.push_back(std::move(mode));
     }
     return modes;
@@ -93,7 +87,7 @@ std::optional<ModeError> measured_mode_error(const LinearSystem<Scalar>& system,
             mode, {Method::symplectic_euler, candidate.h}, most_steps);
     }
     const auto h = static_cast<Scalar>(candidate.h);
-    const double z = mode.omega * static_cast<double>(h);
+    const double z = mode.omega() * static_cast<double>(h);
     const Index stride = std::clamp<Index>(static_cast<Index>(0.5 / z), 1,
                                            std::max<Index>(1, (most_steps - settling) / samples));
     const Eigen::VectorXd weights = system.mass().template cast<double>().cwiseProduct(mode.shape);
@@ -112,8 +106,9 @@ std::optional<ModeError> measured_mode_error(const LinearSystem<Scalar>& system,
     const auto mu = tradeoff_detail::fitted_multiplier<double>(swing);
     if (!mu) return std::nullopt;
     const std::complex<double> rate = std::log(*mu) / (static_cast<double>(stride) * z);
-    const double frequency = std::sqrt(std::max(0.0, (1 - mode.zeta) * (1 + mode.zeta)));
-    return ModeError{-rate.real() / std::abs(rate) - mode.zeta, frequency / rate.imag() - 1};
+    const double zeta = mode.zeta();
+    const double frequency = std::sqrt(std::max(0.0, (1 - zeta) * (1 + zeta)));
+    return ModeError{-rate.real() / std::abs(rate) - zeta, frequency / rate.imag() - 1};
 }
 
 }  // namespace taut
