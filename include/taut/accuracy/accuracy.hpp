@@ -65,8 +65,8 @@ struct ModeTolerance {
 
     /// Whether both errors are within it.
     bool admits(const ModeError& error) const {
-        return std::abs(error.artificial_damping) <= damping_ratio &&
-               std::abs(error.period_error) <= period;
+        return (std::abs)(error.artificial_damping) <= damping_ratio &&
+               (std::abs)(error.period_error) <= period;
     }
 };
 
@@ -84,7 +84,7 @@ inline double accurate_step(Method method, const ModeTolerance& tolerance, doubl
     // below. All errors are below z at small z.
     constexpr double stride = 1.02;
     constexpr double everything = 1e6;  // radians a step
-    double low = 1e-2 * std::min({0.1, tolerance.damping_ratio, tolerance.period});
+    double low = 1e-2 * (std::min)({0.1, tolerance.damping_ratio, tolerance.period});
     while (tolerance.admits(mode_error(method, low * stride, zeta))) {
         low *= stride;
         if (low > everything) return std::numeric_limits<double>::infinity();

@@ -38,7 +38,7 @@ public:
     /// invalid_state, at that particle.
     template <class AnyState>
     Report step(AnyState& state, Scalar h, Index count = 1) {
-        if (const Report report = held_.check(system_->size()); !report) return report;
+        if (const Report report = held_.examine(system_->size()); !report) return report;
         return loop_.run(*system_, state, h, count,
                          [&](State& own) { return step_.advance(*system_, own, h, held_); });
     }

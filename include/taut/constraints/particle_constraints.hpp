@@ -101,8 +101,8 @@ void ParticleConstraints<Scalar, Dim>::add(Held& at, Index particle, const Vecto
     if (size <= parallel) {
         const Scalar known_speed = at.speeds.cwiseAbs().maxCoeff();
         const Scalar rounding =
-            64 * std::numeric_limits<Scalar>::epsilon() * (std::abs(speed) + known_speed);
-        if (std::abs(speed - implied) > rounding + 2 * size * known_speed) {
+            64 * std::numeric_limits<Scalar>::epsilon() * ((std::abs)(speed) + known_speed);
+        if ((std::abs)(speed - implied) > rounding + 2 * size * known_speed) {
             fail("ParticleConstraints: particle ", particle, " is held to a speed of ", implied,
                  " along this direction; ", speed, " contradicts it");
         }

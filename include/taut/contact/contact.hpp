@@ -102,7 +102,7 @@ ContactReport<typename System::Scalar, System::Dim> resolve_contacts(
             const Vector along = before + into * normal;
             const Scalar speed = along.norm();
             const Scalar kept =
-                speed > 0 ? std::max(Scalar(0), 1 - friction * into / speed) : Scalar(0);
+                speed > 0 ? (std::max)(Scalar(0), 1 - friction * into / speed) : Scalar(0);
             state.v.col(i) = kept * along;
             impulse += system.mass(i) * (state.v.col(i) - before);
         });

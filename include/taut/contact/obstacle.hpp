@@ -61,7 +61,7 @@ public:
     Surface<Scalar, Dim> surface(const Vector& x) const {
         const Vector out = x - centre_;
         const Scalar length = out.stableNorm();
-        if (length < std::numeric_limits<Scalar>::min()) {
+        if (length < (std::numeric_limits<Scalar>::min)()) {
             return {-radius_, Vector::Unit(Dim - 1)};
         }
         return {length - radius_, out / length};

@@ -106,7 +106,7 @@ public:
     void resize(std::size_t size, const T& value) {
         const T all = value;  // which may lie in this buffer
         const std::size_t old = size_;
-        if (size > capacity_) set_capacity(std::max(size, 2 * capacity_));
+        if (size > capacity_) set_capacity((std::max)(size, 2 * capacity_));
         size_ = size;
         if (size > old) std::fill(data_ + old, data_ + size, all);
     }

@@ -71,7 +71,7 @@ void require_non_negative(const char* function, const char* argument, Scalar val
 template <class Scalar>
 void require_held(const char* function, const char* argument, double value) {
     require_non_negative(function, argument, value);
-    constexpr Scalar most = std::numeric_limits<Scalar>::max();
+    constexpr Scalar most = (std::numeric_limits<Scalar>::max)();
     if (value > most) {
         fail(function, ": ", argument, " is ", value, "; the system's numbers end at ", most);
     }

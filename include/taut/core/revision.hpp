@@ -17,7 +17,7 @@ public:
     Revision(const Revision&) = default;
     /// Moves beyond both values.
     Revision& operator=(const Revision& other) {
-        value_ = std::max(value_, other.value_) + 1;
+        value_ = (std::max)(value_, other.value_) + 1;
         return *this;
     }
     ~Revision() = default;

@@ -82,7 +82,7 @@ EquilibriumSearch<System>::EquilibriumSearch(const System& system, const State& 
     });
     stiffness_ = std::sqrt(stiffness_);
     update_forces();
-    scale_ = std::max(mass * system.gravity().norm(), residual_.norm());
+    scale_ = (std::max)(mass * system.gravity().norm(), residual_.norm());
     // The first step moves a mechanism by about a hundredth of the scene.
     const Scalar extent = (state_.x.rowwise().maxCoeff() - state_.x.rowwise().minCoeff()).norm();
     const Scalar step = extent > 0 ? extent / 100 : Scalar(1) / 100;
@@ -147,7 +147,7 @@ Status EquilibriumSearch<System>::iterate() {
         failures_ = 0;
     } else {
         ++failures_;
-        sigma_ = 16 * std::max(sigma_, std::numeric_limits<Scalar>::min() * 1000);
+        sigma_ = 16 * (std::max)(sigma_, (std::numeric_limits<Scalar>::min)() * 1000);
         if (!std::isfinite(sigma_)) return Status::not_converged;
     }
     return Status::ok;
@@ -165,7 +165,7 @@ bool EquilibriumSearch<System>::at_saddle() {
         if (free.place(particle) >= 0) shift[free.place(particle)] += stiffness;
     };
     system_.for_each_tangent(state_.x, [&](const SpringTangent<Scalar, Dim>& t) {
-        const Scalar most = std::max({t.bound, std::abs(t.axial), std::abs(t.transverse)});
+        const Scalar most = (std::max)({t.bound, (std::abs)(t.axial), (std::abs)(t.transverse)});
         add(t.a, most);
         add(t.b, most);
     });

@@ -136,7 +136,7 @@ private:
     void renew();
     Scalar trial_step() const;
     Status open(const State& state, Scalar frame, Scalar longest, GuardedReport<Scalar>& report);
-    static Frame cut(Scalar span, Scalar longest, Index most = std::numeric_limits<Index>::max());
+    static Frame cut(Scalar span, Scalar longest, Index most = (std::numeric_limits<Index>::max)());
     template <class By, class Take, class Respond>
     bool run(State& state, Frame frame, Kind kind, By& by, Take&& take, Respond& respond);
     template <class Respond>

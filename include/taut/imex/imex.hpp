@@ -140,7 +140,7 @@ void ImexEuler<System>::find_shares() {
         const auto rest = laplacian.explicit_part(parts);
         // Half of it: as energy_limit.
         const double half = stability_detail::certified_symplectic(rest).h / 2;
-        certified = laplacian.lost().empty() ? std::min(certified, half) : 0;
+        certified = laplacian.lost().empty() ? (std::min)(certified, half) : 0;
     }
     links_ = shares.links();
     limit_ = {};
@@ -194,7 +194,7 @@ Report ImexEuler<System>::factorize() {
 template <class System>
 template <class AnyState>
 Report ImexEuler<System>::step(AnyState& state, Scalar h, Index count) {
-    const Report checked = integrator_detail::StepLoop<State>::check(*system_, state, h);
+    const Report checked = integrator_detail::StepLoop<State>::examine(*system_, state, h);
     if (!checked || count <= 0) return checked;
     if (const Report made = renew(); !made) return made;
     if (touched() == 0)

@@ -61,12 +61,12 @@ AddedMass added_mass(const SpringSystem<Scalar, Dim, Laws...>& system,
             pencil.particle_loads(2 * h * matrices::D + h * h * matrices::K_plus, p);  // N s²/m, kg
         double total = 0;
         for (std::size_t i = 0; i < count; ++i) {
-            total += std::max(0.0, needed[i] / budget * margin - mass[i]);
+            total += (std::max)(0.0, needed[i] / budget * margin - mass[i]);
         }
         if (total < best) {
             best = total;
             for (std::size_t i = 0; i < count; ++i) {
-                added.mass[free[i]] = std::max(0.0, needed[i] / budget * margin - mass[i]);
+                added.mass[free[i]] = (std::max)(0.0, needed[i] / budget * margin - mass[i]);
             }
         }
         // A particle with mass to spare takes over from its neighbours by a smaller weight.

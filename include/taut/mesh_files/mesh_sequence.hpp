@@ -61,16 +61,16 @@ namespace io_detail {
 /// Fails naming the first corner or end that is no particle.
 inline void require_mesh(const char* function, Index particles, const MeshFaces& faces,
                          const MeshEdges& edges) {
-    const auto require = [&](const char* part, std::size_t index, const char* role,
-                             const auto& of) {
+    const auto require_corners = [&](const char* part, std::size_t index, const char* role,
+                                     const auto& of) {
         for (const Index i : of) {
             if (i >= 0 && i < particles) continue;
             fail(function, ": ", part, " ", index, " has the ", role, " ", i, "; there are ",
                  particles, " positions");
         }
     };
-    for (std::size_t f = 0; f < faces.size(); ++f) require("face", f, "corner", faces[f]);
-    for (std::size_t e = 0; e < edges.size(); ++e) require("edge", e, "end", edges[e]);
+    for (std::size_t f = 0; f < faces.size(); ++f) require_corners("face", f, "corner", faces[f]);
+    for (std::size_t e = 0; e < edges.size(); ++e) require_corners("edge", e, "end", edges[e]);
 }
 
 }  // namespace io_detail

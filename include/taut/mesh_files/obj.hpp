@@ -19,7 +19,7 @@ FileReport write_obj(const std::string& path, const Points<Scalar, Dim>& x, cons
     }
     io_detail::require_mesh("write_obj", x.cols(), faces, edges);
     io_detail::OutputFile out(path);
-    if (!out.is_open()) return out.check();
+    if (!out.is_open()) return out.report();
     for (Index i = 0; i < x.cols(); ++i) {
         std::fputs("v ", out.get());
         io_detail::put_column(out.get(), x, i);

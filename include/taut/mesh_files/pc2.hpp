@@ -59,10 +59,10 @@ private:
 };
 
 inline std::string Pc2Writer::checked(std::string path, Index points, const Pc2Options& options) {
-    if (points < 1 || points > std::numeric_limits<std::int32_t>::max()) {
+    if (points < 1 || points > (std::numeric_limits<std::int32_t>::max)()) {
         fail("Pc2Writer: points is ", points, "; it must be 1 to 2147483647");
     }
-    if (!(std::abs(options.start) <= std::numeric_limits<float>::max())) {
+    if (!((std::abs)(options.start) <= (std::numeric_limits<float>::max)())) {
         fail("Pc2Writer: start is ", options.start, "; it must be finite");
     }
     require_positive("Pc2Writer", "sampling", options.sampling);
@@ -87,7 +87,7 @@ FileReport Pc2Writer::write(const Points<Scalar, Dim>& x) {
     if (x.cols() != points_) {
         fail("Pc2Writer::write: ", x.cols(), " positions; the cache has ", points_, " points");
     }
-    if (const FileReport report = file_.check(); !report) return report;
+    if (const FileReport report = file_.report(); !report) return report;
     if (const Index i = io_detail::first_unwritable<float>(x); i >= 0) {
         return file_.report(FileStatus::not_finite, i);
     }
@@ -101,7 +101,7 @@ FileReport Pc2Writer::write(const Points<Scalar, Dim>& x) {
                          std::fseek(file, 0, SEEK_END) == 0 && std::fflush(file) == 0;
     if (!written) return file_.report(FileStatus::not_written);
     ++frames_;
-    return file_.check();
+    return file_.report();
 }
 
 }  // namespace taut

@@ -22,7 +22,7 @@ namespace taut {
 template <class Scalar, int Dim>
 FileReport write_ply(const std::string& path, const Points<Scalar, Dim>& x, const MeshFaces& faces,
                      const MeshEdges& edges = {}) {
-    if (x.cols() > std::numeric_limits<std::int32_t>::max()) {
+    if (x.cols() > (std::numeric_limits<std::int32_t>::max)()) {
         fail("write_ply: ", x.cols(), " positions; a PLY file holds at most 2147483647");
     }
     if (const Index i = io_detail::first_unwritable<float>(x); i >= 0) {
@@ -62,7 +62,7 @@ FileReport write_ply(const std::string& path, const Points<Scalar, Dim>& x, cons
     for (const auto& edge : edges) put_corners(edge);
 
     io_detail::OutputFile out(path);
-    if (!out.is_open()) return out.check();
+    if (!out.is_open()) return out.report();
     std::fwrite(file.data(), 1, file.size(), out.get());
     return out.close();
 }

@@ -64,7 +64,7 @@ FileReport write_vtk(const std::string& path, const System& system,
         return {FileStatus::not_finite, path, i};
     }
     io_detail::OutputFile out(path);
-    if (!out.is_open()) return out.check();
+    if (!out.is_open()) return out.report();
     std::FILE* file = out.get();
     const auto particles = static_cast<long long>(system.size());
     const auto springs = static_cast<long long>(system.spring_count());

@@ -45,7 +45,7 @@ public:
         const double size =
             vertices.size() > 0 ? static_cast<double>(vertices.cwiseAbs().maxCoeff()) : 0;
         // A little wider than the reach, for rounding, and never so narrow that 64 bits overflow.
-        width_ = std::max({1.01 * reach, 1e-12 * size, std::numeric_limits<double>::min()});
+        width_ = (std::max)({1.01 * reach, 1e-12 * size, (std::numeric_limits<double>::min)()});
     }
     void add(Index v) { cells_[key(cell(v))].push_back(v); }
     /// The least of the vertices added within reach of v, or v.
@@ -55,7 +55,7 @@ public:
         for (std::int64_t i = -1; i <= 1; ++i)
             for (std::int64_t j = -1; j <= 1; ++j)
                 for (std::int64_t k = -1; k <= 1; ++k)
-                    first = std::min(first, first_in({at[0] + i, at[1] + j, at[2] + k}, v));
+                    first = (std::min)(first, first_in({at[0] + i, at[1] + j, at[2] + k}, v));
         return first;
     }
 

@@ -22,7 +22,7 @@ struct Bdf2 {
     static double spectral_radius(double k, double d, double h) {
         double radius = 0;
         for (const auto& lambda : taut::method_detail::roots({d, k}))
-            radius = std::max(radius, 1 / std::abs(2.0 - std::sqrt(1.0 + 2 * h * lambda)));
+            radius = (std::max)(radius, 1 / (std::abs)(2.0 - std::sqrt(1.0 + 2 * h * lambda)));
         return radius;
     }
     /// Infinity; for k < 0 where 1 + τd + τ²k = 0, τ = ⅔h.

@@ -21,7 +21,7 @@ struct EnergyStableEuler {
 
     /// [T10] with d + hk⁺ in place of d.
     static StepQuadratic step_quadratic(double k, double d, double h) {
-        return SymplecticEuler::step_quadratic(k, d + h * std::max(0.0, k), h);
+        return SymplecticEuler::step_quadratic(k, d + h * (std::max)(0.0, k), h);
     }
     /// The largest |μ| of that polynomial.
     static double spectral_radius(double k, double d, double h) {

@@ -35,10 +35,10 @@ Real gershgorin_bound(const SparseMatrix<Real>& A) {
     VectorX<Real> row = VectorX<Real>::Zero(A.rows());
     for (Index j = 0; j < A.outerSize(); ++j) {
         for (typename SparseMatrix<Real>::InnerIterator entry(A, j); entry; ++entry) {
-            row[entry.row()] += std::abs(entry.value());
+            row[entry.row()] += (std::abs)(entry.value());
         }
     }
-    return std::max(row.maxCoeff(), std::numeric_limits<Real>::min() * Real(1e20));
+    return (std::max)(row.maxCoeff(), (std::numeric_limits<Real>::min)() * Real(1e20));
 }
 
 /// (A + σI)⁻¹ for A = M^-½ K M^-½, as Spectra asks for an operator. σ > 0 keeps the matrix definite
@@ -92,7 +92,7 @@ Report lanczos_vectors(const SparseMatrix<Real>& A, Index count, const ModalOpti
     ShiftedInverse<Real> inverse(A, bound);
     if (!inverse.definite()) return {Status::not_positive_definite};
     try {
-        const Index space = std::min(N, 2 * count + 20);
+        const Index space = (std::min)(N, 2 * count + 20);
         Spectra::SymEigsShiftSolver<ShiftedInverse<Real>> solver(inverse, count, space,
                                                                  -inverse.sigma());
         solver.init();
@@ -128,7 +128,7 @@ Report lowest_modes(const SparseMatrix<Real>& A, Index count, const ModalOptions
     report.residual = static_cast<double>(left.colwise().norm().maxCoeff() / bound);
     const Real rounding =
         std::sqrt(static_cast<Real>(A.rows())) * std::numeric_limits<Real>::epsilon();
-    k = (k.array().abs() <= 16 * rounding * bound).select(0, k);
+    k = (k.cwiseAbs().array() <= 16 * rounding * bound).select(0, k);
     return report;
 }
 

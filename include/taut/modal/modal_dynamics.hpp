@@ -112,7 +112,8 @@ ModalDynamics<Shape, Dim>::ModalDynamics(const LinearSystem<Real>& linear,
     constexpr auto epsilon = static_cast<Shape>(std::numeric_limits<double>::epsilon());
     for (Index j = 0; j < basis.size(); ++j) {
         const Shape noise = epsilon * shapes_.col(j).cwiseAbs().maxCoeff();
-        shapes_.col(j) = (shapes_.col(j).array().abs() < noise).select(Shape(0), shapes_.col(j));
+        shapes_.col(j) =
+            (shapes_.col(j).cwiseAbs().array() < noise).select(Shape(0), shapes_.col(j));
     }
     pose_ = pose.x.template cast<Shape>();
     p_ = load_;
@@ -197,8 +198,9 @@ void ModalDynamics<Shape, Dim>::expand(const Eigen::ArrayXd& amplitudes,
     out.resize(Dim, pose_.cols());
     Eigen::Map<Flat> flat(out.data(), out.size());
     // A scene that has come to rest must not go on in denormal numbers.
-    const double rest = std::sqrt(static_cast<double>(std::numeric_limits<Shape>::min()));
-    const Flat q = (amplitudes.abs() < rest).select(0, amplitudes).matrix().template cast<Shape>();
+    const double rest = std::sqrt(static_cast<double>((std::numeric_limits<Shape>::min)()));
+    const Flat q =
+        (amplitudes.cwiseAbs() < rest).select(0, amplitudes).matrix().template cast<Shape>();
     flat.noalias() = shapes_ * q;
     if (offset != nullptr) out += *offset;
 }

@@ -53,7 +53,7 @@ struct Buckling {
         if (l >= L) return p.stiffness * (l - L);
         const Scalar line = p.onset * (l - L);
         if (line >= -12 * beam_unit(p, L)) return line;  // no arc pushes less
-        return std::max(line, -4 * beam_unit(p, L) / arc(L, l).lever);
+        return (std::max)(line, -4 * beam_unit(p, L) / arc(L, l).lever);
     }
     /// T′(l), N/m; at the kinks that of one side.
     template <class Scalar>
@@ -96,16 +96,16 @@ struct Buckling {
             return at * model_detail::Arc<Scalar>::at(at).sag;
         };
         const Scalar bent =
-            line(shortening(from)) + 2 * beam_unit(p, L) * L * (std::min(w, to) - from);
+            line(shortening(from)) + 2 * beam_unit(p, L) * L * ((std::min)(w, to) - from);
         return w <= to ? bent : bent + line(delta) - line(shortening(to));
     }
     /// A bound ≥ max(T′(l), T(l)/l) over all l > 0, N/m [T3], [T23]: the beam is stiffest at l → 0,
     /// where T′ = 12π²k_b/L³.
     template <class Scalar>
     static Scalar stiffness_bound(const Parameters<Scalar>& p, Scalar L) {
-        const Scalar linear = std::max(p.stiffness, p.onset);
+        const Scalar linear = (std::max)(p.stiffness, p.onset);
         if (!beam_shows(p, L)) return linear;
-        return std::max(linear, 12 * model_detail::Arc<Scalar>::touching * (beam_unit(p, L) / L));
+        return (std::max)(linear, 12 * model_detail::Arc<Scalar>::touching * (beam_unit(p, L) / L));
     }
 
 private:
@@ -147,7 +147,7 @@ private:
             const Scalar excess = w * at.sag * at.lever - 1 / c;
             const Scalar slope = Scalar(0.5) * at.lever * at.lever + w * at.sag * at.lever_w;
             const Scalar step = excess / slope;
-            if (!(std::abs(step) > 4 * std::numeric_limits<Scalar>::epsilon() * w)) break;
+            if (!((std::abs)(step) > 4 * std::numeric_limits<Scalar>::epsilon() * w)) break;
             w = std::clamp(w - step, Scalar(0), model_detail::Arc<Scalar>::touching);
         }
         return w;

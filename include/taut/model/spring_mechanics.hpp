@@ -94,7 +94,7 @@ struct SpringLength {
 
     /// @param l2  dx·dx, m²
     explicit SpringLength(const Real& l2)
-        : l(std::sqrt(std::max(l2, std::numeric_limits<Real>::min()))) {}
+        : l(std::sqrt((std::max)(l2, (std::numeric_limits<Real>::min)()))) {}
     /// y/l.
     Real divide(const Real& y) const { return y / l; }
 };

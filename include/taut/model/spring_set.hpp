@@ -102,7 +102,7 @@ struct SpringSet {
         t.damping = spring.damping;
         for (int k = 0; k < Dim; ++k) t.d[k] = x(k, t.b) - x(k, t.a);
         const Real l2 = t.d.squaredNorm();
-        if (l2 >= static_cast<Real>(std::numeric_limits<Scalar>::min()) && std::isfinite(l2)) {
+        if (l2 >= static_cast<Real>((std::numeric_limits<Scalar>::min)()) && std::isfinite(l2)) {
             const Real l = std::sqrt(l2);
             for (int k = 0; k < Dim; ++k) t.d[k] /= l;
             t.axial = spring.tension_slope(l);
@@ -125,8 +125,8 @@ struct SpringSet {
         bool apart = false;
         for (int k = 0; k < Dim; ++k) {
             dx[k] = x(k, t.b) - x(k, t.a);
-            far_a = std::max(far_a, std::abs(x(k, t.a)));
-            far_b = std::max(far_b, std::abs(x(k, t.b)));
+            far_a = (std::max)(far_a, (std::abs)(x(k, t.a)));
+            far_b = (std::max)(far_b, (std::abs)(x(k, t.b)));
             apart = apart || t.d[k] != 0;
         }
         if (!apart) return {t.axial, t.axial};
@@ -137,10 +137,10 @@ struct SpringSet {
         const Real reach = 8 * static_cast<Real>(std::numeric_limits<Scalar>::epsilon()) * size;
         if (!std::isfinite(l + reach)) return {t.axial, t.axial};
         // Laws are asked for l > 0: below this length the ends coincide [T3].
-        const Real shortest = std::sqrt(static_cast<Real>(std::numeric_limits<Scalar>::min()));
+        const Real shortest = std::sqrt(static_cast<Real>((std::numeric_limits<Scalar>::min)()));
         const auto [least, most] =
-            model_detail::slope_range<Law>(p, L, std::max(l - reach, shortest), l + reach);
-        return {std::min(least, t.axial), std::max(most, t.axial)};
+            model_detail::slope_range<Law>(p, L, (std::max)(l - reach, shortest), l + reach);
+        return {(std::min)(least, t.axial), (std::max)(most, t.axial)};
     }
 
 private:

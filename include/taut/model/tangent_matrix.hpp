@@ -85,7 +85,7 @@ void TangentMatrix<Scalar, Dim>::assemble(const System& system, const Points<Sca
     const Scalar on_damper = static_cast<Scalar>(c.damping());
     std::size_t s = 0;
     system.for_each_tangent(x, [&](const SpringTangent<Scalar, Dim>& raw) {
-        const Slots slots = slots_[s++];
+        const Slots own = slots_[s++];
         const Index a = free_.place(raw.a);
         const Index b = free_.place(raw.b);
         const auto plus = raw.projected();
@@ -96,9 +96,9 @@ void TangentMatrix<Scalar, Dim>::assemble(const System& system, const Points<Sca
         const Block P = spring_block(raw.d, axial, transverse);
         if (a >= 0) pattern_.add(A, diagonal_[a], a, P);
         if (b >= 0) pattern_.add(A, diagonal_[b], b, P);
-        if (slots.ab >= 0) {
-            pattern_.template add<Scalar, Dim>(A, slots.ab, b, -P);
-            pattern_.template add<Scalar, Dim>(A, slots.ba, a, -P);
+        if (own.ab >= 0) {
+            pattern_.template add<Scalar, Dim>(A, own.ab, b, -P);
+            pattern_.template add<Scalar, Dim>(A, own.ba, a, -P);
         }
     });
     for (Index j = 0; j < free_.count(); ++j) {

@@ -75,7 +75,7 @@ public:
     /// Options::tolerance has it.
     template <class AnyState>
     Report step(AnyState& state, Scalar h, Index count = 1) {
-        if (const Report report = held_.check(system_->size()); !report) return report;
+        if (const Report report = held_.examine(system_->size()); !report) return report;
         return loop_.run(*system_, state, h, count, [&](State& own) { return advance(own, h); });
     }
     /// As of ImplicitEuler.

@@ -156,7 +156,7 @@ GeneralLinearSystem<Scalar>::GeneralLinearSystem(Vector mass, Matrix damping, Ma
     if (load_.size() != N) {
         fail("LinearSystem: load has ", load_.size(), " entries; mass has ", N);
     }
-    const auto require = [N](const char* argument, Matrix& matrix) {
+    const auto require_fit = [N](const char* argument, Matrix& matrix) {
         if (matrix.rows() != N || matrix.cols() != N) {
             fail("LinearSystem: ", argument, " is ", matrix.rows(), " by ", matrix.cols(),
                  "; mass asks for ", N, " by ", N);
@@ -171,8 +171,8 @@ GeneralLinearSystem<Scalar>::GeneralLinearSystem(Vector mass, Matrix damping, Ma
             }
         }
     };
-    require("damping", damping_);
-    require("stiffness", stiffness_);
+    require_fit("damping", damping_);
+    require_fit("stiffness", stiffness_);
     for (Index i = 0; i < N; ++i) {
         if (!std::isfinite(load_[i])) {
             fail("LinearSystem: load[", i, "] is ", load_[i], "; it must be finite");
@@ -249,19 +249,19 @@ auto LinearSystem<Scalar>::symmetric(const char* argument, Matrix matrix) -> Mat
     Vector largest = Vector::Zero(matrix.rows());  // of each row and its column
     for (Index j = 0; j < matrix.outerSize(); ++j) {
         for (typename Matrix::InnerIterator entry(matrix, j); entry; ++entry) {
-            const Scalar size = std::abs(entry.value());
-            largest[j] = std::max(largest[j], size);
-            largest[entry.row()] = std::max(largest[entry.row()], size);
+            const Scalar size = (std::abs)(entry.value());
+            largest[j] = (std::max)(largest[j], size);
+            largest[entry.row()] = (std::max)(largest[entry.row()], size);
         }
     }
     // What a stiff row rounds is no excuse for a soft one.
     const auto rounding = [&](Index i, Index j) {
-        return 16 * std::numeric_limits<Scalar>::epsilon() * std::min(largest[i], largest[j]);
+        return 16 * std::numeric_limits<Scalar>::epsilon() * (std::min)(largest[i], largest[j]);
     };
     bool exact = true;
     for (Index j = 0; j < difference.outerSize(); ++j) {
         for (typename Matrix::InnerIterator entry(difference, j); entry; ++entry) {
-            if (std::abs(entry.value()) > rounding(entry.row(), j)) {
+            if ((std::abs)(entry.value()) > rounding(entry.row(), j)) {
                 fail("LinearSystem: ", argument, "(", entry.row(), ", ", j, ") is ",
                      matrix.coeff(entry.row(), j), " but (", j, ", ", entry.row(), ") is ",
                      matrix.coeff(j, entry.row()),

@@ -33,7 +33,7 @@ public:
     double upper_bound(const Combination& c) const override;
     double deficit(const Pencil& pencil, const Combination& c, double known) const override {
         Prover prover;
-        return std::min(known, proved_deficit(prover, pencil, c, known));
+        return (std::min)(known, proved_deficit(prover, pencil, c, known));
     }
     SparseMatrix<double> assemble(const Combination& c) const override;
     double assembly_error(const Combination& c, const Eigen::VectorXd& s) const override;
@@ -52,7 +52,7 @@ private:
     /// The sizes of what S is added up from, the mass term apart: its rounding errors are relative
     /// to these.
     Matrix magnitudes(const Combination& c) const {
-        return std::abs(on_K(c)) * K_.cwiseAbs() + std::abs(c.damping()) * D_.cwiseAbs();
+        return (std::abs)(on_K(c)) * K_.cwiseAbs() + (std::abs)(c.damping()) * D_.cwiseAbs();
     }
     using Real = TangentReal<Scalar>;
 
@@ -64,8 +64,8 @@ private:
     /// The Rayleigh form of D, if it has one.
     std::optional<double> mass_proportional() const;
     /// @param check  takes each entry and its row
-    template <class Check>
-    static void for_each_entry(const SparseMatrix<Scalar>& A, Check&& check);
+    template <class Visit>
+    static void for_each_entry(const SparseMatrix<Scalar>& A, Visit&& visit);
     static bool diagonally_dominant(const SparseMatrix<Real>& A);
     static bool proves_semidefinite(const SparseMatrix<Scalar>& A);
 
@@ -97,11 +97,11 @@ Pencil MatrixPencil<Scalar>::of(const LinearSystem<Scalar>& system) {
 }
 
 template <class Scalar>
-template <class Check>
-void MatrixPencil<Scalar>::for_each_entry(const SparseMatrix<Scalar>& A, Check&& check) {
+template <class Visit>
+void MatrixPencil<Scalar>::for_each_entry(const SparseMatrix<Scalar>& A, Visit&& visit) {
     for (Index j = 0; j < A.outerSize(); ++j) {
         for (typename SparseMatrix<Scalar>::InnerIterator entry(A, j); entry; ++entry) {
-            check(entry.value(), entry.row());
+            visit(entry.value(), entry.row());
         }
     }
 }
@@ -126,8 +126,8 @@ std::optional<double> MatrixPencil<Scalar>::mass_proportional() const {
             }
         }
         const double quotient = d / mass_[j];
-        least = std::min(least, d != 0 && !std::isnormal(quotient) ? -1 : quotient);
-        most = std::max(most, quotient);
+        least = (std::min)(least, d != 0 && !std::isnormal(quotient) ? -1 : quotient);
+        most = (std::max)(most, quotient);
     }
     if (diagonal && least >= 0 && most <= least * (1 + rounding) && std::isfinite(most))
         return most;
@@ -147,7 +147,7 @@ bool MatrixPencil<Scalar>::diagonally_dominant(const SparseMatrix<Real>& A) {
                 diagonal = entry.value();
             } else {
                 // Knuth's two-sum: the residue of this addition.
-                const Real term = std::abs(entry.value());
+                const Real term = (std::abs)(entry.value());
                 const Real sum = others + term;
                 const Real back = sum - others;
                 exact = exact && (others - (sum - back)) + (term - back) == 0;
@@ -180,7 +180,7 @@ Enclosed MatrixPencil<Scalar>::quadratic(const Combination& c, const Eigen::Vect
     for (Index i = 0; i < size(); ++i) {
         const double term = c.mass() * mass_[i] * u[i] * u[i];
         sum.value += term;
-        sum.error += std::abs(term);
+        sum.error += (std::abs)(term);
     }
     const auto add = [&](const Matrix& A, double factor) {
         if (factor == 0) return;
@@ -188,7 +188,7 @@ Enclosed MatrixPencil<Scalar>::quadratic(const Combination& c, const Eigen::Vect
             for (Matrix::InnerIterator entry(A, j); entry; ++entry) {
                 const double term = factor * entry.value() * u[entry.row()] * u[j];
                 sum.value += term;
-                sum.error += std::abs(term);
+                sum.error += (std::abs)(term);
             }
         }
     };
@@ -214,10 +214,10 @@ double MatrixPencil<Scalar>::upper_bound(const Combination& c) const {
         static_cast<double>(widest + 8) * std::numeric_limits<double>::epsilon();
     // Products that underflow lose less than this in a row; rows without entries lose nothing.
     const Eigen::VectorXd entries =
-        sizes * Eigen::VectorXd::Ones(size()) + std::abs(c.mass()) * mass_;
+        sizes * Eigen::VectorXd::Ones(size()) + (std::abs)(c.mass()) * mass_;
     const Eigen::VectorXd underflow =
         (entries.array() > 0)
-            .select(static_cast<double>(widest + 8) * std::numeric_limits<double>::min(),
+            .select(static_cast<double>(widest + 8) * (std::numeric_limits<double>::min)(),
                     Eigen::VectorXd::Zero(size()));
     Eigen::VectorXd p = mass_.cwiseSqrt().cwiseInverse();
     Eigen::VectorXd others(size());
@@ -226,17 +226,17 @@ double MatrixPencil<Scalar>::upper_bound(const Combination& c) const {
         others.setZero();
         for (Index j = 0; j < size(); ++j) {
             for (Matrix::InnerIterator entry(S, j); entry; ++entry) {
-                if (entry.row() != j) others[entry.row()] += std::abs(entry.value()) * p[j];
+                if (entry.row() != j) others[entry.row()] += (std::abs)(entry.value()) * p[j];
             }
         }
         const Eigen::VectorXd diagonal = S.diagonal().cwiseProduct(p);
         const Eigen::VectorXd error =
-            rounding * (sizes * p + std::abs(c.mass()) * mass_.cwiseProduct(p)) + underflow;
+            rounding * (sizes * p + (std::abs)(c.mass()) * mass_.cwiseProduct(p)) + underflow;
         const Eigen::VectorXd weight = mass_.cwiseProduct(p);
         const Eigen::VectorXd quotient = (others + diagonal + error).cwiseQuotient(weight);
         // maxCoeff may pass over what is not a number: a weight that vanished, or overflow.
         if (!(weight.minCoeff() > 0) || quotient.hasNaN()) break;
-        best = std::min(best, quotient.maxCoeff());
+        best = (std::min)(best, quotient.maxCoeff());
         const Eigen::VectorXd powered = (others + diagonal.cwiseAbs()).cwiseQuotient(mass_);
         const double growth = powered.cwiseQuotient(p).maxCoeff();
         if (!(growth > 0)) break;
@@ -244,10 +244,10 @@ double MatrixPencil<Scalar>::upper_bound(const Combination& c) const {
         p = 0.5 * p + (0.5 / growth) * powered;
     }
     // A quotient that vanished by underflow is not zero.
-    const double least = std::numeric_limits<double>::min();
+    const double least = (std::numeric_limits<double>::min)();
     if (best >= 0 && best < least && sizes.nonZeros() > 0 && sizes.coeffs().maxCoeff() > 0)
         best = least;
-    return best + 8 * std::numeric_limits<double>::epsilon() * std::abs(best);
+    return best + 8 * std::numeric_limits<double>::epsilon() * (std::abs)(best);
 }
 
 template <class Scalar>
@@ -264,7 +264,7 @@ SparseMatrix<double> MatrixPencil<Scalar>::assemble(const Combination& c) const 
 /// Two products and two sums an entry.
 template <class Scalar>
 double MatrixPencil<Scalar>::assembly_error(const Combination& c, const Eigen::VectorXd& s) const {
-    const Eigen::VectorXd row = magnitudes(c) * s + std::abs(c.mass()) * mass_.cwiseProduct(s);
+    const Eigen::VectorXd row = magnitudes(c) * s + (std::abs)(c.mass()) * mass_.cwiseProduct(s);
     return 4 * std::numeric_limits<double>::epsilon() * s.cwiseProduct(row).maxCoeff();
 }
 
@@ -275,11 +275,11 @@ std::shared_ptr<const BareMatrices> MatrixPencil<Scalar>::scaled(double stiffnes
     auto own = std::make_shared<MatrixPencil>(*this);
     own->mass_ *= mass;
     // An entry that vanished would take the allowance for its row's underflow with it.
-    constexpr double least = std::numeric_limits<double>::min();
+    constexpr double least = (std::numeric_limits<double>::min)();
     own->K_ = K_.unaryExpr([&](double entry) {
         const double product = stiffness * entry;
         const bool zero = entry == 0 || stiffness == 0;
-        return zero ? 0 : std::copysign(std::max(std::abs(product), least), product);
+        return zero ? 0 : std::copysign((std::max)((std::abs)(product), least), product);
     });
     if (rayleigh) own->D_ *= mass;
     return own;

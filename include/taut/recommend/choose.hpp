@@ -49,10 +49,10 @@ inline Plan plan_for(Candidate candidate, double safe, const Goal& goal, double 
         goal.accuracy ? accurate_step(candidate.method, *goal.accuracy, goal.up_to_frequency, zeta)
                       : infinity;
     Plan plan;
-    const double usable = std::min(safe, accurate);
+    const double usable = (std::min)(safe, accurate);
     if (usable < goal.frame)
         plan.bound = safe <= accurate ? StepBound::stability : StepBound::accuracy;
-    const double count = std::max(1.0, std::ceil(goal.frame / usable));
+    const double count = (std::max)(1.0, std::ceil(goal.frame / usable));
     if (count > 1e15)
         fail("plan_for: a frame of ", goal.frame, " s holds ", count, " steps of ", usable, " s");
     plan.substeps = static_cast<Index>(count);

@@ -48,7 +48,7 @@ double step_cost(const System& system, const typename System::State& state,
         }
         if (!alive) before = last = std::numeric_limits<double>::infinity();
     });
-    return std::min(before, last);
+    return (std::min)(before, last);
 }
 
 }  // namespace taut

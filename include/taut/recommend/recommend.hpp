@@ -46,7 +46,7 @@ std::vector<Plan> feasible_plans(const SpringSystem<Scalar, Dim, Laws...>& syste
     if (goal.accuracy) {
         require_positive("recommend", "Goal::up_to_frequency", goal.up_to_frequency);
         // An overdamped mode has no period to err in: judge by the strongest damping with one.
-        zeta = std::min(0.95, damping_ratio(system.rayleigh(), goal.up_to_frequency));
+        zeta = (std::min)(0.95, damping_ratio(system.rayleigh(), goal.up_to_frequency));
     }
     const auto limit = static_cast<double>(any_pose_limit(system).certified);
     std::vector<Plan> plans;
@@ -72,13 +72,13 @@ template <class System>
 void measure_costs(const System& system, const typename System::State& state,
                    const Calibration& calibration, std::vector<Plan>& plans) {
     // A factorisation of a large scene takes seconds: one step shows that it is far behind.
-    constexpr double far = 5;
+    constexpr double too_dear = 5;
     double least = std::numeric_limits<double>::infinity();
     for (Plan& plan : plans) {
         const auto substeps = static_cast<double>(plan.substeps);
-        plan.cost = substeps *
-                    step_cost(system, state, plan.candidate, calibration, far * least / substeps);
-        least = std::min(least, plan.cost);
+        plan.cost = substeps * step_cost(system, state, plan.candidate, calibration,
+                                         too_dear * least / substeps);
+        least = (std::min)(least, plan.cost);
     }
 }
 

@@ -77,7 +77,7 @@ struct Resolution {
     /// The spring-steps of the scene itself over those of the chosen level; 1 where there is none.
     double cheaper() const {
         if (chosen < 0) return 1;
-        return fine_cost / std::max(1.0, levels[static_cast<std::size_t>(chosen)].cost);
+        return fine_cost / (std::max)(1.0, levels[static_cast<std::size_t>(chosen)].cost);
     }
 };
 

@@ -35,7 +35,7 @@ Pace pace_of(const System& system, double duration, Index samples) {
     Pace pace;
     if (!(limit.certified > 0)) return pace;
     const auto most = static_cast<double>(limit.certified);
-    const double steps = std::max(1.0, std::ceil(interval / most));
+    const double steps = (std::max)(1.0, std::ceil(interval / most));
     if (steps > 1e12) return pace;
     pace.steps = static_cast<Index>(steps);
     pace.h = interval / steps;
@@ -67,7 +67,7 @@ double worst_rms(std::size_t samples, const Eigen::VectorXd& many, const Apart& 
         double squares = 0;
         for (Index i = 0; i < many.size(); ++i)
             squares += many[i] * static_cast<double>(apart(s, i).squaredNorm());
-        worst = std::max(worst, std::sqrt(squares / many.sum()));
+        worst = (std::max)(worst, std::sqrt(squares / many.sum()));
     }
     return worst;
 }
@@ -180,13 +180,13 @@ private:
         for (Index i = 0; i < system_.size(); ++i) {
             if (system_.is_pinned(i)) {
                 farthest =
-                    std::max(farthest, duration_ * static_cast<double>(state_.v.col(i).norm()));
+                    (std::max)(farthest, duration_ * static_cast<double>(state_.v.col(i).norm()));
                 continue;
             }
-            farthest =
-                std::max(farthest, duration_ * static_cast<double>(state_.v.col(i).norm()) +
-                                       duration_ * duration_ / 2 *
-                                           static_cast<double>(f.col(i).norm() / system_.mass(i)));
+            farthest = (std::max)(farthest,
+                                  duration_ * static_cast<double>(state_.v.col(i).norm()) +
+                                      duration_ * duration_ / 2 *
+                                          static_cast<double>(f.col(i).norm() / system_.mass(i)));
         }
         return !(farthest <= 1e-9 * found_.size);
     }
@@ -221,7 +221,7 @@ private:
         for (std::size_t l = 0; l < last; ++l) {
             double apart = found_.levels[l].difference;
             if (l > 0 && l + 1 == last)
-                apart = std::max(apart, found_.levels[l - 1].difference / 3);
+                apart = (std::max)(apart, found_.levels[l - 1].difference / 3);
             found_.levels[l].error = std::hypot(apart, tail);
         }
     }
@@ -245,7 +245,7 @@ private:
             if (levels_[l].pace.cost <= little * levels_.back().pace.cost) at = l;
         const Level& level = levels_[at];
         const double size =
-            std::max(1e-7, 4 * static_cast<double>(std::numeric_limits<Scalar>::epsilon())) *
+            (std::max)(1e-7, 4 * static_cast<double>(std::numeric_limits<Scalar>::epsilon())) *
             found_.size;
         State start = level.start;
         disturb(level.coarsening.system, size, start);

@@ -68,7 +68,7 @@ public:
         return true;
     }
     const std::vector<std::array<Index, 2>>& pairs() const { return pairs_; }
-    Index key(Index a, Index b) const { return std::min(a, b) * vertices_ + std::max(a, b); }
+    Index key(Index a, Index b) const { return (std::min)(a, b) * vertices_ + (std::max)(a, b); }
 
 private:
     Index vertices_;

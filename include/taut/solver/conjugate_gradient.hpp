@@ -152,9 +152,9 @@ void ConjugateGradient<Scalar_, Dim>::improve_fast(const Vector& b, Scalar norm,
         fast_.r = (r_ / size).template cast<Fast>();
         // A little more than is asked for, in place of a second cycle; but not so much that the
         // recurrence has drifted away. On some matrices it never comes down.
-        const Scalar goal = std::max(Scalar(0.9) * tolerance_ * norm / size, Scalar(1e-5));
+        const Scalar goal = (std::max)(Scalar(0.9) * tolerance_ * norm / size, Scalar(1e-5));
         const Index most = iterations_ + std::clamp(b.size(), Index(1), Index(500));
-        fast_usable_ = fast_.run(rounded_, static_cast<Fast>(goal), std::min(cap, most),
+        fast_usable_ = fast_.run(rounded_, static_cast<Fast>(goal), (std::min)(cap, most),
                                  iterations_) != Eigen::NumericalIssue;
         if (!fast_usable_) return;
         x_ += (size * scale_) * fast_.x.template cast<Scalar>();

@@ -108,8 +108,8 @@ StiffnessSpectrum stiffness_spectrum(const Stability<Scalar>& stability) {
     if (stability.size() == 0) return spectrum;
     const Pencil& pencil = stability.pencil();
     const RitzPair stiffest = leading_pair(pencil, matrices::K_plus);
-    spectrum.k_max.upper = std::max(0.0, pencil.upper_bound(matrices::K_plus));
-    spectrum.k_max.lower = std::max(
+    spectrum.k_max.upper = (std::max)(0.0, pencil.upper_bound(matrices::K_plus));
+    spectrum.k_max.lower = (std::max)(
         0.0, stability_detail::quotients(pencil, stiffest.vector, matrices::K_plus).k.lower());
     const RitzPair softest = stability_detail::softest(pencil);
     spectrum.k_min.upper =
@@ -117,9 +117,9 @@ StiffnessSpectrum stiffness_spectrum(const Stability<Scalar>& stability) {
     if (std::isnan(spectrum.k_min.upper))
         spectrum.k_min.upper = stability_detail::infinity;  // overflow
     // Springs: K⁺ ⪰ 0 by construction. Bare matrices: proved so, or bounded.
-    spectrum.k_min.lower = -std::max(0.0, pencil.upper_bound(-matrices::K_plus));
+    spectrum.k_min.lower = -(std::max)(0.0, pencil.upper_bound(-matrices::K_plus));
     if (pencil.projected_semidefinite()) spectrum.k_min.lower = 0;
-    spectrum.k_min.upper = std::max(spectrum.k_min.upper, spectrum.k_min.lower);
+    spectrum.k_min.upper = (std::max)(spectrum.k_min.upper, spectrum.k_min.lower);
     return spectrum;
 }
 

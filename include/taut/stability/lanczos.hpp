@@ -74,7 +74,7 @@ inline double tridiagonal_residual(const std::vector<double>& H, Index m, Index 
     std::vector<double> last_row(d.size(), 0);
     last_row.back() = 1;
     const auto ritz = tridiagonal_spectrum(std::move(d), std::move(e), std::move(last_row));
-    return beta * std::abs(*ritz.vector(used - 1)) / std::abs(ritz.values.back());
+    return beta * (std::abs)(*ritz.vector(used - 1)) / (std::abs)(ritz.values.back());
 }
 
 /// Vectors of N numbers, side by side.
@@ -170,11 +170,11 @@ RitzPair ritz_search(const Pencil& pencil, const Combination& c, const LanczosOp
         const auto ritz = small_spectrum(std::move(projected), static_cast<std::size_t>(used));
         const double earlier = pair.value;
         pair.value = ritz.values[used - 1];
-        pair.residual = beta * std::abs(ritz.vector(used - 1)[used - 1]);
+        pair.residual = beta * (std::abs)(ritz.vector(used - 1)[used - 1]);
         const bool settled =
-            run > 0 && pair.value - earlier <= options.settled * std::abs(pair.value);
+            run > 0 && pair.value - earlier <= options.settled * (std::abs)(pair.value);
         const bool last = run == options.restarts || m == N || settled ||
-                          pair.residual <= options.tolerance * std::abs(pair.value);
+                          pair.residual <= options.tolerance * (std::abs)(pair.value);
         kept = last ? 1 : std::max<Index>(1, used / 3);
         std::vector<VectorX<Real>> best;  // what a restart keeps
         for (Index j = 0; j < kept; ++j) best.push_back(Q.sum(ritz.vector(used - kept + j), used));

@@ -68,7 +68,7 @@ TAUT_INLINE Enclosed Pencil::quadratic(const Combination& c, const Eigen::Vector
     for (Index i = 0; i < size(); ++i) {
         const double term = mass_.data()[i] * u.data()[i] * u.data()[i];
         sum.value += on_mass * term;
-        sum.error += std::abs(on_mass) * term;
+        sum.error += (std::abs)(on_mass)*term;
     }
     const bool springs =
         c.stiffness() != 0 || c.projected() != 0 ||
@@ -126,7 +126,7 @@ TAUT_INLINE auto Pencil::splitting(const Combination& c) const -> Splitting {
         const bool by_damper = link.across > 0 && axial < least && transverse < least;
         if (by_signs || by_damper) continue;  // not positive for certain
         split.term.push_back(
-            {link.a, link.b, std::max(axial, 0.0), std::max(transverse, 0.0), size, link.d});
+            {link.a, link.b, (std::max)(axial, 0.0), (std::max)(transverse, 0.0), size, link.d});
     }
     return split;
 }
@@ -166,7 +166,7 @@ TAUT_INLINE void Pencil::spread(const double* p, Splitting& split) const {
     for (std::size_t i = 0; i < split.rounding.size(); ++i) {
         double& size = split.rounding[i];
         if (size > 0) {
-            size = std::max(size * (degree_[i] + 64) * eps, std::numeric_limits<double>::min());
+            size = (std::max)(size * (degree_[i] + 64) * eps, (std::numeric_limits<double>::min)());
         }
     }
 }
@@ -217,10 +217,10 @@ TAUT_INLINE double Pencil::upper_bound(const Combination& c) const {
         for (std::size_t i = 0; i < r.size(); ++i) r[i] = quotient(load(split, i), i);
         const double largest = *std::max_element(r.begin(), r.end());
         for (std::size_t i = 0; i < p.size(); ++i) {
-            p[i] *= std::sqrt(std::max(r[i] / largest, 1e-4));
+            p[i] *= std::sqrt((std::max)(r[i] / largest, 1e-4));
         }
         spread(p.data(), split);
-        best = std::min(best, largest_quotient(split));
+        best = (std::min)(best, largest_quotient(split));
         if (repeat % 5 == 0) {
             if (best > earlier * (1 - worth_repeating)) break;
             earlier = best;
@@ -241,7 +241,7 @@ Pencil Pencil::explicit_part(const std::vector<Real>& shares) const {
              {&link.axial, &link.softer, &link.transverse, &link.damping, &link.across}) {
             *value *= part;
         }
-        link.bound *= std::abs(part);
+        link.bound *= (std::abs)(part);
         if (part >= 0) continue;
         // K⁺, which Rayleigh's α acts through, has no negative springs.
         link.damping += rayleigh_.stiffness_proportional * link.axial;
@@ -265,7 +265,7 @@ void Pencil::add_dampers(const std::vector<Real>& dampers) {
 
 template <class Real>
 Pencil Pencil::scaled(Real stiffness, Real mass) const {
-    constexpr double least = std::numeric_limits<double>::min();
+    constexpr double least = (std::numeric_limits<double>::min)();
     Pencil pencil = *this;
     pencil.mass_ *= mass;
     if (matrices_) pencil.matrices_ = matrices_->scaled(stiffness, mass, is_rayleigh());
@@ -275,7 +275,7 @@ Pencil Pencil::scaled(Real stiffness, Real mass) const {
         link.transverse *= stiffness;
         // The rounding that a bound stands for must not vanish with it.
         const bool zero = link.bound == 0 || stiffness == 0;
-        link.bound = std::max(link.bound * stiffness, zero ? 0 : least);
+        link.bound = (std::max)(link.bound * stiffness, zero ? 0 : least);
     }
     return pencil;
 }

@@ -134,7 +134,7 @@ public:
     /// An ε ≥ 0, in the units of M⁻¹S, with S ⪰ −εM proved: by the bound, for bare matrices also by
     /// factorisation.
     double deficit(const Combination& c) const {
-        const double bound = std::max(0.0, upper_bound(-c));
+        const double bound = (std::max)(0.0, upper_bound(-c));
         return matrices_ ? matrices_->deficit(*this, c, bound) : bound;
     }
     /// S as a sparse matrix, both triangles. Defined by pencil_matrix.hpp, as the next two.
@@ -193,7 +193,7 @@ public:
     /// A κ ≥ 0, 1/s², with K ⪰ −κM proved by the bound, rounding of the scene counted.
     double compression() const {
         const bool exact = stiffness_semidefinite() && resolution() == 0;
-        return exact ? 0 : std::max(0.0, upper_bound(-matrices::K));
+        return exact ? 0 : (std::max)(0.0, upper_bound(-matrices::K));
     }
     /// What stands in the place of springs, or null.
     const BareMatrices* matrices() const { return matrices_.get(); }
@@ -240,10 +240,10 @@ private:
     SparseMatrix<double> assemble_in(const CoefficientsOf& coefficients_of) const;
     /// What the rounding errors of a link's block are relative to, N/m.
     double magnitude(const Combination& c, const Link& link) const {
-        const double factor = std::abs(c.stiffness()) + std::abs(c.projected()) +
-                              std::abs(c.damping()) * rayleigh_.stiffness_proportional;
-        return factor * std::max(link.bound, std::abs(link.transverse)) +
-               std::abs(c.damping()) * link.damping;
+        const double factor = (std::abs)(c.stiffness()) + (std::abs)(c.projected()) +
+                              (std::abs)(c.damping()) * rayleigh_.stiffness_proportional;
+        return factor * (std::max)(link.bound, (std::abs)(link.transverse)) +
+               (std::abs)(c.damping()) * link.damping;
     }
     double mass_coefficient(const Combination& c) const {
         return c.mass() + c.damping() * rayleigh_.mass_proportional;
@@ -257,7 +257,7 @@ private:
     double quotient(double load, std::size_t i) const {
         // A quotient that vanished by underflow is not zero.
         const double r = load / particle_mass(i);
-        return load > 0 ? std::max(r, std::numeric_limits<double>::min()) : r;
+        return load > 0 ? (std::max)(r, (std::numeric_limits<double>::min)()) : r;
     }
     /// In the order of Eigen's sums.
     static double dot(const double* a, const double* b) {

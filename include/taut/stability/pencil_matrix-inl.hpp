@@ -67,7 +67,7 @@ Real Pencil::assembly_error(const Combination& c, const Eigen::VectorXd& s) cons
     Buffer<double> scale(degree_.size());
     for (std::size_t i = 0; i < scale.size(); ++i) {
         scale[i] = s.segment(dim() * static_cast<Index>(i), dim()).maxCoeff();
-        row[i] = std::abs(mass_coefficient(c)) * particle_mass(i) * scale[i] * scale[i];
+        row[i] = (std::abs)(mass_coefficient(c)) * particle_mass(i) * scale[i] * scale[i];
     }
     for (const Link& link : links_) {
         const double entry = dim() * magnitude(c, link);
@@ -78,7 +78,7 @@ Real Pencil::assembly_error(const Combination& c, const Eigen::VectorXd& s) cons
     }
     double largest = 0;
     for (std::size_t i = 0; i < row.size(); ++i) {
-        largest = std::max(largest, (degree_[i] + 32) * row[i]);
+        largest = (std::max)(largest, (degree_[i] + 32) * row[i]);
     }
     return largest * std::numeric_limits<double>::epsilon();
 }

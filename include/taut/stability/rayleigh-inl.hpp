@@ -43,11 +43,11 @@ inline bool explicit_ends(bool is_explicit, double h, double d0, double k_min, d
         return below(is_explicit ? below(h / 2) + quotient : quotient - above(h / 2));
     };
     window.upper = upper_at(k_max);
-    if (k_min > 0) window.upper = std::min(window.upper, upper_at(k_min));
+    if (k_min > 0) window.upper = (std::min)(window.upper, upper_at(k_min));
     window.lower = 0;
     if (is_explicit) {
         const double least = d0 > 0 ? above(h - below(d0 / k_max)) : h;
-        window.lower = std::max(least, 0.0);
+        window.lower = (std::max)(least, 0.0);
     }
     // α = 0 is explicit Euler with d0 alone: stable when h k_max < d0; symplectic is neutral.
     window.includes_zero = !is_explicit || std::fma(h, k_max, -d0) < 0;

@@ -26,7 +26,7 @@ AlphaWindow Stability<Scalar>::rayleigh_window(Method method, double h, double d
     if (!std::isfinite(stiffest) || !std::isfinite(compression)) {
         return {0, 0, EmptyWindow::overflow, false};
     }
-    return taut::rayleigh_window(method, h, d0, 0, std::max(0.0, stiffest), compression);
+    return taut::rayleigh_window(method, h, d0, 0, (std::max)(0.0, stiffest), compression);
 }
 
 template <class Scalar>

@@ -186,7 +186,7 @@ StepLimit<Scalar> rounded(const UnroundedLimit& limit, std::uint64_t revision) {
     answer.cause = limit.cause;
     // Nothing found is no estimate, and none lies where a vector refutes.
     if (limit.estimate > 0 && std::isfinite(limit.estimate)) {
-        answer.estimate = std::min(static_cast<Scalar>(limit.estimate), answer.refuted);
+        answer.estimate = (std::min)(static_cast<Scalar>(limit.estimate), answer.refuted);
     }
     answer.growth_rate = limit.growth_rate;
     answer.certified_up_to = round_down<Scalar>(limit.certified_up_to);

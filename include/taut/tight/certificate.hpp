@@ -61,7 +61,7 @@ DefinitenessProof Prover::operator()(SparseMatrix<double>&& A, Error&& max_error
     const Eigen::VectorXd diagonal = A.diagonal();
     for (Index i = 0; i < N; ++i) {
         if (!(diagonal[i] > 0) || !std::isfinite(diagonal[i])) return proof;
-        scale[i] = std::exp2(-std::round(std::log2(diagonal[i]) / 2));
+        scale[i] = std::exp2(-(std::round)(std::log2(diagonal[i]) / 2));
     }
     for (Index j = 0; j < N; ++j) {
         for (SparseMatrix<double>::InnerIterator entry(A, j); entry; ++entry) {
@@ -79,7 +79,7 @@ DefinitenessProof Prover::operator()(SparseMatrix<double>&& A, Error&& max_error
     const double slack = max_error(scale) * sum_rounding;
     // The last two terms: rounding of A − cI on a diagonal below 4, and underflow.
     const double underflow =
-        static_cast<double>(N * (widest_ + 1)) * std::numeric_limits<double>::min();
+        static_cast<double>(N * (widest_ + 1)) * (std::numeric_limits<double>::min)();
     proof.shift = (slack + stability_detail::cholesky_rounding(widest_) * trace) * (1 + 8 * u) +
                   4 * u + underflow;
     if (!(proof.shift < 0.5)) return proof;

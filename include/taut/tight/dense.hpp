@@ -34,7 +34,7 @@ public:
     /// Eigenvalues with |k| ≤ this are zero modes.
     Real zero_tolerance() const { return zero_; }
     /// How many these are.
-    Index zero_modes() const { return (modes_.eigenvalues().array().abs() <= zero_).count(); }
+    Index zero_modes() const { return (modes_.eigenvalues().cwiseAbs().array() <= zero_).count(); }
 
     /// min over λ(C) of −2 Re λ/|λ|², the exact limit of explicit Euler for any D [T18]; 0 when an
     /// undamped mode allows none, infinity when there is nothing but zero modes.
@@ -86,7 +86,7 @@ auto DenseAnalysis<Real>::generator() const -> Matrix {
     Index front = 0;
     Index back = r;
     for (Index j = 0; j < N; ++j) {
-        const Index to = std::abs(modes_.eigenvalues()[j]) <= zero_ ? back++ : front++;
+        const Index to = (std::abs)(modes_.eigenvalues()[j]) <= zero_ ? back++ : front++;
         V.col(to) = modes_.eigenvectors().col(j);
         k[to] = modes_.eigenvalues()[j];
     }
@@ -111,19 +111,20 @@ auto DenseAnalysis<Real>::limits() const -> Limits {
     Limits limits;
     for (Index i = 0; i < C.rows(); ++i) {
         const std::complex<Real> lambda = solver.eigenvalues()[i];
-        if (std::abs(lambda) <= rounding) continue;  // a zero mode's velocity
+        if ((std::abs)(lambda) <= rounding) continue;  // a zero mode's velocity
         const Real error = rounding * V.col(i).norm() * W.row(i).norm();
         // The growth of a buckled system is not the step's [T27]. It is real, but two that are
         // nearly equal may round to a complex pair.
         if (buckled && lambda.real() > 0 &&
-            std::abs(lambda.imag()) <= std::max(error, Real(1e-6) * std::abs(lambda)))
+            (std::abs)(lambda.imag()) <= (std::max)(error, Real(1e-6) * (std::abs)(lambda)))
             continue;
         const Real size = std::norm(lambda);
-        limits.estimate = std::min(limits.estimate, std::max(Real(0), -2 * lambda.real() / size));
-        const Real least = std::abs(lambda) - error;
-        if (!(least > std::abs(lambda) / 2)) continue;
-        limits.above =
-            std::min(limits.above, 2 * std::max(Real(0), error - lambda.real()) / (least * least));
+        limits.estimate =
+            (std::min)(limits.estimate, (std::max)(Real(0), -2 * lambda.real() / size));
+        const Real least = (std::abs)(lambda)-error;
+        if (!(least > (std::abs)(lambda) / 2)) continue;
+        limits.above = (std::min)(limits.above,
+                                  2 * (std::max)(Real(0), error - lambda.real()) / (least * least));
     }
     return limits;
 }
@@ -139,11 +140,11 @@ Real DenseAnalysis<Real>::spectral_radius(Method method, Real h) const {
     Real radius = 0;
     for (const auto& mu : ComplexVector(step.eigenvalues())) {
         // The velocity of an undamped zero mode: multiplier exactly 1.
-        if (std::abs(mu - Real(1)) <=
+        if ((std::abs)(mu - Real(1)) <=
             64 * static_cast<Real>(n) * std::numeric_limits<Real>::epsilon()) {
             continue;
         }
-        radius = std::max(radius, std::abs(mu));
+        radius = (std::max)(radius, (std::abs)(mu));
     }
     return radius;
 }

@@ -38,7 +38,7 @@ public:
     Real least_pivot() const {
         const auto diagonal = m_matrix.diagonal();
         Real least = diagonal[0];
-        for (Index i = 1; i < diagonal.size(); ++i) least = std::min(least, diagonal[i]);
+        for (Index i = 1; i < diagonal.size(); ++i) least = (std::min)(least, diagonal[i]);
         return least * least;
     }
 };

@@ -58,8 +58,8 @@ Real explicit_estimate(const Pencil& pencil, Real k_max) {
                            auto&& eigenvalue) {
         for (Index j = 0; j < pairs.value.size(); ++j) {
             const std::complex<Real> lambda = eigenvalue(pairs.value[j]);
-            if (!(std::abs(lambda) > zero * omega)) continue;
-            if (pairs.residual[j] > good * std::abs(pairs.value[j])) continue;
+            if (!((std::abs)(lambda) > zero * omega)) continue;
+            if (pairs.residual[j] > good * (std::abs)(pairs.value[j])) continue;
             // The quotients of the vector are better than the real part of its value: they err in
             // proportion to themselves.
             const VectorX<std::complex<Real>> x = pairs.vector(j).head(N);
@@ -68,8 +68,8 @@ Real explicit_estimate(const Pencil& pencil, Real k_max) {
                        pencil.quadratic(c, x.imag().cwiseQuotient(root)).value;
             };
             const double m = x.squaredNorm();
-            h = std::min(h, critical_step(Method::explicit_euler, form(matrices::K) / m,
-                                          form(matrices::D) / m));
+            h = (std::min)(h, critical_step(Method::explicit_euler, form(matrices::K) / m,
+                                            form(matrices::D) / m));
         }
     };
     lower(stability_detail::arnoldi<Real>(forwards, 2 * N, steps),

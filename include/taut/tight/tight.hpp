@@ -75,19 +75,19 @@ Certificate certify(const Stability<Scalar>& stability, Method method, double h)
     const double wide = h * (1 + stability_detail::step_rounding<Scalar>);
     // An h² that underflows would leave the stiffness out.
     if (method::is_limited_by<method::LimitedByStiffness>(method) &&
-        h * h >= std::numeric_limits<double>::min() && pencil.damping_semidefinite() &&
+        h * h >= (std::numeric_limits<double>::min)() && pencil.damping_semidefinite() &&
         pencil.projected_semidefinite()) {
         Prover prover;
         certificate.proved = stability_detail::proves_symplectic(pencil, prover, wide);
         return certificate;
     }
     // A bracket narrowed to its distance from h may still contain h: the refuting end moves too.
-    double distance = std::min(1.0, static_cast<double>(bound.refuted) / h - 1);
+    double distance = (std::min)(1.0, static_cast<double>(bound.refuted) / h - 1);
     for (int repeat = 0; repeat < 8 && !certificate.proved; ++repeat) {
-        const StepLimit<Scalar> narrowed = max_step(stability, method, std::max(distance, 1e-9));
+        const StepLimit<Scalar> narrowed = max_step(stability, method, (std::max)(distance, 1e-9));
         certificate.proved = h <= static_cast<double>(narrowed.certified);
         if (!(h < static_cast<double>(narrowed.refuted)) || distance < 1e-9) break;
-        distance = std::min(distance / 8, static_cast<double>(narrowed.refuted) / h - 1);
+        distance = (std::min)(distance / 8, static_cast<double>(narrowed.refuted) / h - 1);
     }
     return certificate;
 }
@@ -118,8 +118,9 @@ double spectral_radius(const Stability<Scalar>& stability, Method method, double
     for (const double sign : {1.0, -1.0}) {
         const RitzPair end = largest_ritz_pair(pencil, sign * matrices::K_plus);
         const auto [k, d] = stability_detail::quotients(pencil, end.vector, matrices::K_plus);
-        if (std::abs(k.value) <= k.error && std::abs(d.value) <= d.error) continue;  // a zero mode
-        radius = std::max(radius, spectral_radius(method, k.value, d.value, h));
+        if ((std::abs)(k.value) <= k.error && (std::abs)(d.value) <= d.error)
+            continue;  // a zero mode
+        radius = (std::max)(radius, spectral_radius(method, k.value, d.value, h));
     }
     return radius;
 }

@@ -88,7 +88,7 @@ public:
         require_positive("measure_tradeoff", "h", h);
         const double intervals = h / interval_ * (1 + 1e-9);
         path.stride = std::max<Index>(
-            1, static_cast<Index>(std::min(intervals, static_cast<double>(options_.samples))));
+            1, static_cast<Index>((std::min)(intervals, static_cast<double>(options_.samples))));
         const double span = static_cast<double>(path.stride) * interval_;
         const auto count = static_cast<Index>(std::ceil(span / h * (1 - 1e-9)));
         TradeoffPoint point;
@@ -129,7 +129,7 @@ public:
                 auto& point = result_.points[p];
                 point.position_error = position_error(paths_[p], reference_);
                 point.energy_drift = energy_drift(paths_[p], reference_);
-                best = std::min(best, point.position_error);
+                best = (std::min)(best, point.position_error);
             }
             result_.reference_settled = options_.gain * result_.reference_error <= best;
             const bool rounding =

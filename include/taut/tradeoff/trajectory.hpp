@@ -45,7 +45,7 @@ double position_error(const Trajectory<Scalar, Dim>& run,
     }
     double furthest = 0;
     for (const auto& x : reference.x) {
-        furthest = std::max(
+        furthest = (std::max)(
             furthest,
             static_cast<double>((x - reference.x.front()).colwise().squaredNorm().maxCoeff()));
     }

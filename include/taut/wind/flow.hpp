@@ -82,10 +82,10 @@ struct Flow {
     template <class Scalar>
     EIGEN_ALWAYS_INLINE Axes<Real> on_corner(const WindFactors<Scalar>& factors) const {
         using std::max;
-        const Real s = max(cu, -cu);
+        const Real s = larger(cu, -cu);
         // Where a triangle or the flow vanishes, so do s and cu, and the forces with them.
         const Real inverse =
-            reciprocal_sqrt(max(c2 * u2, Real(std::numeric_limits<Scalar>::min())));
+            reciprocal_sqrt(larger(c2 * u2, Real((std::numeric_limits<Scalar>::min)())));
         const Real lift = Real(factors.lift) * inverse;
         const Real of_u = (Real(factors.drag) - lift * s) * s;
         const Real of_c = lift * u2 * cu;

@@ -35,7 +35,7 @@ public:
         constexpr std::size_t chunk = 8;
         std::array<FlowOfFour, chunk> flows;
         for (std::size_t f = first; f < end_[tile]; f += chunk) {
-            const std::size_t count = std::min(chunk, end_[tile] - f);
+            const std::size_t count = (std::min)(chunk, end_[tile] - f);
             for (std::size_t k = 0; k < count; ++k)
                 flows[k] = flow_past(view, fours_[f + k], parts);
             for (std::size_t k = 0; k < count; ++k) add_four(view, fours_[f + k], flows[k], parts);
@@ -51,7 +51,7 @@ private:
         /// one.
         std::array<std::uint16_t, 4> in_block;
     };
-    static_assert(4 * most_of_block <= std::numeric_limits<std::uint16_t>::max());
+    static_assert(4 * most_of_block <= (std::numeric_limits<std::uint16_t>::max)());
     using Four = std::array<Corners, 4>;  // a, b, c, d
     using FlowOfFour = std::array<PairFlow<Part>, Point::parts>;
     using Vectors = std::array<Point, 4>;

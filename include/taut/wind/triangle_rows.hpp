@@ -31,7 +31,7 @@ public:
         if (first == end_[tile]) return;
         auto flow = flow_past(view, rows_[first]);
         for (std::size_t r = first; r < end_[tile]; ++r) {
-            const auto next = flow_past(view, rows_[std::min(r + 1, end_[tile] - 1)]);
+            const auto next = flow_past(view, rows_[(std::min)(r + 1, end_[tile] - 1)]);
             add_row(view, rows_[r], flow);
             flow = next;
         }

@@ -30,7 +30,7 @@ struct WindPlan final : TilePlan<Scalar> {
             placed.push_back({particles.place[a], particles.place[b], particles.place[c]});
             const auto [low, high] =
                 std::minmax_element(placed.back().begin(), placed.back().end());
-            this->reach_ = std::max(this->reach_, blocks.of(*high) - blocks.of(*low));
+            this->reach_ = (std::max)(this->reach_, blocks.of(*high) - blocks.of(*low));
         }
         if (points) {
             fours = {pair_triangles(placed), blocks};

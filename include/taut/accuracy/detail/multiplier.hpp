@@ -27,8 +27,8 @@ inline std::complex<double> multiplier_less_one(const SymplecticEuler&, double z
     const double b = z * (2 * zeta + z);
     const double under = (2 * z - b) * (2 * z + b);
     if (under > 0) return {-b / 2, std::sqrt(under) / 2};
-    const double far = -(b + std::sqrt(-under)) / 2;
-    return b > 2 ? far : z * z / far;
+    const double farther = -(b + std::sqrt(-under)) / 2;
+    return b > 2 ? farther : z * z / farther;
 }
 /// Of symplectic Euler with the damping ratio ζ + z/2.
 inline std::complex<double> multiplier_less_one(EnergyStableEuler, double z, double zeta) {

@@ -30,7 +30,7 @@ public:
     /// Of the last step, Dim × n, N; 0 columns if it had none, or failed.
     const Forces& forces() const { return forces_; }
     /// Whether the particles exist.
-    Report check(Index particles) const {
+    Report examine(Index particles) const {
         const auto& held = constraints_.held();
         if (held.empty() || held.rbegin()->first < particles) return {};
         return {Status::invalid_state, 0, 0, held.rbegin()->first};

@@ -62,19 +62,19 @@ private:
 /// @param guess  where to begin; any number
 template <class Real, class Passes>
 Real last_that_passes(Real guess, Real tolerance, Passes&& passes) {
-    constexpr Real least = std::numeric_limits<Real>::min();
-    constexpr Real most = std::numeric_limits<Real>::max();
-    Real near = guess > least ? std::min(guess, most) : least;
-    const bool up = passes(near);
+    constexpr Real least = (std::numeric_limits<Real>::min)();
+    constexpr Real most = (std::numeric_limits<Real>::max)();
+    Real here = guess > least ? (std::min)(guess, most) : least;
+    const bool up = passes(here);
     // Strides of 2, 2³, 2⁹ … reach any border in a few, and none is crossed by more than needed.
-    for (int stride = 1; near != (up ? most : least); stride *= 3) {
-        const Real far = std::clamp(std::scalbn(near, up ? stride : -stride), least, most);
-        if (passes(far) != up) {
-            Bisection<Real> search(up ? near : far, up ? far : near, tolerance);
+    for (int stride = 1; here != (up ? most : least); stride *= 3) {
+        const Real there = std::clamp(std::scalbn(here, up ? stride : -stride), least, most);
+        if (passes(there) != up) {
+            Bisection<Real> search(up ? here : there, up ? there : here, tolerance);
             while (search.open()) search.narrow(passes(search.middle()));
             return search.passes();
         }
-        near = far;
+        here = there;
     }
     return up ? std::numeric_limits<Real>::infinity() : Real(0);
 }

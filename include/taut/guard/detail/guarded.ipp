@@ -22,18 +22,18 @@ auto Guarded<Stepper, System>::trial_step() const -> Scalar {
     } else if constexpr (any_pose == method::AnyPose::proved) {
         h = proved_limit_->certified;
     }
-    return std::min(options_.max_step, h);
+    return (std::min)(options_.max_step, h);
 }
 
 /// Measures what a frame begins with, and refuses what cannot be advanced.
 template <class Stepper, class System>
 Status Guarded<Stepper, System>::open(const State& state, Scalar frame, Scalar longest,
                                       GuardedReport<Scalar>& report) {
-    const Report checked = integrator_detail::StepLoop<State>::check(*system_, state, frame);
+    const Report checked = integrator_detail::StepLoop<State>::examine(*system_, state, frame);
     report.where = checked.where;
     if (!checked) return checked.status;
     if (!(longest > 0) || !(proved_limit_->certified > 0)) return Status::invalid_step;
-    shortest_ = std::min(frame, proved_limit_->certified);
+    shortest_ = (std::min)(frame, proved_limit_->certified);
     edited_ = !last_.is(*system_, state);
     if (!edited_ && end_.size() == parts_.count()) {
         begin_ = end_;
@@ -48,7 +48,7 @@ Status Guarded<Stepper, System>::open(const State& state, Scalar frame, Scalar l
     }
     for (std::size_t p = 0; p < parts_.count(); ++p) {
         // An edit may have stopped what had earned it.
-        parts_[p].balance = std::max(parts_[p].balance, -0.1 * begin_[p].kinetic);
+        parts_[p].balance = (std::max)(parts_[p].balance, -0.1 * begin_[p].kinetic);
     }
     blamed_ = nullptr;
     too_stiff_ = false;
@@ -174,7 +174,7 @@ void Guarded<Stepper, System>::judge(State& state, bool tried) {
             taken_[p] = Taken::tried;
         } else if (end_[p].finite() && gain(p) - slack_[p] <= quarter) {
             taken_[p] = Taken::trimmed;
-            gains[p] = {std::min(gain(p), quarter), end_[p].speed};
+            gains[p] = {(std::min)(gain(p), quarter), end_[p].speed};
         }
     }
     if (any(Taken::trimmed)) {
@@ -185,7 +185,7 @@ void Guarded<Stepper, System>::judge(State& state, bool tried) {
         if (taken_[p] == Taken::trimmed && !holds(p)) taken_[p] = Taken::again;
         if (taken_[p] == Taken::again) continue;
         booked_[p] = work_[p].booked;
-        parts_[p].balance = std::max(gain(p), -0.1 * end_[p].kinetic - work_[p].swing);
+        parts_[p].balance = (std::max)(gain(p), -0.1 * end_[p].kinetic - work_[p].swing);
         parts_[p].again = 0;
         parts_[p].next_skip = 2;
     }
@@ -223,7 +223,7 @@ bool Guarded<Stepper, System>::take_again(State& state, Scalar span, bool tried,
             if (taken_[p] != Taken::again) continue;
             if (!end_[p].finite() && !stiff_by_code()) return false;
             slack_[p] = 4 * unit * static_cast<double>(frame.steps) *
-                        std::max(begin_[p].terms, end_[p].terms);
+                        (std::max)(begin_[p].terms, end_[p].terms);
             stiff = stiff || !resolved(p);
         }
         if (!stiff) break;
@@ -255,15 +255,15 @@ void Guarded<Stepper, System>::settle_again(std::size_t part, GuardedReport<Scal
         if (rise + work_[part].turn > slack_[part]) report.spring = strongest_spring(part);
         // What it lost pays what it owes, and earns nothing but what code forces hold back.
         const double held = work_[part].swing;
-        own.balance = std::max({own.balance + rise, std::min(own.balance, 0.0) - held,
-                                -0.1 * end_[part].kinetic - held});
+        own.balance = (std::max)({own.balance + rise, (std::min)(own.balance, 0.0) - held,
+                                  -0.1 * end_[part].kinetic - held});
         slack_[part] += held;
     }
     if (own.skip > 0) {
         --own.skip;
     } else if (++own.again >= 3) {
         own.skip = own.next_skip;
-        own.next_skip = std::min(2 * own.next_skip, 64);
+        own.next_skip = (std::min)(2 * own.next_skip, 64);
     }
 }
 
@@ -280,7 +280,7 @@ void Guarded<Stepper, System>::freeze(State& state) {
     for (std::size_t p = 0; p < parts_.count(); ++p) {
         if (taken_[p] != Taken::frozen) continue;
         booked_[p] = end_[p].total - (begin_[p].total - begin_[p].speed / 2);
-        parts_[p].balance = std::max(0.0, parts_[p].balance - begin_[p].speed / 2);
+        parts_[p].balance = (std::max)(0.0, parts_[p].balance - begin_[p].speed / 2);
     }
 }
 
@@ -296,7 +296,7 @@ Index Guarded<Stepper, System>::strongest_spring(std::size_t part) const {
         for (const State* state : {&start_, &again_}) {
             const typename System::Vector dx = state->x.col(spring.b) - state->x.col(spring.a);
             const Scalar l = spring_length(dx);
-            const Scalar k = std::max(spring.tension_slope(l), spring.tension(l) / l);
+            const Scalar k = (std::max)(spring.tension_slope(l), spring.tension(l) / l);
             if (!(k > most * spring.stiffness_bound())) continue;
             most = k / spring.stiffness_bound();
             found = index;
@@ -348,16 +348,16 @@ auto Guarded<Stepper, System>::advance(State& state, Scalar frame, Respond&& res
     report.status = open(state, frame, longest, report);
     if (!report) return report;
     // Of what is taken again as many steps as an Index can count.
-    const Scalar span = std::min({frame, longest * static_cast<Scalar>(options_.max_substeps),
-                                  proved_limit_->certified * Scalar(1 << 28)});
+    const Scalar span = (std::min)({frame, longest * static_cast<Scalar>(options_.max_substeps),
+                                    proved_limit_->certified * Scalar(1 << 28)});
     const Frame trial = cut(span, longest, options_.max_substeps);
     report.substeps = trial.steps;
     report.h = trial.h;
     const double proved = std::ceil(static_cast<double>(span / proved_limit_->certified));
     for (std::size_t p = 0; p < parts_.count(); ++p) {
-        slack_[p] = 4 * unit * std::sqrt(std::max(1.0, proved)) * begin_[p].terms;
+        slack_[p] = 4 * unit * std::sqrt((std::max)(1.0, proved)) * begin_[p].terms;
         // An edit may have taken with it what would have paid.
-        if (edited_) parts_[p].balance = std::min(parts_[p].balance, slack_[p]);
+        if (edited_) parts_[p].balance = (std::min)(parts_[p].balance, slack_[p]);
     }
 
     struct Undo {  // of what is refused, or thrown out of

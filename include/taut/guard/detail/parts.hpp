@@ -52,7 +52,7 @@ public:
         }
         std::vector<double> mass(list_.size(), 0);
         const auto each_old = [&](auto&& visit) {
-            for (std::size_t i = 0; i < std::min(of.size(), of_.size()); ++i) {
+            for (std::size_t i = 0; i < (std::min)(of.size(), of_.size()); ++i) {
                 if (of[i] >= 0 && of_[i] >= 0)
                     visit(at(of[i]), at(of_[i]), static_cast<double>(system.mass(Index(i))));
             }
@@ -69,7 +69,7 @@ public:
     /// The part of particle i, or −1 if it is pinned.
     Index of(Index i) const { return of_[at(i)]; }
     /// That of a spring: of either end, or −1 if both are pinned.
-    Index of(Index a, Index b) const { return std::max(of(a), of(b)); }
+    Index of(Index a, Index b) const { return (std::max)(of(a), of(b)); }
     Part& operator[](std::size_t part) { return list_[part]; }
     const Part& operator[](std::size_t part) const { return list_[part]; }
     /// What is known of the parts now is what restore() puts back.
@@ -158,7 +158,7 @@ private:
         }
         for (std::size_t part = 0; part < energies.size(); ++part) {
             const double about = sums_[part].momentum.squaredNorm() / sums_[part].mass;
-            energies[part].kinetic = std::max(0.0, (energies[part].speed - about) / 2);
+            energies[part].kinetic = (std::max)(0.0, (energies[part].speed - about) / 2);
             energies[part].mass = sums_[part].mass;
         }
     }
@@ -171,7 +171,7 @@ private:
             const Vector dx = state.x.col(spring.b) - state.x.col(spring.a);
             const Vector dv = state.v.col(spring.b) - state.v.col(spring.a);
             const Scalar l = spring_length(dx);
-            const Scalar pull = std::abs(spring.tension(l)) +
+            const Scalar pull = (std::abs)(spring.tension(l)) +
                                 spring.stiffness_bound() * h * dv.template lpNorm<1>();
             const Scalar reach = reach_[spring.a] + reach_[spring.b] + spring.rest_length;
             auto& energy = energies[static_cast<std::size_t>(part)];

@@ -62,9 +62,9 @@ bool trim(const System& system, typename System::State& state, const Parts& part
                 continue;
             }
             const double aim = gains[p].left * (1 + 1e-6) + 4 * unit * gains[p].speed;
-            double g = std::min(any_pose * any_pose / 4, A / B);
+            double g = (std::min)(any_pose * any_pose / 4, A / B);
             if (A * A >= 2 * B * aim) {
-                g = std::min(g, 2 * aim / (A + std::sqrt(A * A - 2 * B * aim)));
+                g = (std::min)(g, 2 * aim / (A + std::sqrt(A * A - 2 * B * aim)));
             }
             lines[p].step = g;
             gains[p].left -= A * g - B * g * g / 2;

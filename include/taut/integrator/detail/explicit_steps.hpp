@@ -135,7 +135,7 @@ private:
     template <class AnyState, class Steps>
     Report sweep_all(const System& system, AnyState& state, Scalar h, Index count,
                      const Steps& sweep) {
-        const Report report = StepLoop<State>::check(system, state, h);
+        const Report report = StepLoop<State>::examine(system, state, h);
         if (!report || count <= 0) return report;
         if (sweep(state, count)) return {Status::ok, static_cast<int>(count)};
         // Not finite: which step and which particle, one by one.

@@ -20,7 +20,7 @@ public:
 
     /// What every call refuses: a bad h, a state of the wrong size or with NaN or infinity.
     template <class System, class AnyState>
-    static Report check(const System& system, const AnyState& state, Scalar h) {
+    static Report examine(const System& system, const AnyState& state, Scalar h) {
         static_assert((model_detail::require_state<State, AnyState>(), true));
         return check_state(system.size(), state, h);
     }
@@ -32,14 +32,14 @@ public:
     /// @param advance  Report advance(State&): one step in place, its time excepted
     template <class System, class AnyState, class Advance>
     Report run(const System& system, AnyState& state, Scalar h, Index count, Advance&& advance) {
-        Report report = check(system, state, h);
+        Report report = examine(system, state, h);
         if (!report) return report;
         const Step step{&advance, [](void* by, State& own) -> Report {
                             return (*static_cast<std::remove_reference_t<Advance>*>(by))(own);
                         }};
         if constexpr (model_detail::is_state_view_v<AnyState>) {
             state.copy_to(copy_);
-            report = check(system, copy_, h);  // a double may be too large for a float
+            report = examine(system, copy_, h);  // a double may be too large for a float
             if (report) report = take(copy_, h, count, step);
             if (report) state.copy_from(copy_);
         } else {

@@ -100,7 +100,7 @@ private:
         using type = std::tuple<typename PlanOf<Sets>::type...>;
     };
 
-    int reach() const { return outside_ ? std::max(reach_, outside_plan_->reach()) : reach_; }
+    int reach() const { return outside_ ? (std::max)(reach_, outside_plan_->reach()) : reach_; }
     TAUT_COLD void plan_springs(const System& system);
 
     typename PlansOf<typename System::SpringSets>::type plans_;

@@ -35,7 +35,7 @@ void add_batch(const PlannedBatches& plan, const Batch& batch, int dim,
     Chunk<Scalar> chunk;
     for (int done = 0; done < batch.springs; done += most) {
         const auto* ends = plan.ends.data() + batch.first_spring + done;
-        const int count = std::min(most, batch.springs - done);
+        const int count = (std::min)(most, batch.springs - done);
         for (int s = 0; s < count; ++s) {
             const auto [a, b] = ends[s];
             dx[s] = Vector::load(x[b]) - Vector::load(x[a]);

@@ -77,7 +77,7 @@ template <class Scalar>
 template <bool Stars, class Update>
 void PlaceUpdate<Scalar>::move(const TilePlaces<Scalar>& tile, int planes, Scalar h) const {
     // The axis of a lane is the same in each of so many registers in turn.
-    constexpr int turns = Stars ? std::max(1, 4 / Register::width) : 1;
+    constexpr int turns = Stars ? (std::max)(1, 4 / Register::width) : 1;
     const Index count = tile.count;  // a store through a register may be one to the tile
     const Register step(h);
     const Register zero(Scalar(0));

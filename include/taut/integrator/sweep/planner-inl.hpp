@@ -19,7 +19,7 @@ inline Buffer<int> numbers(std::size_t count) {
 
 inline void sort_by(const Buffer<int>& key, Buffer<int>& items) {
     int most = -1;
-    for (const int item : items) most = std::max(most, key[item]);
+    for (const int item : items) most = (std::max)(most, key[item]);
     Buffer<int> next(static_cast<std::size_t>(most) + 2, 0);
     for (const int item : items) ++next[key[item] + 1];
     for (int i = 0; i <= most; ++i) next[i + 1] += next[i];
@@ -34,8 +34,8 @@ inline SortedSprings::SortedSprings(const SpringEnds& ends, const Buffer<int>& p
     for (std::size_t s = 0; s < count; ++s) {
         const int p = place.empty() ? ends.a[s] : place[ends.a[s]];
         const int q = place.empty() ? ends.b[s] : place[ends.b[s]];
-        a[s] = std::min(p, q);
-        offset[s] = std::max(p, q) - a[s];
+        a[s] = (std::min)(p, q);
+        offset[s] = (std::max)(p, q) - a[s];
     }
     Buffer<int> order = numbers(count);
     sort_by(a, order);
@@ -119,7 +119,7 @@ inline Buffer<PlannedStar> plan_stars(const Buffer<HubSpring>& by_hub, const Blo
     // A star goes no later than those after it, so that springs are read in order.
     int tile = blocks.tiles();
     for (std::size_t i = stars.size(); i-- > 0;) {
-        if (!stars[i].outer) tile = stars[i].tile = std::min(tile, stars[i].tile);
+        if (!stars[i].outer) tile = stars[i].tile = (std::min)(tile, stars[i].tile);
     }
     Buffer<int> key(stars.size()), order = numbers(stars.size());
     for (std::size_t i = 0; i < key.size(); ++i) key[i] = 2 * stars[i].tile + !stars[i].outer;
@@ -244,7 +244,7 @@ SpringOrder Planner<Scalar>::order(const Buffer<SpringEnds>& laws, const Blocks&
     for (std::size_t law = 0; law < laws.size(); ++law) {
         for (const auto& spring : result.laws[law].all()) {
             const int reach = blocks.of(spring.b) - blocks.of(spring.a);
-            result.reach = std::max(result.reach, reach);
+            result.reach = (std::max)(result.reach, reach);
         }
     }
     return result;

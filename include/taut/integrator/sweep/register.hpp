@@ -166,12 +166,12 @@ struct VectorRegister {
         return *this = *this * other;
     }
 
-    friend EIGEN_ALWAYS_INLINE VectorRegister max(const VectorRegister& a,
-                                                  const VectorRegister& b) {
+    friend EIGEN_ALWAYS_INLINE VectorRegister larger(const VectorRegister& a,
+                                                     const VectorRegister& b) {
         return of(Eigen::internal::pmax(a.packet, b.packet));
     }
-    friend EIGEN_ALWAYS_INLINE VectorRegister min(const VectorRegister& a,
-                                                  const VectorRegister& b) {
+    friend EIGEN_ALWAYS_INLINE VectorRegister smaller(const VectorRegister& a,
+                                                      const VectorRegister& b) {
         return of(Eigen::internal::pmin(a.packet, b.packet));
     }
     friend EIGEN_ALWAYS_INLINE VectorRegister sqrt(const VectorRegister& a) {
@@ -179,7 +179,7 @@ struct VectorRegister {
     }
     /// Lane by lane, the stiffness of K⁺: 0 where it is negative.
     friend EIGEN_ALWAYS_INLINE VectorRegister k_plus(const VectorRegister& stiffness) {
-        return max(stiffness, VectorRegister(Scalar(0)));
+        return larger(stiffness, VectorRegister(Scalar(0)));
     }
     /// 1/√a of normal numbers, to a few ulp.
     friend EIGEN_ALWAYS_INLINE VectorRegister reciprocal_sqrt(const VectorRegister& a) {

@@ -20,7 +20,7 @@ struct SpringLength<integrator_detail::sweep::VectorRegister<Scalar, most>> {
     Register l2, inverse, l;
 
     explicit EIGEN_ALWAYS_INLINE SpringLength(const Register& square)
-        : l2(max(square, Register(std::numeric_limits<Scalar>::min()))),
+        : l2(larger(square, Register((std::numeric_limits<Scalar>::min)()))),
           inverse(reciprocal_sqrt(l2)),
           l(l2 * inverse) {}
     EIGEN_ALWAYS_INLINE Register divide(const Register& y) const { return y * inverse; }
@@ -122,9 +122,10 @@ private:
     friend class SpringReader;
 
     // Of a law that is not vectorizable.
-    struct None {};
-    std::conditional_t<vectorizable, None, std::vector<Parameters>> parameters_;
-    std::conditional_t<vectorizable, None, Buffer<std::size_t>> first_parameters_;  // by addition
+    struct Nothing {};
+    std::conditional_t<vectorizable, Nothing, std::vector<Parameters>> parameters_;
+    std::conditional_t<vectorizable, Nothing, Buffer<std::size_t>>
+        first_parameters_;  // by addition
 };
 
 /// Goes forward through springs of a table, as many at a time as a register has lanes.
@@ -177,7 +178,7 @@ public:
     EIGEN_ALWAYS_INLINE Register axial_damping() const { return damping_.load(); }
     /// Lane by lane: no law's energy need take a register.
     Register energy(const Register& l) const {
-        const Numbers L(max(rest_length_.load(), Register(Scalar(0)))), length(l);
+        const Numbers L(larger(rest_length_.load(), Register(Scalar(0)))), length(l);
         std::array<Scalar, Register::width> result;
         for (std::size_t lane = 0; lane < result.size(); ++lane) {
             result[lane] = Law::energy(parameters_of(lane), L.values[lane], length.values[lane]);
@@ -225,7 +226,8 @@ private:
             return function(p, L, more...);
         } else {
             // A gap has a length that no spring has; a law must not see it.
-            return lane_by_lane(function, Numbers(max(L, Register(Scalar(0)))), Numbers(more)...);
+            return lane_by_lane(function, Numbers(larger(L, Register(Scalar(0)))),
+                                Numbers(more)...);
         }
     }
     /// Of the spring in one lane.

@@ -54,7 +54,7 @@ bool Steps<Scalar, Dim>::steps(const Forces& forces, Scalar h, Index count, int 
     const bool asks = outside_.asks_for_state();
     if (asks && !state_.finite()) return false;  // a finite double may be infinite as a float
     for (Index done = 0; done < count;) {
-        const Index next = asks || watch_ ? 1 : std::min(steps_between_checks, count - done);
+        const Index next = asks || watch_ ? 1 : (std::min)(steps_between_checks, count - done);
         update_.set_external(outside_.at_state(forces.layout(), state_.planes()));
         show(forces.layout(), outside_.state(), outside_.force());
         some_steps(forces, h, next, threads, move);

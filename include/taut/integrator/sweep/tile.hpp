@@ -58,8 +58,8 @@ public:
 
     /// How many of so many threads shorten a step: fewer would have more blocks each.
     int workers(int threads) const {
-        const int most = std::max(1, std::min(threads, count()));
-        return divided(count(), std::max(1, divided(count(), most)));
+        const int most = (std::max)(1, (std::min)(threads, count()));
+        return divided(count(), (std::max)(1, divided(count(), most)));
     }
 
 private:

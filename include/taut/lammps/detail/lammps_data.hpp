@@ -30,7 +30,8 @@ void put_box(TextBuffer& out, const typename System::State& state, double margin
             high = static_cast<double>(state.x.row(d < System::Dim ? d : 0).maxCoeff());
         }
         // Far from the origin a margin may be less than one ulp.
-        const double wide = std::max(margin, 1e-6 * std::max(std::abs(low), std::abs(high)));
+        const double wide =
+            (std::max)(margin, 1e-6 * (std::max)((std::abs)(low), (std::abs)(high)));
         out << low - wide << ' ' << high + wide << ends[d];
     }
 }
@@ -40,7 +41,7 @@ FileReport write_lammps_data(const std::string& path, const System& system,
                              const typename System::State& state, LammpsBonds& bonds,
                              LammpsAtoms& atoms) {
     OutputFile file(path);
-    if (!file.is_open()) return file.check();
+    if (!file.is_open()) return file.report();
     TextBuffer out(file.get());
     const auto n = static_cast<long long>(system.size());
     const bool any_bonds = bonds.types().size() > 0;

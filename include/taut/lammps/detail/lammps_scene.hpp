@@ -127,7 +127,7 @@ void LammpsBonds::count(const System& system, const typename System::State& stat
             fail("write_lammps: spring ", s, " is ", l, " m long, from particle ", a, " to ", b,
                  "; it must be finite and > 0, since LAMMPS gives no pull without a direction");
         }
-        longest_ = std::max({longest_, l, L});
+        longest_ = (std::max)({longest_, l, L});
         if (types_.add({k, L}) == 0) {
             fail(
                 "write_lammps: spring ", s, " (stiffness ", k, " N/m, rest length ", L,

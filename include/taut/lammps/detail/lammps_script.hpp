@@ -50,7 +50,7 @@ FileReport write_lammps_script(const std::string& path, const System& system,
                                const LammpsAtoms& atoms, double longest,
                                const LammpsOptions& options, const LammpsReport& report) {
     OutputFile file(path);
-    if (!file.is_open()) return file.check();
+    if (!file.is_open()) return file.report();
     TextBuffer out(file.get());
     const char* const name = options.name.c_str();
     out << "# A scene of Taut. mpirun -n 2 lmp -in " << name << ".in\n"

@@ -43,7 +43,7 @@ MatrixX<Real> low_modes(const Pencil& pencil) {
     constexpr Index steps = 80;
     constexpr Index most = 20;
     constexpr double good = 1e-4;  // residual over value
-    const double sigma = 1e-7 * std::max(0.0, pencil.upper_bound(matrices::K_plus));
+    const double sigma = 1e-7 * (std::max)(0.0, pencil.upper_bound(matrices::K_plus));
     if (!(sigma > 0)) return {};
     const Eigen::SimplicialLLT<SparseMatrix<Real>> shifted(
         pencil.assemble(matrices::K_plus + sigma * matrices::M));
@@ -62,7 +62,7 @@ MatrixX<Real> low_modes(const Pencil& pencil) {
         if (value > 0 && pairs.residual[j] <= good * value) soft.emplace_back(-value, j);
     }
     std::sort(soft.begin(), soft.end());
-    const Index r = std::min(most, static_cast<Index>(soft.size()));
+    const Index r = (std::min)(most, static_cast<Index>(soft.size()));
     MatrixX<Real> U(N, r);
     for (Index j = 0; j < r; ++j) {
         U.col(j) = pairs.vector(soft[static_cast<std::size_t>(j)].second).real();
@@ -114,7 +114,7 @@ std::vector<double> frequency_changes(const Pencil& before, const Pencil& after)
     const double zero = 1e-10 * k[k.size() - 1];
     std::vector<double> change;
     for (Index j = 0; j < k.size() && change.size() < 10; ++j) {
-        if (k[j] > zero) change.push_back(std::sqrt(std::max(0.0, k_after[j]) / k[j]) - 1);
+        if (k[j] > zero) change.push_back(std::sqrt((std::max)(0.0, k_after[j]) / k[j]) - 1);
     }
     return change;
 }

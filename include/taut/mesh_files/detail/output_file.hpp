@@ -22,13 +22,13 @@ public:
     bool is_open() const { return file_ != nullptr; }
     FileReport report(FileStatus status, Index where = -1) const { return {status, path_, where}; }
     /// Whether all that was written so far was taken.
-    FileReport check() const {
+    FileReport report() const {
         if (!is_open()) return report(FileStatus::not_opened);
         return report(std::ferror(file_.get()) == 0 ? FileStatus::ok : FileStatus::not_written);
     }
     /// The same when the last byte has left the program.
     FileReport close() {
-        FileReport last = check();
+        FileReport last = report();
         if (is_open() && std::fclose(file_.release()) != 0) last.status = FileStatus::not_written;
         return last;
     }

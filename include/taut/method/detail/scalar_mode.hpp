@@ -16,7 +16,7 @@ namespace taut::method_detail {
 /// √(d² + 4k), −1 where there is none: in a unit of time, a power of two, in which neither square
 /// can vanish or overflow.
 inline double discriminant_root(double d, double k) {
-    const double size = std::max(std::abs(d), std::sqrt(std::abs(k)));
+    const double size = (std::max)((std::abs)(d), std::sqrt((std::abs)(k)));
     const int unit = size > 0 && std::isfinite(size) ? std::ilogb(size) : 0;
     d = std::scalbn(d, -unit);
     k = std::scalbn(std::scalbn(k, -unit), -unit);
@@ -28,7 +28,7 @@ inline std::array<std::complex<double>, 2> roots(const StepQuadratic& polynomial
     const auto [b, c] = polynomial;
     const double real_root = discriminant_root(b, -c);
     if (real_root < 0) {
-        const std::complex<double> root(-b / 2, std::sqrt(std::max(0.0, 4 * c - b * b)) / 2);
+        const std::complex<double> root(-b / 2, std::sqrt((std::max)(0.0, 4 * c - b * b)) / 2);
         return {root, std::conj(root)};
     }
     // The root of larger modulus first: the other one follows without cancellation.
@@ -39,7 +39,7 @@ inline std::array<std::complex<double>, 2> roots(const StepQuadratic& polynomial
 /// The larger modulus of the two.
 inline double largest_root(const StepQuadratic& polynomial) {
     const auto mu = roots(polynomial);
-    return std::max(std::abs(mu[0]), std::abs(mu[1]));
+    return (std::max)((std::abs)(mu[0]), (std::abs)(mu[1]));
 }
 
 }  // namespace taut::method_detail

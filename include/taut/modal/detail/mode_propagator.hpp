@@ -15,9 +15,9 @@ struct ModePropagator {
     /// Closed forms of the roots of λ² + dλ + k, real or complex: their powers keep |μ| = |e^(hλ)|
     /// at any h. A short step and nearly equal roots, where they cancel, go by a series.
     static ModePropagator over(double h, double k, double d) {
-        const double rate = std::sqrt(std::abs(k)) + std::abs(d);  // 1/s, of the scaled C
-        const double quarter = d * d / 4 - k;                      // of the discriminant
-        if (!(rate * h > 0.5) || std::abs(quarter) < 1e-2 * rate * rate) {
+        const double rate = std::sqrt((std::abs)(k)) + (std::abs)(d);  // 1/s, of the scaled C
+        const double quarter = d * d / 4 - k;                          // of the discriminant
+        if (!(rate * h > 0.5) || (std::abs)(quarter) < 1e-2 * rate * rate) {
             return by_series(h, k, d, rate);
         }
         return quarter > 0 ? of_real_roots(h, k, d, std::sqrt(quarter))
@@ -34,18 +34,18 @@ private:
     }
 
     static ModePropagator of_real_roots(double h, double k, double d, double half_gap) {
-        const double big = -(d / 2 + std::copysign(half_gap, d));
-        const double small = k / big;
-        const double gap = small - big;
-        const double e_big = std::exp(big * h);
-        const double e_small = std::exp(small * h);
-        const double integral = small == 0 ? h : std::expm1(small * h) / small;
-        const double a12 = (e_small - e_big) / gap;
-        return {(small * e_big - big * e_small) / gap,
+        const double fast = -(d / 2 + std::copysign(half_gap, d));
+        const double slow = k / fast;
+        const double gap = slow - fast;
+        const double e_fast = std::exp(fast * h);
+        const double e_slow = std::exp(slow * h);
+        const double integral = slow == 0 ? h : std::expm1(slow * h) / slow;
+        const double a12 = (e_slow - e_fast) / gap;
+        return {(slow * e_fast - fast * e_slow) / gap,
                 a12,
                 -k * a12,
-                (small * e_small - big * e_big) / gap,
-                (integral - std::expm1(big * h) / big) / gap,
+                (slow * e_slow - fast * e_fast) / gap,
+                (integral - std::expm1(fast * h) / fast) / gap,
                 a12};
     }
 

@@ -13,7 +13,7 @@ namespace taut::model_detail {
 template <class Real>
 void widen(std::pair<Real, Real>& range, std::initializer_list<Real> slopes) {
     for (const Real slope : slopes) {
-        range = {std::min(range.first, slope), std::max(range.second, slope)};
+        range = {(std::min)(range.first, slope), (std::max)(range.second, slope)};
     }
 }
 

@@ -90,7 +90,7 @@ auto StepJudge<System>::weigh(const System& system, const Moves& x, const Moves&
         const auto spring = its.template cast<Wide>();
         const Wide l =
             (x.col(spring.b).template cast<Wide>() - x.col(spring.a).template cast<Wide>()).norm();
-        const Wide tension = l > 0 ? std::abs(spring.tension(l)) : Wide(0);
+        const Wide tension = l > 0 ? (std::abs)(spring.tension(l)) : Wide(0);
         const Wide bound = spring.stiffness_bound();
         const Wide stretch = blur(spring.a) + blur(spring.b);
         sum.springs += spring.energy(l);
@@ -148,7 +148,7 @@ void StepJudge<System>::size_up(const System& system, const StepObjective<System
     for (Index i = 0; i < system.size(); ++i) {
         const Wide move = length(u.col(i));
         const Wide inertia = system.mass(i) * (drag * move + length(objective.inertial().col(i)));
-        size_[i] = std::max(size_[i], inertial_[i]) + inertia;
+        size_[i] = (std::max)(size_[i], inertial_[i]) + inertia;
         blur_[i] += 8 * epsilon * inertia;
         open_blur_ += 8 * epsilon * inertia * move;
     }
@@ -192,10 +192,10 @@ auto StepJudge<System>::judge(const System& system, StepObjective<System>& objec
         const Vector move = end_.col(i).template cast<Wide>() - start_.col(i).template cast<Wide>();
         work += move.dot(load_.col(i).template cast<Wide>()) / (h_ * h_);
     }
-    const Wide stake = before_.kinetic + before_.springs + std::abs(work);
+    const Wide stake = before_.kinetic + before_.springs + (std::abs)(work);
     if (!std::isfinite(stake)) return {};
     const Wide open =
-        std::abs(u.template cast<Wide>().cwiseProduct(g.template cast<Wide>()).sum()) / (h_ * h_);
+        (std::abs)(u.template cast<Wide>().cwiseProduct(g.template cast<Wide>()).sum()) / (h_ * h_);
     solved = solved && open <= tol * stake + open_blur_ / (h_ * h_);
     raise(open, stake);
     if constexpr (energy_never_rises_v<System>) {
@@ -208,7 +208,7 @@ auto StepJudge<System>::judge(const System& system, StepObjective<System>& objec
             rounding += blur_[i] * length(held_.col(i)) / (h_ * h_);
         }
         solved = solved && gain <= tol * stake + rounding;
-        raise(std::max(gain, Wide(0)), stake);
+        raise((std::max)(gain, Wide(0)), stake);
     }
     return {solved, static_cast<Scalar>(h_ * h_ * after_.rounding), static_cast<double>(worst)};
 }

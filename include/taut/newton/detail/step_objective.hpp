@@ -45,7 +45,7 @@ public:
     Scalar evaluate(const System& system, const Moves& u, Moves& g, bool pins = false);
     /// Whether `next` is no larger than `value` but for the rounding of such sums.
     static bool not_above(Scalar next, Scalar value) {
-        return next <= value + 64 * std::numeric_limits<Scalar>::epsilon() * std::abs(value);
+        return next <= value + 64 * std::numeric_limits<Scalar>::epsilon() * (std::abs)(value);
     }
 
 private:
@@ -85,7 +85,7 @@ void StepObjective<System>::begin(const System& system, const State& state, Scal
     set_dampers(system, state);
     evaluate(system, w_, f_);
     filter(f_);
-    scale_ = std::max(std::sqrt(momentum2), f_.template cast<double>().norm());
+    scale_ = (std::max)(std::sqrt(momentum2), f_.template cast<double>().norm());
 }
 
 template <class System>

@@ -16,7 +16,7 @@ namespace taut::stability_detail {
 /// safe while 1 − hδ − h²κ > 0, and the step matrix turns singular where a vector says so [T21].
 template <class Real = double>  // a template, as the others below: only its callers compile it
 UnroundedLimit implicit_limit(const Pencil& pencil) {
-    const double kappa = std::max(0.0, pencil.upper_bound(-K_plus));
+    const double kappa = (std::max)(0.0, pencil.upper_bound(-K_plus));
     if (pencil.projected_semidefinite() || kappa == 0) {
         return {infinity, infinity, Cause::unconditional};
     }
@@ -29,7 +29,7 @@ UnroundedLimit implicit_limit(const Pencil& pencil) {
     const auto [k, d] = quotients(pencil, softest.vector, K_plus);
     if (k.upper() < 0) {
         return {definite_up_to(kappa),
-                critical_step(Method::implicit_euler, k.upper(), std::max(0.0, d.upper()))};
+                critical_step(Method::implicit_euler, k.upper(), (std::max)(0.0, d.upper()))};
     }
     return {definite_up_to(pencil.deficit(K_plus)), infinity};
 }
@@ -40,8 +40,8 @@ UnroundedLimit implicit_limit(const Pencil& pencil) {
 /// up where they meet in one vector.
 inline void admit(Method method, double rate, UnroundedLimit& limit) {
     limit.admitted_growth += is_implicit(method) ? 2 * rate : rate;
-    const double most = 1 / std::max(limit.admitted_growth, 1e-300);
-    limit.certified_up_to = std::min(std::max(limit.certified, limit.certified_up_to), most);
+    const double most = 1 / (std::max)(limit.admitted_growth, 1e-300);
+    limit.certified_up_to = (std::min)((std::max)(limit.certified, limit.certified_up_to), most);
     limit.certified = 0;
     limit.cause = Cause::rounding;
 }
@@ -52,7 +52,7 @@ void admit_negative_damping(Method method, const Pencil& pencil, UnroundedLimit&
     if (pencil.damping_semidefinite()) return;
     const double delta = pencil.deficit(D);
     if (delta == 0) return;
-    if (delta <= 1e-6 * std::max(0.0, pencil.upper_bound(D))) {
+    if (delta <= 1e-6 * (std::max)(0.0, pencil.upper_bound(D))) {
         if (claims(limit)) admit(method, delta, limit);
         return;
     }

@@ -72,7 +72,7 @@ void add_coarse_springs(const Set& set, const Positions& x, const Clusters& clus
                                                       spring.damping});
             continue;
         }
-        const double cosine = std::abs(d.dot(D) / (l * L));
+        const double cosine = (std::abs)(d.dot(D) / (l * L));
         const double share = cosine * cosine * cosine;
         const double weight = share * l * static_cast<double>(spring.stiffness_bound());
         auto strengths = strengths_of(spring, l);

@@ -39,7 +39,7 @@ Lift make_lift(const Positions& x, const Clusters& clusters,
     }
     Lift lift;
     lift.rows.resize(clusters.of.size());
-    std::vector<std::pair<double, int>> near;
+    std::vector<std::pair<double, int>> nearest;
     for (std::size_t i = 0; i < clusters.of.size(); ++i) {
         Lift::Row& row = lift.rows[i];
         const int own = clusters.of[i];
@@ -49,17 +49,18 @@ Lift make_lift(const Positions& x, const Clusters& clusters,
             row.count = 1;
             continue;
         }
-        near.clear();
+        nearest.clear();
         for (const int c : candidates[own])
-            near.emplace_back((x.col(clusters.seeds[c]) - x.col(static_cast<Index>(i))).norm(), c);
-        const std::size_t five = std::min<std::size_t>(5, near.size());
-        std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(five),
-                          near.end());
+            nearest.emplace_back((x.col(clusters.seeds[c]) - x.col(static_cast<Index>(i))).norm(),
+                                 c);
+        const std::size_t five = std::min<std::size_t>(5, nearest.size());
+        std::partial_sort(nearest.begin(), nearest.begin() + static_cast<std::ptrdiff_t>(five),
+                          nearest.end());
         // Without a fifth nothing comes in: any R beyond the last serves.
-        const double R = five == 5 ? near[4].first : 2 * near[five - 1].first;
+        const double R = five == 5 ? nearest[4].first : 2 * nearest[five - 1].first;
         double sum = 0;
         for (std::size_t k = 0; k < std::min<std::size_t>(4, five); ++k) {
-            const auto [d, c] = near[k];
+            const auto [d, c] = nearest[k];
             if (!(d > 0)) {  // it lies on this seed
                 row.coarse[0] = c;
                 row.weight[0] = sum = 1;

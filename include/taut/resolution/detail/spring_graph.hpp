@@ -68,7 +68,7 @@ private:
         if (!sorted.empty()) std::nth_element(sorted.begin(), middle, sorted.end());
         for (std::size_t s = 0; s < lengths.size(); ++s) {
             if (lengths[s] > 0 && strengths[s] < *middle)
-                lengths[s] *= std::min(most, std::sqrt(*middle / strengths[s]));
+                lengths[s] *= (std::min)(most, std::sqrt(*middle / strengths[s]));
         }
         return lengths;
     }
@@ -147,18 +147,18 @@ inline Clusters farthest_seeds(const SpringGraph& graph, const std::vector<int>&
     clusters.length.assign(clusters.of.size(), std::numeric_limits<double>::infinity());
     for (const int seed : given) add_seed(graph, seed, clusters);
     // Lengths only shrink: one in the heap is the particle's own, or an earlier and larger one.
-    std::vector<std::pair<double, int>> far;
-    for (int i = 0; i < graph.size(); ++i) far.emplace_back(clusters.length[i], -i);
-    std::make_heap(far.begin(), far.end());
+    std::vector<std::pair<double, int>> farthest;
+    for (int i = 0; i < graph.size(); ++i) farthest.emplace_back(clusters.length[i], -i);
+    std::make_heap(farthest.begin(), farthest.end());
     while (static_cast<int>(clusters.seeds.size()) < count) {
-        std::pop_heap(far.begin(), far.end());
-        const int particle = -far.back().second;
-        if (far.back().first > clusters.length[particle]) {
-            far.back().first = clusters.length[particle];
-            std::push_heap(far.begin(), far.end());
+        std::pop_heap(farthest.begin(), farthest.end());
+        const int particle = -farthest.back().second;
+        if (farthest.back().first > clusters.length[particle]) {
+            farthest.back().first = clusters.length[particle];
+            std::push_heap(farthest.begin(), farthest.end());
             continue;
         }
-        far.pop_back();
+        farthest.pop_back();
         if (!clusters.is_seed(particle)) add_seed(graph, particle, clusters);
     }
     return clusters;

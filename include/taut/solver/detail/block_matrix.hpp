@@ -43,7 +43,7 @@ public:
     Scalar largest_diagonal() const {
         Scalar largest = 0;
         for (Index i = 0; i < rows(); ++i) {
-            largest = std::max(largest, block(diagonal(i)).diagonal().maxCoeff());
+            largest = (std::max)(largest, block(diagonal(i)).diagonal().maxCoeff());
         }
         return largest;
     }

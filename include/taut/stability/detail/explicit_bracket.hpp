@@ -20,14 +20,14 @@ namespace taut::stability_detail {
 inline double largest_explicit_limit(const RayleighDamping& rayleigh, double low, double high) {
     const auto [d0, alpha] = rayleigh;
     if (d0 == 0 && low <= 0 && high >= 0) return infinity;  // it may be a zero mode
-    double largest = std::max(explicit_mode_limit(low, d0 + alpha * low).upper,
-                              explicit_mode_limit(high, d0 + alpha * high).upper);
+    double largest = (std::max)(explicit_mode_limit(low, d0 + alpha * low).upper,
+                                explicit_mode_limit(high, d0 + alpha * high).upper);
     if (d0 > 0 && alpha * d0 < 1) {
         const double root = d0 / (1 + std::sqrt(1 - alpha * d0));
         if (root * root > low && root * root < high) {
             // 1 − αd0 rounds as well.
             const double from = 1 - alpha * d0 + 4 * std::numeric_limits<double>::epsilon();
-            largest = std::max(largest, 2 * (1 + std::sqrt(from)) / d0);
+            largest = (std::max)(largest, 2 * (1 + std::sqrt(from)) / d0);
         }
     }
     return largest;
@@ -37,7 +37,7 @@ inline double largest_explicit_limit(const RayleighDamping& rayleigh, double low
 inline double refuted_by_damping(const Pencil& pencil, const Eigen::VectorXd& u) {
     const auto [k_enclosed, d_enclosed] = quotients(pencil, u, K);
     const double k = k_enclosed.upper();
-    const double d = std::max(0.0, d_enclosed.lower());
+    const double d = (std::max)(0.0, d_enclosed.lower());
     const double root = method_detail::discriminant_root(d, -k);
     return d > 0 && root >= 0 ? 2 / (d / 2 + root / 2) : infinity;
 }
@@ -46,8 +46,8 @@ inline double refuted_by_damping(const Pencil& pencil, const Eigen::VectorXd& u)
 template <class Real = double>
 double refuted_explicit(const Pencil& pencil, const RitzPair& stiffest, bool commutes) {
     const RitzPair most_damped = largest_ritz_pair(pencil, D);
-    double h = std::min(refuted_by_damping(pencil, stiffest.vector),
-                        refuted_by_damping(pencil, most_damped.vector));
+    double h = (std::min)(refuted_by_damping(pencil, stiffest.vector),
+                          refuted_by_damping(pencil, most_damped.vector));
     if (!commutes) return h;
     // Every Rayleigh quotient of K' lies in [k_min, k_max], and where [T8] fails at one of these it
     // fails at an end of the spectrum [T13].
@@ -55,9 +55,9 @@ double refuted_explicit(const Pencil& pencil, const RitzPair& stiffest, bool com
         const Enclosed k = quotients(pencil, mode.vector, K).k;
         return largest_explicit_limit(pencil.rayleigh(), k.lower(), k.upper());
     };
-    h = std::min(h, refuted_by(stiffest));
+    h = (std::min)(h, refuted_by(stiffest));
     if (pencil.rayleigh().mass_proportional > 0) {
-        h = std::min(h, refuted_by(largest_ritz_pair(pencil, -K)));
+        h = (std::min)(h, refuted_by(largest_ritz_pair(pencil, -K)));
     }
     return h;
 }
@@ -83,7 +83,7 @@ UnroundedLimit explicit_bracket(const Pencil& pencil, Effort& effort, const Ritz
     limit.refuted = refuted_explicit(pencil, stiffest, commutes(pencil));
     effort.narrow_explicit(pencil, stiffest, limit);
     limit.cause = explicit_cause(limit, k);
-    limit.refuted = std::max(limit.refuted, limit.certified);
+    limit.refuted = (std::max)(limit.refuted, limit.certified);
     return limit;
 }
 

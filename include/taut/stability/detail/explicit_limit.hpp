@@ -32,19 +32,19 @@ struct ModeLimit {
 ///              root of what their rounding moves d² − 4k by: 1e-8.
 inline ModeLimit explicit_mode_limit(double k, double d) {
     constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
-    const double softer = k - rounding * std::abs(k);
-    const double stiffer = k + rounding * std::abs(k);
-    const double less = d - rounding * std::abs(d);
-    const double more = d + rounding * std::abs(d);
+    const double softer = k - rounding * (std::abs)(k);
+    const double stiffer = k + rounding * (std::abs)(k);
+    const double less = d - rounding * (std::abs)(d);
+    const double more = d + rounding * (std::abs)(d);
     const auto overdamped = [](double k_mode, double d_mode) {
-        return d_mode >= 2 * std::sqrt(std::max(k_mode, 0.0));
+        return d_mode >= 2 * std::sqrt((std::max)(k_mode, 0.0));
     };
     // It rises with k and falls with d on one side of critical damping, the other way round on the
     // other, so that corners decide; in between it is largest where d² = 4k, 4/d.
     const double one = critical_step(Method::explicit_euler, stiffer, less);
     const double other = critical_step(Method::explicit_euler, softer, more);
     const bool across = overdamped(stiffer, less) != overdamped(softer, more);
-    return {std::min(one, other), across ? 4 / less : std::max(one, other)};
+    return {(std::min)(one, other), across ? 4 / less : (std::max)(one, other)};
 }
 
 /// The largest step that proved bounds k on k_max and d on the largest eigenvalue of D' certify for
@@ -58,12 +58,12 @@ inline double certified_explicit(const Pencil& pencil, double k, double d) {
         // κ: 4 − 2hd0 − h²κ ≥ 0 [T17].
         if (!(k > 0)) return critical_step(Method::explicit_euler, 0, d0);
         const double at_zero = critical_step(Method::symplectic_euler, pencil.compression(), d0);
-        return std::min(at_zero, explicit_mode_limit(k, d0 + alpha * k).lower);
+        return (std::min)(at_zero, explicit_mode_limit(k, d0 + alpha * k).lower);
     }
     // The stable steps are an interval (0, h_max) [T18]. Where damping is weak it ends near the
     // limit that K alone sets for any commuting damping [T12].
     const auto certifies = [&](double h) { return certifies_explicit(pencil, h); };
-    if (!certifies(std::numeric_limits<double>::min())) return 0;
+    if (!certifies((std::numeric_limits<double>::min)())) return 0;
     return detail::last_that_passes(k > 0 ? 2 / std::sqrt(k) : 4 / d, 1e-4, certifies);
 }
 

@@ -22,7 +22,7 @@ bool finds_growth(const Pencil& pencil, UnroundedLimit& limit) {
     const Enclosed k = quotients(pencil, softest.vector, K).k;
     const double resolution = pencil.resolution();
     const double meant =
-        resolution > 0 ? resolution * std::max(0.0, pencil.upper_bound(K_plus)) : 0;
+        resolution > 0 ? resolution * (std::max)(0.0, pencil.upper_bound(K_plus)) : 0;
     if (!(k.upper() < -meant)) return false;
     limit.growth_rate = std::sqrt(-k.value);
     if (limit.certified > 0) limit.cause = Cause::buckling;

@@ -76,7 +76,7 @@ Pencil Pencil::at_pose(const System& system,
     Pencil pencil = of_particles(system, Dim, check);
     for (Index i = 0; i < system.size(); ++i) {
         Real largest = 0;
-        for (int k = 0; k < Dim; ++k) largest = std::max(largest, std::abs(x(k, i)));
+        for (int k = 0; k < Dim; ++k) largest = (std::max)(largest, (std::abs)(x(k, i)));
         check.check_length(largest, "position of particle", i);
     }
     pencil.add_springs(system, check, [&](const auto& set, std::size_t s, int index) {

@@ -17,8 +17,8 @@ namespace taut::stability_detail {
 
 /// The step that the bound certifies by what limits the method, s.
 inline double certified_by(method::LimitedByDamping, const Pencil& pencil) {
-    const double k = std::max(0.0, pencil.upper_bound(K_plus));
-    const double d = std::max(0.0, pencil.upper_bound(D));
+    const double k = (std::max)(0.0, pencil.upper_bound(K_plus));
+    const double d = (std::max)(0.0, pencil.upper_bound(D));
     return k > 0 || d > 0 ? certified_explicit(pencil, k, d) : infinity;
 }
 
@@ -27,7 +27,7 @@ inline double certified_by(method::LimitedByStiffness, const Pencil& pencil) {
 }
 
 inline double certified_by(method::LimitedByIndefiniteness, const Pencil& pencil) {
-    const double kappa = std::max(0.0, pencil.upper_bound(-K_plus));
+    const double kappa = (std::max)(0.0, pencil.upper_bound(-K_plus));
     return kappa == 0 || pencil.stiffness_semidefinite() ? infinity : 1 / std::sqrt(kappa);
 }
 
@@ -59,12 +59,12 @@ inline double min_mass_scale(Method method, const Pencil& pencil, double h) {
     // As far as double holds the masses, and d0·M, as normal numbers.
     const Eigen::VectorXd& mass = pencil.mass();
     const double d0 = pencil.rayleigh().mass_proportional;
-    const double least = std::numeric_limits<double>::min() / mass.minCoeff();
+    const double least = (std::numeric_limits<double>::min)() / mass.minCoeff();
     const double most =
-        std::numeric_limits<double>::max() / 8 / mass.maxCoeff() / std::max(1.0, d0);
+        (std::numeric_limits<double>::max)() / 8 / mass.maxCoeff() / (std::max)(1.0, d0);
     return 1 / detail::last_that_passes(1.0, scale_tolerance, [&](double lighter) {
                const double scale =
-                   std::clamp(1 / lighter, std::min(least, 1.0), std::max(most, 1.0));
+                   std::clamp(1 / lighter, (std::min)(least, 1.0), (std::max)(most, 1.0));
                return certified_when_scaled(method, pencil, 1, scale) >= h;
            });
 }

@@ -48,7 +48,7 @@ inline double cosine_eigenvalue(const SymmetricBlock& A) {
     const double b = A(1, 1) - mean;
     const double c = A(2, 2) - mean;
     const double p = std::sqrt((a * a + b * b + c * c + 2 * off) / 6);
-    if (p <= 1e-8 * std::abs(mean)) return mean + 2 * p;  // never below, and p³ may vanish
+    if (p <= 1e-8 * (std::abs)(mean)) return mean + 2 * p;  // never below, and p³ may vanish
     const double det = a * (b * c - A(2, 1) * A(2, 1)) -
                        A(1, 0) * (A(1, 0) * c - A(2, 1) * A(2, 0)) +
                        A(2, 0) * (A(1, 0) * A(2, 1) - b * A(2, 0));

@@ -84,7 +84,7 @@ inline SmallSpectrum tridiagonal_spectrum(std::vector<double> d, std::vector<dou
         for (int sweep = 0; sweep < most_sweeps; ++sweep) {
             std::size_t last = first;
             while (last + 1 < m &&
-                   !(std::abs(e[last]) <= eps * (std::abs(d[last]) + std::abs(d[last + 1]))))
+                   !((std::abs)(e[last]) <= eps * ((std::abs)(d[last]) + (std::abs)(d[last + 1]))))
                 ++last;
             if (last == first) break;
             ql_sweep(d, e, first, last, rotate);
@@ -114,7 +114,7 @@ inline std::vector<double> small_identity(std::size_t m) {
 /// The spectrum of a symmetric matrix, m × m by columns: Householder's reduction, and QL.
 inline SmallSpectrum small_spectrum(std::vector<double> A, std::size_t m) {
     double scale = 0;
-    for (const double a : A) scale = std::max(scale, std::abs(a));
+    for (const double a : A) scale = (std::max)(scale, (std::abs)(a));
     if (!(scale > 0)) scale = 1;
     for (double& a : A) a /= scale;
     std::vector<double> V = small_identity(m);
@@ -138,7 +138,7 @@ inline SmallSpectrum small_spectrum(std::vector<double> A, std::size_t m) {
         if (!(norm > 1e-150)) continue;  // its squares would lose digits, and it changes nothing
         const double pivot = v[k + 1];
         v[k + 1] += pivot < 0 ? -norm : norm;
-        const double length = std::sqrt(2 * norm * (norm + std::abs(pivot)));
+        const double length = std::sqrt(2 * norm * (norm + (std::abs)(pivot)));
         for (double& entry : v) entry /= length;
         // (I − 2vvᵀ)A(I − 2vvᵀ) = A − vwᵀ − wvᵀ.
         times(A, v, w);

@@ -18,7 +18,7 @@ namespace taut::stability_detail {
 /// K too: a real multiplier ≤ −1 follows from the vector alone.
 inline double refuted_by(const Pencil& pencil, const Eigen::VectorXd& u) {
     const auto [k, d] = quotients(pencil, u, K);
-    return critical_step(Method::symplectic_euler, k.lower(), std::max(0.0, d.lower()));
+    return critical_step(Method::symplectic_euler, k.lower(), (std::max)(0.0, d.lower()));
 }
 
 /// [T19]'s iteration: the leading vector of 2hD + h²K refutes a smaller step than h, and so on

@@ -13,7 +13,7 @@ namespace taut::stability_detail {
 
 TAUT_INLINE SymplecticStep certified_symplectic(const Pencil& pencil) {
     if (pencil.is_rayleigh()) {
-        const double k = std::max(0.0, pencil.upper_bound(K_plus));
+        const double k = (std::max)(0.0, pencil.upper_bound(K_plus));
         const auto& rayleigh = pencil.rayleigh();
         if (!std::isfinite(k)) return {0, k};  // overflow: nothing is proved
         const double d = rayleigh.mass_proportional + rayleigh.stiffness_proportional * k;
@@ -22,8 +22,8 @@ TAUT_INLINE SymplecticStep certified_symplectic(const Pencil& pencil) {
     // g(h) bounds M⁻¹(2hD + h²K⁺)/4 and is convex with g(0) = 0: from h the step h/√g is safe as
     // well, and larger, until g = 1.
     const auto g = [&](double h) { return pencil.upper_bound(2 * h * D + h * h * K_plus) / 4; };
-    const double k = std::max(0.0, pencil.upper_bound(K_plus));
-    const double d = std::max(0.0, pencil.upper_bound(D));
+    const double k = (std::max)(0.0, pencil.upper_bound(K_plus));
+    const double d = (std::max)(0.0, pencil.upper_bound(D));
     if (!std::isfinite(k) || !std::isfinite(d)) return {0, k};
     double h = critical_step(Method::symplectic_euler, k, d);
     for (int repeat = 0; repeat < 8 && std::isfinite(h); ++repeat) {

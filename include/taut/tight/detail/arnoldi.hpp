@@ -15,19 +15,19 @@ namespace taut::stability_detail {
 /// Approximate eigenpairs of a real n × n matrix A.
 template <class Real>
 struct ComplexRitzPairs {
-    using Complex = std::complex<Real>;
-    VectorX<Complex> value;
+    using Value = std::complex<Real>;
+    VectorX<Value> value;
     VectorX<Real> residual;  ///< the norm of Az − value·z for each vector z of unit length
     MatrixX<Real> basis;     ///< n × m, orthonormal
-    MatrixX<Complex> inner;  ///< m × m: the vectors in the basis
+    MatrixX<Value> inner;    ///< m × m: the vectors in the basis
 
-    VectorX<Complex> vector(Index j) const { return basis * inner.col(j); }
+    VectorX<Value> vector(Index j) const { return basis * inner.col(j); }
 };
 
 /// Arnoldi's process without restart (W. E. Arnoldi 1951). @param apply  y = apply(q), both n
 template <class Real, class Apply>
 ComplexRitzPairs<Real> arnoldi(Apply&& apply, Index n, Index steps) {
-    Index m = std::min(steps, n);
+    Index m = (std::min)(steps, n);
     MatrixX<Real> Q(n, m);
     MatrixX<Real> H = MatrixX<Real>::Zero(m, m);  // QᵀAQ
     VectorX<Real> q = VectorX<Real>(scattered_vector(n)).normalized();

@@ -24,7 +24,7 @@ struct FactorSize {
 /// @param most   counts no further than so many entries
 template <class Place>
 FactorSize factor_size(const SparseMatrix<double>& A, Place&& place,
-                       Index most = std::numeric_limits<Index>::max()) {
+                       Index most = (std::numeric_limits<Index>::max)()) {
     using Entry = SparseMatrix<double>::InnerIterator;
     const auto n = static_cast<std::size_t>(A.rows());
     std::vector<Index> column(n);  // of A, for each row of PAPᵀ
@@ -50,7 +50,7 @@ FactorSize factor_size(const SparseMatrix<double>& A, Place&& place,
                 ++count;
             }
         }
-        size.widest_row = std::max(size.widest_row, count);
+        size.widest_row = (std::max)(size.widest_row, count);
         size.entries += count;
     }
     return size;

@@ -44,7 +44,7 @@ void narrow(Bracket& bracket, double tightness, Sharpen&& sharpen, Proves&& prov
         sharpen(bracket, share);
         const double h = bracket.refuted / (1 + 0.9 * distance);
         if (h > bracket.certified && proves(h)) bracket.certified = h;
-        share = std::max(share / 16, 1e-14);
+        share = (std::max)(share / 16, 1e-14);
     }
 }
 
@@ -66,18 +66,18 @@ struct ProvedMaximum {
 template <class Real = double>
 ProvedMaximum narrow_maximum(const Pencil& pencil, Prover& prover, double tightness) {
     ProvedMaximum k;
-    k.upper = std::max(0.0, pencil.upper_bound(K_plus));
+    k.upper = (std::max)(0.0, pencil.upper_bound(K_plus));
     // narrow() works on steps: 1/k is a step's square, up to a factor.
     Bracket inverse{k.upper > 0 ? 1 / k.upper : infinity, infinity, {}};
     const auto sharpen = [&](Bracket& b, double share) {
         RitzPair pair = largest_ritz_pair(pencil, K_plus, sharp(share), b.vector);
         const double value = quotients(pencil, pair.vector, K_plus).k.lower();
-        if (value > 0) b.refuted = std::min(b.refuted, 1 / value);
+        if (value > 0) b.refuted = (std::min)(b.refuted, 1 / value);
         b.vector = std::move(pair.vector);
     };
     narrow(inverse, tightness, sharpen,
            [&](double share) { return prove(prover, pencil, 1 / share * M - K_plus).proved; });
-    k.upper = std::min(k.upper, 1 / inverse.certified * (1 + 4e-16));
+    k.upper = (std::min)(k.upper, 1 / inverse.certified * (1 + 4e-16));
     k.lower = std::isfinite(inverse.refuted) ? 1 / inverse.refuted : 0;
     k.vector = std::move(inverse.vector);
     return k;
@@ -92,7 +92,7 @@ void narrow_commuting(const Pencil& pencil, Prover& prover, double tightness, do
                       RitzPair mode, UnroundedLimit& limit) {
     for (double share = tightness; share > 1e-14 && !within(limit, tightness); share /= 16) {
         auto proved = narrow_maximum(pencil, prover, share);
-        limit.certified = std::max(limit.certified, certified_explicit(pencil, proved.upper, d));
+        limit.certified = (std::max)(limit.certified, certified_explicit(pencil, proved.upper, d));
         if (proved.vector.size() > 0) mode.vector = std::move(proved.vector);
         limit.refuted = refuted_explicit(pencil, mode, true);
         if (proved.upper > proved.lower * (1 + share)) break;
@@ -122,7 +122,7 @@ void narrow_dampers(const Pencil& pencil, Prover& prover, double tightness, doub
         return true;
     };
     // Far below the limit the rounding of D hides so small a δ: a first proof is sought from above.
-    double top = std::min(high, limit.refuted);
+    double top = (std::min)(high, limit.refuted);
     double low = limit.certified;
     for (int repeat = 0; low == 0 && repeat < 10; ++repeat) {
         const double h = top / 16;
@@ -160,7 +160,7 @@ public:
         }
         if (!commuting && pencil.size() <= DenseAnalysis<>::good_size) {
             const DenseAnalysis<> dense(pencil, K);
-            limit.refuted = std::min(limit.refuted, dense.explicit_limit_above());
+            limit.refuted = (std::min)(limit.refuted, dense.explicit_limit_above());
             limit.estimate = dense.explicit_limit();
         } else if (!commuting && k > 0) {
             limit.estimate = explicit_estimate(pencil, k);
@@ -172,7 +172,7 @@ public:
         }
     }
     double narrow_deficit(const Pencil& pencil, const Combination& c, double epsilon) {
-        return std::min(epsilon, proved_deficit(prover_, pencil, c, epsilon));
+        return (std::min)(epsilon, proved_deficit(prover_, pencil, c, epsilon));
     }
 
 private:

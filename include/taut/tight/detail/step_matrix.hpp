@@ -45,8 +45,8 @@ Matrix step_matrix(EnergyStableEuler, const Matrix& C, typename Matrix::Scalar h
 /// (I − hC)⁻¹.
 template <class Matrix>
 Matrix step_matrix(ImplicitEuler, const Matrix& C, typename Matrix::Scalar h, Eigen::Index) {
-    const Matrix I = Matrix::Identity(C.rows(), C.cols());
-    return (I - h * C).partialPivLu().inverse();
+    const Matrix identity = Matrix::Identity(C.rows(), C.cols());
+    return (identity - h * C).partialPivLu().inverse();
 }
 
 /// [[4S, −S], [I, 0]] with S = (3 − 2hC)⁻¹, on the state and the one before it: 2n × 2n.
@@ -54,12 +54,12 @@ template <class Matrix>
 Matrix step_matrix(Bdf2, const Matrix& C, typename Matrix::Scalar h, Eigen::Index) {
     using Real = typename Matrix::Scalar;
     const Eigen::Index n = C.rows();
-    const Matrix I = Matrix::Identity(n, n);
-    const Matrix solved = (3 * I - 2 * h * C).partialPivLu().inverse();
+    const Matrix identity = Matrix::Identity(n, n);
+    const Matrix solved = (3 * identity - 2 * h * C).partialPivLu().inverse();
     Matrix step = Matrix::Zero(2 * n, 2 * n);
     step.topLeftCorner(n, n) = Real(4) * solved;
     step.topRightCorner(n, n) = -solved;
-    step.bottomLeftCorner(n, n) = I;
+    step.bottomLeftCorner(n, n) = identity;
     return step;
 }
 
