@@ -24,10 +24,11 @@ template <class Scalar>
 class PlaceUpdate {
 public:
     /// Brings all members up to date.
-    /// @param gravity, inverse_mass  the system's   @param drag  d0 of Rayleigh damping, 1/s
-    /// @param ahead                  s, by which springs see x ahead
-    void load(const Layout<Scalar>& layout, const Scalar* gravity, int dim, Scalar drag,
-              const Scalar* inverse_mass, Scalar ahead);
+    /// @param gravity  the system's   @param drag  d0 of Rayleigh damping, 1/s
+    /// @param ahead    s, by which springs see x ahead
+    void load(const Scalar* gravity, int dim, Scalar drag, Scalar ahead);
+    /// @param inverse_mass  the system's, 1/kg
+    void load_masses(const Layout<Scalar>& layout, const Scalar* inverse_mass);
     /// Forces beside those of springs, N; empty planes for none.
     void set_external(const Planes<Scalar>& force) { external_ = force; }
 
@@ -52,13 +53,16 @@ private:
 };
 
 template <class Scalar>
-void PlaceUpdate<Scalar>::load(const Layout<Scalar>& layout, const Scalar* gravity, int dim,
-                               Scalar drag, const Scalar* inverse_mass, Scalar ahead) {
+void PlaceUpdate<Scalar>::load(const Scalar* gravity, int dim, Scalar drag, Scalar ahead) {
     gravity_.fill(0);
     std::copy_n(gravity, dim, gravity_.begin());
     for (int i = 0; i < max_width; ++i) gravity_of_points_[i] = gravity_[i % 4];
     drag_ = drag;
     ahead_ = ahead;
+}
+
+template <class Scalar>
+void PlaceUpdate<Scalar>::load_masses(const Layout<Scalar>& layout, const Scalar* inverse_mass) {
     const Index size = layout.size() * layout.grain();
     inverse_mass_.resize(static_cast<std::size_t>(layout.stride()));
     detail::set_zero(inverse_mass_.data() + size, layout.stride() - size);

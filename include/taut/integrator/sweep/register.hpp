@@ -170,10 +170,6 @@ struct VectorRegister {
                                                      const VectorRegister& b) {
         return of(Eigen::internal::pmax(a.packet, b.packet));
     }
-    friend EIGEN_ALWAYS_INLINE VectorRegister smaller(const VectorRegister& a,
-                                                      const VectorRegister& b) {
-        return of(Eigen::internal::pmin(a.packet, b.packet));
-    }
     friend EIGEN_ALWAYS_INLINE VectorRegister sqrt(const VectorRegister& a) {
         return of(Eigen::internal::psqrt(a.packet));
     }
