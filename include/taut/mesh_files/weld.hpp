@@ -64,9 +64,9 @@ private:
 
     Cell cell(Index v) const {
         Cell cell{};
-        for (int c = 0; c < 3; ++c) {
+        for (std::size_t c = 0; c < 3; ++c) {
             cell[c] = static_cast<std::int64_t>(
-                std::floor(static_cast<double>(vertices_(c, v)) / width_));
+                std::floor(static_cast<double>(vertices_(static_cast<Index>(c), v)) / width_));
         }
         return cell;
     }

@@ -235,7 +235,7 @@ template <class Real>
 Pencil Pencil::explicit_part(const std::vector<Real>& shares) const {
     Pencil pencil = *this;
     for (std::size_t s = 0; s < links_.size(); ++s) {
-        const double part = 1 - shares[names_[s].spring];
+        const double part = 1 - detail::at(shares, names_[s].spring);
         Link& link = pencil.links_[s];
         for (double* value :
              {&link.axial, &link.softer, &link.transverse, &link.damping, &link.across}) {
@@ -255,7 +255,7 @@ Pencil Pencil::explicit_part(const std::vector<Real>& shares) const {
 template <class Real>
 void Pencil::add_dampers(const std::vector<Real>& dampers) {
     for (std::size_t s = 0; s < links_.size(); ++s) {
-        const double c = dampers[names_[s].spring];
+        const double c = detail::at(dampers, names_[s].spring);
         Link& link = links_[s];
         link.damping += c;
         link.across += dim() == 1 && link.d[0] != 0 ? 0 : c;

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "../core/buffer.hpp"
 #include "../core/types.hpp"
 
 namespace taut {
@@ -61,7 +61,7 @@ struct WindFactors {
 };
 
 template <class Real>
-using Axes = std::array<Real, 3>;
+using Axes = detail::Few<Real, 3>;
 
 template <class Real>
 EIGEN_ALWAYS_INLINE Real dot(const Axes<Real>& a, const Axes<Real>& b) {

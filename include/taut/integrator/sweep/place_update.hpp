@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 
 #include "layout.hpp"
 
@@ -44,11 +43,11 @@ private:
     template <bool Stars, class Update>
     void move(const TilePlaces<Scalar>& tile, int planes, Scalar h) const;
 
-    std::array<Scalar, 4> gravity_{};                  // m/s²
-    std::array<Scalar, max_width> gravity_of_points_;  // x y z 0 x y z 0 …
-    Planes<Scalar> external_;                          // N
-    Buffer<Scalar> inverse_mass_;                      // a plane, 1/kg, 0 if pinned
-    Scalar drag_ = 0;                                  // d0, 1/s
+    Few<Scalar, 4> gravity_{};                  // m/s²
+    Few<Scalar, max_width> gravity_of_points_;  // x y z 0 x y z 0 …
+    Planes<Scalar> external_;                   // N
+    Buffer<Scalar> inverse_mass_;               // a plane, 1/kg, 0 if pinned
+    Scalar drag_ = 0;                           // d0, 1/s
     Scalar ahead_ = 0;
 };
 
@@ -90,7 +89,7 @@ void PlaceUpdate<Scalar>::move(const TilePlaces<Scalar>& tile, int planes, Scala
     const Register d0(drag_);
     const bool drags = drag_ > 0;
     for (int d = 0; d < planes; ++d) {
-        std::array<Register, turns> gravity;
+        Few<Register, turns> gravity;
         for (int turn = 0; turn < turns; ++turn) {
             gravity[turn] = Stars
                                 ? Register::load(gravity_of_points_.data() + turn * Register::width)

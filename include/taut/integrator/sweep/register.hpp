@@ -4,7 +4,11 @@
 
 #include <Eigen/Core>
 
+#include "../../core/buffer.hpp"
+
 namespace taut::integrator_detail::sweep {
+
+using detail::Few;
 
 /// No register of Eigen's is wider, in scalars; arrays are padded by as many.
 inline constexpr int max_width = 64 / sizeof(float);
