@@ -68,7 +68,7 @@ TAUT_INLINE Enclosed Pencil::quadratic(const Combination& c, const Eigen::Vector
     for (Index i = 0; i < size(); ++i) {
         const double term = mass_.data()[i] * u.data()[i] * u.data()[i];
         sum.value += on_mass * term;
-        sum.error += (std::abs)(on_mass)*term;
+        sum.error += term * (std::abs)(on_mass);
     }
     const bool springs =
         c.stiffness() != 0 || c.projected() != 0 ||

@@ -108,7 +108,8 @@ std::optional<ModeError> measured_mode_error(const LinearSystem<Scalar>& system,
     const std::complex<double> rate = std::log(*mu) / (static_cast<double>(stride) * z);
     const double zeta = mode.zeta();
     const double frequency = std::sqrt((std::max)(0.0, (1 - zeta) * (1 + zeta)));
-    return ModeError{-rate.real() / (std::abs)(rate)-zeta, frequency / rate.imag() - 1};
+    const double ratio = -rate.real() / (std::abs)(rate);
+    return ModeError{ratio - zeta, frequency / rate.imag() - 1};
 }
 
 }  // namespace taut
