@@ -46,12 +46,13 @@ public:
         coarse.time = fine.time;
         coarse.v.setZero();
         for (Index i = 0; i < mass_.size(); ++i) {
-            if (!system.is_pinned(cluster[i]))
-                coarse.v.col(cluster[i]) += mass_[i] / system.mass(cluster[i]) * fine.v.col(i);
+            const Index c = detail::at(cluster, i);
+            if (!system.is_pinned(c)) coarse.v.col(c) += mass_[i] / system.mass(c) * fine.v.col(i);
         }
         for (Index c = 0; c < system.size(); ++c) {
-            coarse.x.col(c) = fine.x.col(seeds[c]);
-            if (system.is_pinned(c)) coarse.v.col(c) = fine.v.col(seeds[c]);
+            const Index seed = detail::at(seeds, c);
+            coarse.x.col(c) = fine.x.col(seed);
+            if (system.is_pinned(c)) coarse.v.col(c) = fine.v.col(seed);
         }
         return coarse;
     }
