@@ -127,7 +127,7 @@ void ImexEuler<System>::find_shares() {
     const std::size_t springs = shares.links().size();
     for (std::size_t s = 0; options_.share && s < springs; ++s) {
         const double share = options_.share(static_cast<Index>(s));
-        if (!(share >= 0 && share <= 1))
+        if (!(share >= 0 && share <= 1 && detail::is_finite(share)))
             fail("ImexEuler: share of spring ", s, " is ", share, "; it must be in [0, 1]");
         shares.set(s, share);
     }

@@ -222,7 +222,7 @@ bool LammpsDump<Scalar, Dim>::read_particle() {
             }
             // An overflow of Scalar, too.
             const auto held = static_cast<Scalar>(value[column]);
-            if (!std::isfinite(held)) return stop(DumpStatus::not_finite);
+            if (!detail::is_finite(held)) return stop(DumpStatus::not_finite);
         }
     }
     if (!lines_.at_end()) return stop(DumpStatus::foreign, "it has too many columns");

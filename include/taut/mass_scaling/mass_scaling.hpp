@@ -34,7 +34,7 @@ template <class Scalar, int Dim, class... Laws>
 AddedMass added_mass(const SpringSystem<Scalar, Dim, Laws...>& system,
                      const State<Scalar, Dim>& state, double h) {
     require_positive("added_mass", "h", h);
-    if (state.x.cols() != system.size() || !state.x.allFinite()) {
+    if (state.x.cols() != system.size() || !detail::all_finite(state.x.data(), state.x.size())) {
         fail("added_mass: the state has ", state.x.cols(), " positions; the system has ",
              system.size(), " particles, and each position must be finite");
     }
@@ -76,11 +76,11 @@ AddedMass added_mass(const SpringSystem<Scalar, Dim, Laws...>& system,
             p[i] *= std::sqrt(std::clamp(use, 1e-4, 1.0));
         }
     }
-    added.reached = std::isfinite(best);
+    added.reached = detail::is_finite(best);
     const auto sum = [&](Index i) {
         return static_cast<Scalar>(static_cast<double>(system.mass(i)) + detail::at(added.mass, i));
     };
-    for (const Index i : free) added.reached = added.reached && std::isfinite(sum(i));
+    for (const Index i : free) added.reached = added.reached && detail::is_finite(sum(i));
     if (!added.reached) {
         added.mass.assign(added.mass.size(), 0);
         return added;

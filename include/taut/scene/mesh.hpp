@@ -146,7 +146,7 @@ Eigen::VectorXd masses_of_vertices(const Points<Scalar, 3>& vertices,
     const Eigen::VectorXd area = areas_of_vertices(vertices, faces);
     const double all = area.sum();
     for (const Index v : used) {
-        if (!(area[v] > 0) || !std::isfinite(all)) {
+        if (!(area[v] > 0) || !detail::is_finite(all)) {
             fail("springs_from_mesh: mass_by_area: no face around vertex ", v,
                  " has a finite area");
         }
@@ -245,7 +245,7 @@ MeshSprings<Scalar> springs_from_mesh(const Points<Scalar, 3>& vertices,
     std::vector<Index> used;
     for (Index v = 0; v < vertices.cols(); ++v) {
         if (particle(v) < 0) continue;
-        if (!vertices.col(v).allFinite()) {
+        if (!detail::all_finite(vertices.col(v).data(), vertices.col(v).size())) {
             fail("springs_from_mesh: the position of vertex ", v, " is not finite");
         }
         used.push_back(v);

@@ -159,7 +159,7 @@ RitzPair ritz_search(const Pencil& pencil, const Combination& c, const LanczosOp
                 w = scattered_vector(N, used);
                 for (int pass = 0; pass < 2; ++pass) Q.remove_from(w, 0, used);
             }
-            q = w / stability_detail::norm(w.data(), N);
+            if (used < N) q = w / stability_detail::norm(w.data(), N);  // else none is left
             // H of the first run is tridiagonal, so that what its end will be is cheap to know.
             early = rough && run == 0 && used >= 8 && used % 2 == 0 &&
                     tridiagonal_residual(H, m, used, beta) <= options.tolerance;

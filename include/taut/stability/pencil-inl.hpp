@@ -186,7 +186,8 @@ TAUT_INLINE double Pencil::largest_quotient(const Splitting& split) const {
         const double below = largest * particle_mass(i) * (1 - 1e-15) - split.rounding[i];
         if (dim() > 1 && stability_detail::proved_above(split.block[i], below)) continue;
         const double r = quotient(load(split, i), i);
-        if (!(r <= largest)) largest = r;  // NaN and infinity stay
+        if (!detail::is_finite(r)) return std::numeric_limits<double>::infinity();
+        largest = (std::max)(largest, r);
     }
     return largest;
 }
@@ -209,7 +210,7 @@ TAUT_INLINE double Pencil::upper_bound(const Combination& c) const {
     Splitting split = splitting(c);
     spread(p.data(), split);
     double best = largest_quotient(split);
-    if (!std::isfinite(best)) return std::numeric_limits<double>::infinity();
+    if (!detail::is_finite(best)) return std::numeric_limits<double>::infinity();
     double earlier = best;
     Buffer<double> r(p.size());
     for (int repeat = 1; repeat <= most_repeats && best > 0; ++repeat) {

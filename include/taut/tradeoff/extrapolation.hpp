@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-
 #include "../core/concepts.hpp"
 
 namespace taut {

@@ -28,7 +28,7 @@ namespace tradeoff_detail {
 template <class Real = double>  // a template: only its callers compile the expressions
 std::optional<std::complex<double>> fitted_multiplier(const VectorX<Real>& samples) {
     const Index rows = samples.size() - 2;
-    if (rows < 2 || !samples.allFinite()) return std::nullopt;
+    if (rows < 2 || !detail::all_finite(samples.data(), samples.size())) return std::nullopt;
     // In ε = μ − 1, from second and first differences, so that slow swings lose no digits.
     const VectorX<Real> value = samples.segment(1, rows);
     const VectorX<Real> first = value - samples.head(rows);
@@ -43,7 +43,7 @@ std::optional<std::complex<double>> fitted_multiplier(const VectorX<Real>& sampl
     const double half = (2 + a + b) / 2;
     // q − half² without cancellation for slow swings.
     const double under = -b - (a + b) * (a + b) / 4;
-    if (!(under > 0) || !std::isfinite(q)) return std::nullopt;
+    if (!(under > 0) || !detail::is_finite(q)) return std::nullopt;
     return std::complex<double>(half, std::sqrt(under));
 }
 

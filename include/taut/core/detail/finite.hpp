@@ -2,27 +2,36 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "../types.hpp"
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <type_traits>
 
 namespace taut::detail {
 
-/// Whether all of `count` numbers are, a register at a time.
+/// Whether all of `count` numbers are, by their bits: -ffast-math takes for granted what compares.
 template <class Scalar>
-bool all_finite(const Scalar* numbers, Index count) {
-    using namespace Eigen::internal;
-    using Packet = typename packet_traits<Scalar>::type;
-    constexpr Index width = packet_traits<Scalar>::size;
-    // x − x is 0, or NaN where x is not finite; and so is the sum.
-    Packet sums = pset1<Packet>(Scalar(0)), others = sums;
-    Index i = 0;
-    for (; i + 2 * width <= count; i += 2 * width) {
-        const Packet x = ploadu<Packet>(numbers + i), y = ploadu<Packet>(numbers + i + width);
-        sums = padd(sums, psub(x, x));
-        others = padd(others, psub(y, y));
+bool all_finite(const Scalar* numbers, std::ptrdiff_t count) {
+    using Real = std::conditional_t<sizeof(Scalar) == 4, float, double>;
+    using Bits = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
+    constexpr Bits one = Bits(1) << (std::numeric_limits<Real>::digits - 1),
+                   sign = ~(~Bits(0) >> 1);
+    constexpr auto unit = static_cast<Scalar>(sizeof(Scalar) > sizeof(Real) ? 0x1p-16000L : 1);
+    Bits carried = 0, bits;
+    for (std::ptrdiff_t i = 0; i < count; ++i) {
+        const auto number = static_cast<Real>(unit * numbers[i]);
+        std::memcpy(&bits, &number, sizeof bits);
+        carried |= (bits & (sign - one)) + one;  // an exponent of ones carries into the sign
     }
-    Scalar sum = predux(padd(sums, others));
-    for (; i < count; ++i) sum += numbers[i] - numbers[i];
-    return sum == Scalar(0);
+    return carried < sign;
+}
+
+/// Whether a number is that was computed just now.
+template <class Real>
+bool is_finite(Real number) {
+    const volatile Real held = number;  // and not what it was computed from
+    const Real seen = held;
+    return all_finite(&seen, 1);
 }
 
 }  // namespace taut::detail

@@ -178,7 +178,7 @@ auto StepJudge<System>::judge(const System& system, StepObjective<System>& objec
     Wide worst = 0;
     const auto raise = [&](Wide part, Wide whole) {
         const Wide ratio = part == 0 ? Wide(0) : part / whole;
-        if (!(ratio <= worst) && !std::isnan(worst)) worst = ratio;  // NaN stays
+        if (!(ratio <= worst) && detail::is_finite(worst)) worst = ratio;  // NaN stays
     };
     const auto tol = static_cast<Wide>(tolerance);
     size_up(system, objective, u);
@@ -193,7 +193,7 @@ auto StepJudge<System>::judge(const System& system, StepObjective<System>& objec
         work += move.dot(load_.col(i).template cast<Wide>()) / (h_ * h_);
     }
     const Wide stake = before_.kinetic + before_.springs + (std::abs)(work);
-    if (!std::isfinite(stake)) return {};
+    if (!detail::is_finite(stake)) return {};
     const Wide open =
         (std::abs)(u.template cast<Wide>().cwiseProduct(g.template cast<Wide>()).sum()) / (h_ * h_);
     solved = solved && open <= tol * stake + open_blur_ / (h_ * h_);
