@@ -8,7 +8,8 @@
 # - the core (taut.hpp, compiled.hpp and the rooms) includes a module, which any other folder is;
 # - a module has no header of its name, or that header's first line after #pragma once does not name
 #   exactly the other modules that the folder includes: "// Needs the module a." or
-#   "// Needs the modules a, b."
+#   "// Needs the modules a, b.";
+# - whether a number is finite is asked of what -ffast-math folds away.
 cmake_minimum_required(VERSION 3.21)
 cmake_path(ABSOLUTE_PATH INCLUDE)
 set(rooms core method model scene solver stability integrator)
@@ -37,6 +38,10 @@ foreach(header IN LISTS headers)
     list(FILTER odd EXCLUDE REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"]|^#include TAUT_USER_CONFIG$")
     if(odd)
         list(APPEND faults "${header} has an include that cannot be followed: ${odd}")
+    endif()
+    file(STRINGS ${INCLUDE}/${header} assumed REGEX "std::is(finite|nan|inf)[(]|[.](allFinite|hasNaN)[(]")
+    if(assumed)
+        list(APPEND faults "${header} asks what -ffast-math takes for granted, not core/detail/finite.hpp: ${assumed}")
     endif()
     file(STRINGS ${INCLUDE}/${header} includes REGEX "${include}\"")
     foreach(line IN LISTS includes)
