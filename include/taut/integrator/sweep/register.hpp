@@ -174,6 +174,15 @@ struct VectorRegister {
                                                      const VectorRegister& b) {
         return of(Eigen::internal::pmax(a.packet, b.packet));
     }
+    /// As laws call them.
+    friend EIGEN_ALWAYS_INLINE VectorRegister(max)(const VectorRegister& a,
+                                                   const VectorRegister& b) {
+        return larger(a, b);
+    }
+    friend EIGEN_ALWAYS_INLINE VectorRegister(min)(const VectorRegister& a,
+                                                   const VectorRegister& b) {
+        return of(Eigen::internal::pmin(a.packet, b.packet));
+    }
     friend EIGEN_ALWAYS_INLINE VectorRegister sqrt(const VectorRegister& a) {
         return of(Eigen::internal::psqrt(a.packet));
     }
