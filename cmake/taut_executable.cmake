@@ -18,6 +18,13 @@ function(taut_private_flags target)
     endif()
 endfunction()
 
+# Where there is little beside the headers, which users may compile with it.
+function(taut_sign_conversion target)
+    if(NOT MSVC)
+        target_compile_options(${target} PRIVATE -Wsign-conversion)
+    endif()
+endfunction()
+
 function(taut_executable target)
     add_executable(${target} ${ARGN})
     target_link_libraries(${target} PRIVATE Taut::Taut)

@@ -6,6 +6,10 @@
 #include <taut/stability/rayleigh-inl.hpp>
 #include <taut/stability/stability-inl.hpp>
 
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST)
+#error "Taut::Compiled is compiled strictly: the flag was lost"
+#endif
+
 namespace taut {
 
 template SparseMatrix<double> Pencil::assemble<double>(const Combination&) const;

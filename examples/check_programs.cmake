@@ -51,8 +51,11 @@ expect(stability_report "${cloth}" 0
     "at this pose .linear.*at any pose .linearised.*energy .nonlinear.*energy-stable Euler.*[0-9]+ steps a frame")
 expect(stability_report "${cloth} --blame 5" 0 "particle [0-9]+ .*kinetic energy")
 expect(stability_report "${cloth} --want-step 0.02" 0
-    "[0-9]+ steps of taut::EnergyStableEuler take its place.*all stiffness times .*kg more on")
+    "at any pose:  not proved; take [0-9]+ steps.*[0-9]+ steps of taut::EnergyStableEuler take its place.*safe at any pose, .*all stiffness times .*kg more on")
 expect(stability_report "${cloth} --step 0.0001" 0 "stable for alpha")
+# Just below the limit the window is narrower than the digits that are printed.
+expect(stability_report "triangle.obj --stretch 100 --mass 0.3 --step 0.0365135" 0
+    "no alpha of 5 digits is proved stable")
 expect(stability_report "missing.obj" 1 "missing.obj: cannot be opened")
 expect(stability_report "empty.obj" 1 "empty.obj: has 0 vertices")
 expect(stability_report "binary.obj" 1 "binary.obj:1: ")
@@ -151,11 +154,11 @@ if(NOT bytes EQUAL 368)  # 32 and 4 frames of 7 vertices
 endif()
 
 # Numbers as people write them.
-expect(stability_report "${cloth} --want-step 1/50" 0 "h = 2[.]0000e-02 s in this pose: refuted: .* grows [0-9.]+-fold")
-expect(stability_report "${cloth} --step 0.5ms" 0 "at h = 5[.]0000e-04 s with.*h = 5[.]0000e-04 s in this pose: proved safe")
-expect(stability_report "${cloth} --step 1/50s" 0 "Symplectic Euler at h = 2[.]0000e-02 s in this pose: refuted")
-expect(stability_report "${cloth} --step 1/50s" 0 "while it moves: [0-9]+ steps take its place")
-expect(stability_report "${cloth} --step 1us" 0 "and at any pose: proved")
+expect(stability_report "${cloth} --want-step 1/50" 0 "h = 2[.]0000e-02 s\n.*in this pose: refuted: .* grows [0-9.]+-fold")
+expect(stability_report "${cloth} --step 0.5ms" 0 "at h = 5[.]0000e-04 s with.*h = 5[.]0000e-04 s\n.*in this pose: proved")
+expect(stability_report "${cloth} --step 1/50s" 0
+    "Symplectic Euler at h = 2[.]0000e-02 s\n  at any pose:  not proved; take [0-9]+ steps .*\n  in this pose: refuted")
+expect(stability_report "${cloth} --step 1us" 0 "at any pose:  proved\n")
 expect(stability_report "${cloth} --step 1/0" 105 "no number such as 0.001, 1/240 or 0.5ms")
 expect(stability_report "${cloth} --step 5min" 105 "no number such as")
 expect(stability_report "${cloth} --step 0ms" 105 "not finite and > 0")
@@ -357,8 +360,10 @@ file(READ ${folder}/steps.json json)
 foreach(step IN ITEMS step want_step)
     string(JSON standing GET "${json}" ${step} standing)
     string(JSON growth GET "${json}" ${step} growth)
-    if(NOT standing STREQUAL refuted OR NOT growth GREATER 1)
-        message(SEND_ERROR "JSON ${step}: ${standing}, growth ${growth}")
+    string(JSON proved GET "${json}" ${step} any_pose proved)
+    string(JSON substeps GET "${json}" ${step} any_pose substeps)
+    if(NOT standing STREQUAL refuted OR NOT growth GREATER 1 OR proved OR NOT substeps GREATER 1)
+        message(SEND_ERROR "JSON ${step}: ${standing}, growth ${growth}, ${proved}, ${substeps} substeps")
     endif()
 endforeach()
 expect(stability_report "${cloth} --blame 2 --json report.json" 0 "symplectic Euler")

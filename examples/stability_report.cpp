@@ -92,14 +92,7 @@ void analyse(const taut::Stability<double>& stability, const Options& options, P
         return example::judge(stability, found.symplectic_euler, limiting_mode, h);
     };
     if (options.step > 0) found.verdict = verdict(options.step);
-    if (options.want_step > 0) {
-        progress.at("looking for what makes the wanted step safe");
-        const double h = options.want_step;
-        auto& remedies = found.remedies.emplace();
-        remedies.verdict = verdict(h);
-        remedies.stiffness_scale = stability.max_stiffness_scale(Method::symplectic_euler, h);
-        remedies.mass_scale = stability.min_mass_scale(Method::symplectic_euler, h);
-    }
+    if (options.want_step > 0) found.remedies = {verdict(options.want_step), {}};
     found.window_step = options.step;
     if (found.window_step == 0) {
         const double limit = found.symplectic_euler.certified;
@@ -128,8 +121,8 @@ Findings report_on_scene(const Options& options, Progress& progress) {
     found.any_pose = taut::any_pose_limit(scene.system, tightness);
     found.energy_stable = taut::energy_limit(scene.system, tightness);
     if (found.remedies) {
-        progress.at("looking for masses that make the wanted step safe");
-        found.remedies->added_mass = taut::added_mass(scene.system, state, options.want_step);
+        progress.at("looking for what makes the wanted step safe");
+        found.remedies->cures = example::cures_at_any_pose(scene.system, state, options.want_step);
     }
     if (options.resolve) {
         progress.at("looking for how few particles would do");
@@ -177,6 +170,7 @@ Findings report_on_matrices(const Options& options, Progress& progress) {
     const auto analysis = std::chrono::steady_clock::now();
     const taut::Stability<double> stability(system);
     analyse(stability, options, progress, found);
+    if (found.remedies) found.remedies->cures = example::cures(stability, options.want_step);
     found.analysis = seconds_since(analysis);
     if (!options.html.empty()) {
         std::optional<taut::RayleighDamping> undamped;

@@ -7,12 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <taut/mass_scaling/mass_scaling.hpp>
 #include <taut/resolution/resolution.hpp>
 #include <taut/taut.hpp>
 #include <taut/tight/tight.hpp>
 #include <taut/stability/bracket.hpp>
 #include <vector>
+
+#include "remedies.hpp"
 
 // What stability_report finds.
 
@@ -57,12 +58,10 @@ inline const char* name(Verdict::Standing standing) {
     return "";
 }
 
-/// What would make a wanted step safe.
+/// What would make a wanted step safe: at any pose where the findings have such a limit.
 struct Remedies {
     Verdict verdict;
-    double stiffness_scale = 0;
-    double mass_scale = 0;
-    std::optional<taut::AddedMass> added_mass;
+    Cures cures;
 };
 
 /// How few particles would do.
@@ -100,6 +99,11 @@ struct Findings {
     std::string lammps;   // lines on what was written for it
     Json page;            // what only the HTML page shows; null without --html
 
+    /// Whether `step`, s, may be used as the scene is.
+    bool is_safe(const Verdict& step) const {
+        if (any_pose) return any_pose->substeps(step.step, safe_part) == 1;
+        return step.standing == Verdict::Standing::certified;
+    }
     /// At which to step a moving scene, s; 0: none, or every step.
     double moving_step() const {
         return energy_stable && !energy_stable->unbounded() ? energy_stable->certified : 0;

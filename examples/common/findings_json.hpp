@@ -39,10 +39,18 @@ inline Json limit_json(const std::optional<taut::StepLimit<double>>& limit) {
     return limit ? limit_json(*limit) : Json{{"certified", nullptr}, {"refuted", nullptr}};
 }
 
-inline Json verdict_json(const Verdict& verdict) {
-    return {{"h", verdict.step},
-            {"standing", name(verdict.standing)},
-            {"growth", verdict.growth > 1 ? Json(verdict.growth) : Json(nullptr)}};
+/// standing and growth are of this pose; any_pose is null for bare matrices.
+inline Json verdict_json(const Findings& found, const Verdict& verdict) {
+    Json json{{"h", verdict.step},
+              {"standing", name(verdict.standing)},
+              {"growth", verdict.growth > 1 ? Json(verdict.growth) : Json(nullptr)},
+              {"any_pose", nullptr}};
+    if (found.any_pose) {
+        const auto substeps = found.any_pose->substeps(verdict.step, safe_part);
+        json["any_pose"] = {{"proved", found.any_pose->substeps(verdict.step, 1) == 1},
+                            {"substeps", optional_json(substeps)}};
+    }
+    return json;
 }
 
 inline Json to_json(const Findings& found, double d0) {
@@ -72,7 +80,7 @@ inline Json to_json(const Findings& found, double d0) {
                                                                        : Json("unbounded")},
                                {"empty", empty},
                                {"includes_zero", window.includes_zero}};
-    if (found.verdict) json["step"] = verdict_json(*found.verdict);
+    if (found.verdict) json["step"] = verdict_json(found, *found.verdict);
     for (const auto& spring : found.springs_to_blame) {
         json["limiting_springs"].push_back(
             {{"index", spring.index}, {"a", spring.a}, {"b", spring.b}, {"share", spring.share}});
@@ -87,13 +95,16 @@ inline Json to_json(const Findings& found, double d0) {
                          {"proved", found.proof->proved}};
     }
     if (found.remedies) {
-        const auto& remedies = *found.remedies;
-        json["want_step"] = verdict_json(remedies.verdict);
-        json["want_step"]["stiffness_scale"] = remedies.stiffness_scale;
-        json["want_step"]["mass_scale"] = remedies.mass_scale;
-        json["want_step"]["added_mass"] = remedies.added_mass && remedies.added_mass->reached
-                                              ? Json(remedies.added_mass->total)
-                                              : Json(nullptr);
+        const auto& [verdict, cures] = *found.remedies;
+        json["want_step"] = verdict_json(found, verdict);
+        auto& want = json["want_step"];
+        want["safe"] = found.is_safe(verdict);
+        want["cures_hold"] = found.any_pose ? "any_pose" : "this_pose";
+        want["stiffness_scale"] = cures.stiffness_scale;
+        want["mass_scale"] = cures.mass_scale;
+        want["added_mass"] = cures.added_mass && cures.added_mass->reached
+                                 ? Json(cures.added_mass->total)
+                                 : Json(nullptr);
     }
     if (found.resolution) json["resolution"] = resolution_json(*found.resolution);
     json["seconds"] = {{"setup", found.setup}, {"analysis", found.analysis}};

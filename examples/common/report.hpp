@@ -113,7 +113,7 @@ inline std::string step_text(const Verdict& verdict) {
 
 /// The rest of a sentence that names the step.
 inline std::string describe(const Verdict& verdict) {
-    if (verdict.standing == Verdict::Standing::certified) return "proved safe as the scene is";
+    if (verdict.standing == Verdict::Standing::certified) return "proved";
     if (verdict.standing == Verdict::Standing::undecided) return "neither proved nor refuted";
     char text[96];
     if (!(verdict.growth > 1)) return "refuted";
@@ -129,42 +129,55 @@ inline std::string describe(const Verdict& verdict) {
     return text;
 }
 
-/// What becomes of a step while the scene moves.
-inline void print_while_moving(const Findings& found, const Verdict& verdict) {
-    if (!found.any_pose) return;
-    const auto steps = found.any_pose->substeps(verdict.step, 1);
-    if (steps == 1) {
-        std::printf("  and at any pose: proved\n");
-    } else if (const auto safe = found.any_pose->substeps(verdict.step)) {
-        std::printf(
-            "  while it moves: %d steps take its place, each at most 0.95 of the any-pose limit\n",
-            int(*safe));
+/// What is known of a step: first while the scene moves.
+inline void print_verdict(const Findings& found, const char* step, const Verdict& verdict) {
+    const std::string h = step_text(verdict);
+    if (!found.any_pose) {
+        std::printf("%s h = %s s in this pose: %s\n", step, h.c_str(), describe(verdict).c_str());
+        return;
     }
+    std::printf("%s h = %s s\n  at any pose:  ", step, h.c_str());
+    const bool proved = found.any_pose->substeps(verdict.step, 1) == 1;
+    const auto substeps = found.any_pose->substeps(verdict.step, safe_part);
+    if (substeps == 1) {
+        std::printf("proved\n");
+    } else if (!substeps) {
+        std::printf("not proved, nor is any other step\n");
+    } else if (proved) {
+        std::printf("proved, but above %g of the limit: take 2 steps in its place\n", safe_part);
+    } else {
+        std::printf("not proved; take %lld steps in its place, each at most %g of the limit\n",
+                    static_cast<long long>(*substeps), safe_part);
+    }
+    std::printf("  in this pose: %s\n", describe(verdict).c_str());
 }
 
 inline void print_remedies(const Findings& found) {
-    const Remedies& remedies = *found.remedies;
-    std::printf("For symplectic Euler at h = %s s in this pose: %s\n",
-                step_text(remedies.verdict).c_str(), describe(remedies.verdict).c_str());
-    print_while_moving(found, remedies.verdict);
-    if (remedies.verdict.standing == Verdict::Standing::certified) return;
-    if (!(remedies.stiffness_scale > 0) || !std::isfinite(remedies.mass_scale)) {
+    const auto& [verdict, cures] = *found.remedies;
+    print_verdict(found, "The wanted step of symplectic Euler,", verdict);
+    if (found.is_safe(verdict)) return;
+    if (found.moving_step() > 0) {
+        std::printf("  %.0f steps of taut::EnergyStableEuler take its place as well\n",
+                    std::ceil(verdict.step / found.moving_step()));
+    }
+    if (!(cures.stiffness_scale > 0) || !std::isfinite(cures.mass_scale)) {
         std::printf("  no scale of stiffness or masses is proved to make it safe\n");
         return;
     }
-    if (found.moving_step() > 0) {
-        std::printf("  %.0f steps of taut::EnergyStableEuler take its place; or\n",
-                    std::ceil(remedies.verdict.step / found.moving_step()));
+    if (found.any_pose) {
+        std::printf("  any one of these makes it safe at any pose, at %g of the limit:\n",
+                    safe_part);
+    } else {
+        std::printf("  any one of these makes it safe in this pose:\n");
     }
-    std::printf(
-        "  any one of these makes it safe:\n  all stiffness times %s, or all masses times %s\n",
-        rounded_down(remedies.stiffness_scale, 4, 'g').c_str(),
-        rounded_up(remedies.mass_scale, 4, 'g').c_str());
-    if (!remedies.added_mass || !remedies.added_mass->reached) return;
-    const auto& added = *remedies.added_mass;
+    std::printf("    all stiffness times %s, or all masses times %s\n",
+                rounded_down(cures.stiffness_scale, 4, 'g').c_str(),
+                rounded_up(cures.mass_scale, 4, 'g').c_str());
+    if (!cures.added_mass || !cures.added_mass->reached) return;
+    const auto& added = *cures.added_mass;
     const auto heavier =
         std::count_if(added.mass.begin(), added.mass.end(), [](double m) { return m > 0; });
-    std::printf("  about %.4g kg more on %lld particles", added.total,
+    std::printf("    about %.4g kg more on %lld particles", added.total,
                 static_cast<long long>(heavier));
     if (!added.frequency_change.empty()) {
         const auto most =
@@ -172,6 +185,23 @@ inline void print_remedies(const Findings& found) {
         std::printf("; the lowest frequencies change by at most %.3g %%", -100 * *most);
     }
     std::printf("\n");
+}
+
+/// The α, s, that explicit Euler needs, as far as the digits that are printed tell them apart.
+inline void print_window(const Findings& found, double d0) {
+    constexpr int digits = 5;
+    std::printf("Explicit Euler at h = %.4e s with drag d0 = %g 1/s: ", found.window_step, d0);
+    if (found.window.empty != taut::EmptyWindow::none) {
+        std::printf("no alpha is proved stable: %s\n", describe(found.window.empty));
+        return;
+    }
+    const std::string lower = rounded_up(found.window.lower, digits);
+    const std::string upper = rounded_down(found.window.upper, digits);
+    if (std::isfinite(found.window.upper) && !(std::stod(lower) < std::stod(upper))) {
+        std::printf("no alpha of %d digits is proved stable: take a smaller step\n", digits);
+        return;
+    }
+    std::printf("stable for alpha in (%s, %s) s\n", lower.c_str(), upper.c_str());
 }
 
 inline void print_table(const Findings& found, double d0) {
@@ -195,7 +225,8 @@ inline void print_table(const Findings& found, double d0) {
     }
     std::printf(
         "  certified: proved, rounding included\n"
-        "  refuted:   a vibration is known that grows (any pose, energy: the condition fails)\n");
+        "  refuted:   a vibration is known that grows (any pose, energy: the condition fails)\n"
+        "  ratio:     of certified to refuted; between them nothing is claimed\n");
     print_promises(found);
     print_note("explicit Euler", found.explicit_euler);
     print_note("symplectic Euler", found.symplectic_euler);
@@ -204,25 +235,15 @@ inline void print_table(const Findings& found, double d0) {
 
     const auto& k = found.spectrum;
     std::printf(
-        "Eigenvalues of K/M: k_min in [%s, %s], k_max in [%s, %s] 1/s^2\n",
+        "Eigenvalues of K/M (stiffness, masses): k_min in [%s, %s], k_max in [%s, %s] 1/s^2\n",
         rounded_down(k.k_min.lower, 4, 'g').c_str(), rounded_up(k.k_min.upper, 4, 'g').c_str(),
         rounded_down(k.k_max.lower, 6, 'g').c_str(), rounded_up(k.k_max.upper, 6, 'g').c_str());
     if (found.zero_modes) {
         std::printf("Zero modes (rigid motions and mechanisms): %lld\n",
                     static_cast<long long>(*found.zero_modes));
     }
-    std::printf("Explicit Euler at h = %.4e s with d0 = %g 1/s: ", found.window_step, d0);
-    if (found.window.empty != taut::EmptyWindow::none) {
-        std::printf("no alpha is proved stable: %s\n", describe(found.window.empty));
-    } else {
-        std::printf("stable for alpha in (%s, %s) s\n", rounded_up(found.window.lower, 5).c_str(),
-                    rounded_down(found.window.upper, 5).c_str());
-    }
-    if (found.verdict) {
-        std::printf("Symplectic Euler at h = %s s in this pose: %s\n",
-                    step_text(*found.verdict).c_str(), describe(*found.verdict).c_str());
-        print_while_moving(found, *found.verdict);
-    }
+    print_window(found, d0);
+    if (found.verdict) print_verdict(found, "Symplectic Euler at", *found.verdict);
     if (found.proof) {
         std::printf("%s at h = %s s: %s\n", name(found.proof->method),
                     rounded_down(found.proof->step, 10).c_str(),

@@ -60,14 +60,25 @@ function writeHead() {
   );
 }
 
-/// What would make the step of --want-step safe.
+/// What is known of the step of --want-step, and what would make it safe.
 function remedy(want) {
   if (!want) return "";
   const asked = ` The step asked for, ${want.standing === "refuted" ? failingSeconds(want.h) : safeSeconds(want.h)},`;
-  const refuted = want.standing === "refuted" ? ` is refuted: the limiting vibration grows ${significant(want.growth)}-fold with every step. It` : "";
-  if (want.standing === "certified") return `${asked} is certified at this pose as the mesh is.`;
+  const grows = want.growth === null ? "" : `: the limiting vibration grows ${significant(want.growth)}-fold with every step`;
+  const here = { certified: "certified", undecided: "neither certified nor refuted", refuted: `refuted${grows}` }[want.standing];
+  if (!want.any_pose) return `${asked} is ${here}${want.safe ? "" : `.${cures(want)}`}.`;
+  const { proved, substeps } = want.any_pose;
+  const moving = want.safe ? "certified at any pose" : proved ? "certified at any pose, but above 0.95 of the limit" : "not certified at any pose";
+  const instead = want.safe || substeps === null ? "" : `; ${whole(substeps)} steps, each at most 0.95 of the limit, take its place`;
+  return `${asked} is ${moving}${instead}. At this pose it is ${here}${want.safe ? "" : `.${cures(want)}`}.`;
+}
+
+/// Without the last full stop.
+function cures(want) {
+  if (!(want.stiffness_scale > 0) || want.mass_scale === null) return " No scale of stiffness or masses is proved to make it safe";
+  const where = want.cures_hold === "any_pose" ? "any pose, at 0.95 of the limit," : "this pose";
   const added = want.added_mass === null ? "" : `, or ${significant(atLeast(want.added_mass))} kg more on the particles that need it`;
-  return `${asked}${refuted} is certified at this pose with all stiffness times ${significant(atMost(want.stiffness_scale))}, or all masses times ${significant(atLeast(want.mass_scale))}${added}.`;
+  return ` It is certified at ${where} with all stiffness times ${significant(atMost(want.stiffness_scale))}, or all masses times ${significant(atLeast(want.mass_scale))}${added}`;
 }
 
 function frequency(f) {
@@ -120,7 +131,8 @@ function writeCaptions() {
   }
   if (data.window) {
     const mark = findings.rayleigh_window;
-    const at = mark.empty ? `At h = ${seconds(mark.h, 3)} none is left.` : `At h = ${seconds(mark.h, 3)}, the heavy line, explicit Euler needs α between ${failingSeconds(mark.lower, 3)} and ${mark.upper === "unbounded" ? "any length" : safeSeconds(mark.upper, 3)}.`;
+    const none = mark.empty || (mark.upper !== "unbounded" && !(atLeast(mark.lower, 3) < atMost(mark.upper, 3)));
+    const at = none ? `At h = ${seconds(mark.h, 3)} none ${mark.empty ? "" : "of three digits "}is left.` : `At h = ${seconds(mark.h, 3)}, the heavy line, explicit Euler needs α between ${failingSeconds(mark.lower, 3)} and ${mark.upper === "unbounded" ? "any length" : safeSeconds(mark.upper, 3)}.`;
     fill("window", `Shaded: the damping α (the damping matrix is α times the stiffness matrix${mark.d0 > 0 ? `, beside d0 = ${significant(mark.d0)} 1/s on the mass` : ""}) for which a step is certified${mesh ? " at this pose" : ""}. ${at} Explicit Euler needs some damping and bears no more than the upper edge; symplectic Euler needs none. Both windows close at h = 2/√k, where k is the proved bound on the stiffest vibration.`);
   }
 }

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include <cmath>
 #include <limits>
 #include <taut/bdf2/bdf2.hpp>
 #include <taut/guard/guard.hpp>
@@ -7,6 +8,7 @@
 #include <taut/model/state_view.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/scene/with_law.hpp>
+#include <taut/tight/tight.hpp>
 #include <taut/wind/wind.hpp>
 #include <taut/model/tension_only.hpp>
 #include <vector>
@@ -64,6 +66,30 @@ TEST_CASE("guarded_types: implicit steppers, views, responses and options", "[gu
     REQUIRE(symplectic.advance(view, float(frame)));
     CHECK(symplectic.limit()->revision == net.revision());
     CHECK(symplectic.proved_limit()->revision == net.revision());
+}
+
+TEST_CASE("guarded_types: limits of the user's hold until the system changes", "[guard]") {
+    auto cloth = taut::hanging_cloth<float>({12, 12});
+    taut::Guarded guard(cloth);
+    const auto narrow = taut::any_pose_limit(cloth, 0.01);
+    const auto energy = taut::energy_limit(cloth, 0.01);
+    REQUIRE(narrow.certified > 1.1f * taut::any_pose_limit(cloth).certified);
+    guard.set_limits(narrow, energy);
+    auto state = cloth.initial_state();
+    state.v.row(2).tail(132).setConstant(20);
+    const double start = cloth.energy(state);
+    for (int i = 0; i < 60; ++i) {
+        const auto report = guard.advance(state, float(frame));
+        REQUIRE(report);
+        CHECK(report.substeps == taut::Index(std::ceil(frame / (0.95 * narrow.certified))));
+        CHECK(report.energy < 1.1 * start);
+    }
+    cloth.set_mass(5, 1);
+    CHECK_THROWS_WITH(guard.set_limits(narrow, energy),
+                      ContainsSubstring("the system has changed"));
+    REQUIRE(guard.advance(state, float(frame)));
+    CHECK(guard.limit()->certified == taut::any_pose_limit(cloth).certified);
+    CHECK(guard.proved_limit()->certified == taut::energy_limit(cloth).certified);
 }
 
 TEST_CASE("guarded_types: a frame of a view is that of a state, and one refused leaves it alone",

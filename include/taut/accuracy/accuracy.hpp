@@ -27,7 +27,7 @@ namespace tradeoff_detail {
 
 inline void require_mode(const char* function, double z, double zeta) {
     require_positive(function, "z", z);
-    if (!(zeta >= 0) || !(zeta < 1)) {
+    if (!(zeta >= 0) || !(zeta < 1) || !detail::is_finite(zeta)) {
         fail(function, ": zeta is ", zeta, "; it must be >= 0 and < 1, or there is no period");
     }
 }

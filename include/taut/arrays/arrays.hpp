@@ -84,7 +84,9 @@ struct StepCheck : StepAnswer<Scalar> {
 /// Judges step h, s, of a program's own springs, which are Hookean: as any_pose_limit(system,
 /// method) does, at any pose, and as Stability does where there are positions. For explicit Euler
 /// the latter is all: nothing of it is proved at every pose.
-/// A spring that only pulls may be given as well: symplectic Euler is then safe all the more.
+/// A spring that only pulls may be given as well. While it stays taut or slack the answer holds for
+/// it; where it turns from one to the other, small vibrations may grow at a step that is safe here.
+/// With energy_stable_euler the answer holds for such springs, too [T42].
 ///
 /// Fails by name when a number is out of its range, an index is that of no particle, a spring joins
 /// a particle to itself, or velocity_factor is not 1 with another method.

@@ -30,8 +30,9 @@ public:
     /// @param normal  out of the half-space, of any length but 0
     HalfSpace(const Vector& point, const Vector& normal)
         : point_(point), normal_(normal.stableNormalized()) {
-        if (!point.allFinite()) fail("HalfSpace: point is not finite");
-        if (!normal.allFinite() || !(normal_.squaredNorm() > Scalar(0.5))) {
+        if (!detail::all_finite(point.data(), point.size())) fail("HalfSpace: point is not finite");
+        if (!detail::all_finite(normal.data(), normal.size()) ||
+            !(normal_.squaredNorm() > Scalar(0.5))) {
             fail("HalfSpace: normal must be finite and not zero");
         }
     }
@@ -54,7 +55,7 @@ public:
 
     /// @param centre  m, finite   @param radius  m, finite and > 0
     Sphere(const Vector& centre, Scalar radius) : centre_(centre), radius_(radius) {
-        if (!centre.allFinite()) fail("Sphere: centre is not finite");
+        if (!detail::all_finite(centre.data(), centre.size())) fail("Sphere: centre is not finite");
         require_positive("Sphere", "radius", radius);
     }
     /// Above the last axis at the centre, where no way out is the shortest. @param x  m

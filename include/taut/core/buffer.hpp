@@ -30,10 +30,31 @@ void set_zero(Number* numbers, Eigen::Index count) {
     if (count > 0) std::memset(numbers, 0, static_cast<std::size_t>(count) * sizeof(Number));
 }
 
+/// Element i of a std::vector or std::array, counted by whatever integer.
+template <class Elements, class Number>
+decltype(auto) at(Elements& elements, Number i) {
+    return elements[static_cast<std::size_t>(i)];
+}
+
+/// A std::array counted by int, as the lanes of registers are.
+template <class T, int size>
+struct Few {
+    T items[static_cast<std::size_t>(size)];
+
+    EIGEN_ALWAYS_INLINE T& operator[](int i) { return items[i]; }
+    EIGEN_ALWAYS_INLINE const T& operator[](int i) const { return items[i]; }
+    T* data() { return items; }
+    const T* data() const { return items; }
+    T* begin() { return items; }
+    void fill(const T& value) {
+        for (T& item : items) item = value;
+    }
+};
+
 }  // namespace detail
 
 /// A std::vector of plain numbers, as far as plans need one; it costs a program a tenth of the
-/// code. Elements that are added without a value hold anything.
+/// code. Elements added without a value hold anything; sizes and indices are whatever integers.
 template <class T>
 class Buffer {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -41,9 +62,15 @@ class Buffer {
 public:
     Buffer() = default;
     /// `size` elements that hold anything.
-    explicit Buffer(std::size_t size) { resize(size); }
+    template <class Number>
+    explicit Buffer(Number size) {
+        resize(size);
+    }
     /// `size` elements, each `value`.
-    Buffer(std::size_t size, const T& value) { assign(size, value); }
+    template <class Number>
+    Buffer(Number size, const T& value) {
+        assign(size, value);
+    }
     /// The same elements.
     Buffer(const Buffer& other) { copy(other); }
     /// Takes the elements of `other`.
@@ -76,7 +103,7 @@ public:
     const T* begin() const { return data_; }
     /// Behind the last one.
     const T* end() const { return data_ + size_; }
-    /// Element i, counted by whatever integer; not checked but by eigen_assert.
+    /// Element i; not checked but by eigen_assert.
     template <class Number>
     T& operator[](Number i) {
         eigen_assert(static_cast<std::size_t>(i) < size_);
@@ -98,20 +125,23 @@ public:
         if (capacity > capacity_) set_capacity(capacity);
     }
     /// Has `size` elements; those that are new hold anything.
-    void resize(std::size_t size) {
-        reserve(size);
-        size_ = size;
+    template <class Number>
+    void resize(Number size) {
+        reserve(static_cast<std::size_t>(size));
+        size_ = static_cast<std::size_t>(size);
     }
     /// Has `size` elements; those that are new are `value`.
-    void resize(std::size_t size, const T& value) {
+    template <class Number>
+    void resize(Number size, const T& value) {
         const T all = value;  // which may lie in this buffer
-        const std::size_t old = size_;
-        if (size > capacity_) set_capacity((std::max)(size, 2 * capacity_));
-        size_ = size;
-        if (size > old) std::fill(data_ + old, data_ + size, all);
+        const std::size_t old = size_, now = static_cast<std::size_t>(size);
+        if (now > capacity_) set_capacity((std::max)(now, 2 * capacity_));
+        size_ = now;
+        if (now > old) std::fill(data_ + old, data_ + now, all);
     }
     /// `size` elements, each `value`, in place of these.
-    void assign(std::size_t size, const T& value) {
+    template <class Number>
+    void assign(Number size, const T& value) {
         const T all = value;
         size_ = 0;
         resize(size, all);

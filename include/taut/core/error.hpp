@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "assert.hpp"
+#include "detail/finite.hpp"
 
 namespace taut {
 namespace detail {
@@ -62,7 +63,7 @@ template <class... Parts>
 /// Fails unless `value` is finite and ≥ 0; the message names function, argument and value.
 template <class Scalar>
 void require_non_negative(const char* function, const char* argument, Scalar value) {
-    if (!(value >= Scalar(0)) || !std::isfinite(value)) {
+    if (!(value >= Scalar(0)) || !detail::is_finite(value)) {
         fail(function, ": ", argument, " is ", value, "; it must be finite and >= 0");
     }
 }
@@ -80,7 +81,7 @@ void require_held(const char* function, const char* argument, double value) {
 /// Fails unless `value` is finite and > 0.
 template <class Scalar>
 void require_positive(const char* function, const char* argument, Scalar value) {
-    if (!(value > Scalar(0)) || !std::isfinite(value)) {
+    if (!(value > Scalar(0)) || !detail::is_finite(value)) {
         fail(function, ": ", argument, " is ", value, "; it must be finite and > 0");
     }
 }

@@ -39,7 +39,8 @@ public:
     /// Whether what is left is below `tolerance`, or is the rounding of x and no step lowers it.
     bool converged(double tolerance) const {
         const bool stuck = failures_ >= 4 && residual_.norm() <= rounding_;
-        return relative_force() <= tolerance || stuck;
+        const double force = relative_force();
+        return (detail::is_finite(force) && force <= tolerance) || stuck;
     }
     /// ‖free forces‖ relative to the first ones, or to the weight.
     double relative_force() const {
@@ -119,6 +120,7 @@ bool EquilibriumSearch<System>::line_search(const VectorX<Scalar>& dx) {
         const bool lower =
             system_.potential_energy(trial_) - work < energy - Scalar(1e-4) * t * descent;
         // Close to the solution differences of energy drown in rounding; the forces do not.
+        if (!detail::is_finite(force)) continue;
         if (lower || force < Scalar(0.25) * residual_.squaredNorm()) {
             state_.x = trial_.x;
             sigma_ *= halving == 0 ? Scalar(0.25) : Scalar(1);
@@ -142,13 +144,13 @@ Status EquilibriumSearch<System>::iterate() {
     if (relative_force() > 0.05 || !factorize(false)) factorize(true);
     const VectorX<Scalar> dx =
         llt_.info() == Eigen::Success ? VectorX<Scalar>(llt_.solve(residual_)) : VectorX<Scalar>();
-    if (dx.size() > 0 && dx.allFinite() && line_search(dx)) {
+    if (dx.size() > 0 && detail::all_finite(dx.data(), dx.size()) && line_search(dx)) {
         update_forces();
         failures_ = 0;
     } else {
         ++failures_;
         sigma_ = 16 * (std::max)(sigma_, (std::numeric_limits<Scalar>::min)() * 1000);
-        if (!std::isfinite(sigma_)) return Status::not_converged;
+        if (!detail::is_finite(sigma_)) return Status::not_converged;
     }
     return Status::ok;
 }
@@ -200,9 +202,9 @@ Report static_equilibrium(const SpringSystem<Scalar, Dim, Laws...>& system,
     Report report;
     report.residual = search.relative_force();
     while (report && !search.converged(options.tolerance)) {
-        if (report.iterations >= options.max_iterations || !std::isfinite(report.residual)) {
+        if (report.iterations >= options.max_iterations || !detail::is_finite(report.residual)) {
             report.status =
-                std::isfinite(report.residual) ? Status::not_converged : Status::diverged;
+                detail::is_finite(report.residual) ? Status::not_converged : Status::diverged;
             break;
         }
         report.status = search.iterate();

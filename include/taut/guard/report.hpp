@@ -22,7 +22,8 @@ struct GuardedOptions {
 
     /// Fails by name unless every value is in range.
     void require_valid() const {
-        if (!(max_step > 0)) fail("Guarded: max_step is ", max_step, "; it must be > 0");
+        if (!(max_step > 0) || !detail::is_finite(1 / max_step))
+            fail("Guarded: max_step is ", max_step, "; it must be > 0");
         if (max_substeps < 1) {
             fail("Guarded: max_substeps is ", max_substeps, "; it must be >= 1");
         }

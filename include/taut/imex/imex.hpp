@@ -102,8 +102,8 @@ private:
     Options options_;
     integrator_detail::ExplicitSteps<System> steps_;
     std::vector<imex_detail::Link> links_;
-    std::vector<Index> particles_;  // of the rows
-    std::vector<int> row_;          // of each particle, or −1
+    Buffer<Index> particles_;  // of the rows
+    Buffer<int> row_;          // of each particle, or −1
     InterleavedLLT<Real> solver_;
     Rows rows_;  // kg·m/s²
     StepLimit<Scalar> limit_;
@@ -127,7 +127,7 @@ void ImexEuler<System>::find_shares() {
     const std::size_t springs = shares.links().size();
     for (std::size_t s = 0; options_.share && s < springs; ++s) {
         const double share = options_.share(static_cast<Index>(s));
-        if (!(share >= 0 && share <= 1))
+        if (!(share >= 0 && share <= 1 && detail::is_finite(share)))
             fail("ImexEuler: share of spring ", s, " is ", share, "; it must be in [0, 1]");
         shares.set(s, share);
     }
@@ -153,10 +153,10 @@ void ImexEuler<System>::find_shares() {
 template <class System>
 Report ImexEuler<System>::factorize() {
     particles_.clear();
-    row_.assign(static_cast<std::size_t>(system_->size()), -1);
+    row_.assign(system_->size(), -1);
     std::vector<Eigen::Triplet<Real>> entries;
     const auto row_of = [&](Index i) {
-        int& row = row_[static_cast<std::size_t>(i)];
+        int& row = row_[i];
         if (row < 0 && !system_->is_pinned(i)) {
             row = static_cast<int>(particles_.size());
             particles_.push_back(i);

@@ -73,13 +73,13 @@ LammpsReport write_lammps(const std::string& folder,
     report.atom_types = atoms.types();
     report.mass_per_atom = atoms.per_atom();
     report.cutoff = 2 * bonds.longest();
-    if (!std::isfinite(2 * report.cutoff)) {
+    if (!detail::is_finite(2 * report.cutoff)) {
         fail("write_lammps: twice the longest spring is ", report.cutoff, " m; it must be finite");
     }
 
     report.certified = static_cast<double>(any_pose_limit(system).certified);
     report.step = options.step > 0 ? options.step : options.share * report.certified;
-    if (!(report.step > 0) || !std::isfinite(report.step)) {
+    if (!(report.step > 0) || !detail::is_finite(report.step)) {
         fail("write_lammps: the certified step is ", report.certified,
              " s, of which no share is a step; give LammpsOptions::step");
     }

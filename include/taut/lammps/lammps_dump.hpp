@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -183,7 +182,7 @@ bool LammpsDump<Scalar, Dim>::read_frame() {
 template <class Scalar, int Dim>
 bool LammpsDump<Scalar, Dim>::read_columns(const char* names) {
     order_.clear();
-    std::array<int, columns> times{};
+    detail::Few<int, columns> times{};
     io_detail::for_each_word(names, [&](const std::string& name) {
         Column column = name == "id" ? id : other;
         for (int d = 0; d < Dim; ++d) {
@@ -208,7 +207,7 @@ bool LammpsDump<Scalar, Dim>::read_columns(const char* names) {
 template <class Scalar, int Dim>
 bool LammpsDump<Scalar, Dim>::read_particle() {
     lines_.rewind();
-    std::array<double, columns> value{};
+    detail::Few<double, columns> value{};
     long long number = 0;
     for (const Column column : order_) {
         if (column == id && !lines_.read(number)) {
@@ -223,7 +222,7 @@ bool LammpsDump<Scalar, Dim>::read_particle() {
             }
             // An overflow of Scalar, too.
             const auto held = static_cast<Scalar>(value[column]);
-            if (!std::isfinite(held)) return stop(DumpStatus::not_finite);
+            if (!detail::is_finite(held)) return stop(DumpStatus::not_finite);
         }
     }
     if (!lines_.at_end()) return stop(DumpStatus::foreign, "it has too many columns");

@@ -29,7 +29,7 @@ struct LatticeOptions {
 /// @throws when a count is < 1, or a physical value is out of its range
 template <class Scalar>
 SpringSystem<Scalar, 3> lattice(const LatticeOptions& options = {}) {
-    const auto [nx, ny, nz] = options.particles;
+    const Index nx = options.particles[0], ny = options.particles[1], nz = options.particles[2];
     if (nx < 1 || ny < 1 || nz < 1) {
         fail("lattice: ", nx, " by ", ny, " by ", nz, " particles; at least 1 of each are needed");
     }

@@ -34,7 +34,7 @@ template <class Scalar, int Dim, class... Laws>
 AddedMass added_mass(const SpringSystem<Scalar, Dim, Laws...>& system,
                      const State<Scalar, Dim>& state, double h) {
     require_positive("added_mass", "h", h);
-    if (state.x.cols() != system.size() || !state.x.allFinite()) {
+    if (state.x.cols() != system.size() || !detail::all_finite(state.x.data(), state.x.size())) {
         fail("added_mass: the state has ", state.x.cols(), " positions; the system has ",
              system.size(), " particles, and each position must be finite");
     }
@@ -49,11 +49,11 @@ AddedMass added_mass(const SpringSystem<Scalar, Dim, Laws...>& system,
     const auto pencil = Pencil::at_pose(system, state.x.template cast<TangentReal<Scalar>>());
     const FreeParticles free(system);
     const auto count = static_cast<std::size_t>(free.count());
-    std::vector<double> mass(count);
-    std::vector<double> p(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        mass[i] = static_cast<double>(system.mass(free[i]));
-        p[i] = 1 / std::sqrt(mass[i]);
+    std::vector<double> mass;
+    std::vector<double> p;
+    for (const Index i : free) {
+        mass.push_back(static_cast<double>(system.mass(i)));
+        p.push_back(1 / std::sqrt(mass.back()));
     }
     double best = std::numeric_limits<double>::infinity();
     for (int repeat = 0; repeat < repeats; ++repeat) {
@@ -65,8 +65,9 @@ AddedMass added_mass(const SpringSystem<Scalar, Dim, Laws...>& system,
         }
         if (total < best) {
             best = total;
-            for (std::size_t i = 0; i < count; ++i) {
-                added.mass[free[i]] = (std::max)(0.0, needed[i] / budget * margin - mass[i]);
+            for (Index j = 0; j < free.count(); ++j) {
+                detail::at(added.mass, free[j]) =
+                    (std::max)(0.0, detail::at(needed, j) / budget * margin - detail::at(mass, j));
             }
         }
         // A particle with mass to spare takes over from its neighbours by a smaller weight.
@@ -75,21 +76,18 @@ AddedMass added_mass(const SpringSystem<Scalar, Dim, Laws...>& system,
             p[i] *= std::sqrt(std::clamp(use, 1e-4, 1.0));
         }
     }
-    added.reached = std::isfinite(best);
-    for (const Index i : free) {
-        const double sum = static_cast<double>(system.mass(i)) + added.mass[i];
-        added.reached = added.reached && std::isfinite(static_cast<Scalar>(sum));
-    }
+    added.reached = detail::is_finite(best);
+    const auto sum = [&](Index i) {
+        return static_cast<Scalar>(static_cast<double>(system.mass(i)) + detail::at(added.mass, i));
+    };
+    for (const Index i : free) added.reached = added.reached && detail::is_finite(sum(i));
     if (!added.reached) {
         added.mass.assign(added.mass.size(), 0);
         return added;
     }
     added.total = best;
     auto heavier = system;
-    for (const Index i : free) {
-        heavier.set_mass(i,
-                         static_cast<Scalar>(static_cast<double>(system.mass(i)) + added.mass[i]));
-    }
+    for (const Index i : free) heavier.set_mass(i, sum(i));
     added.frequency_change = stability_detail::frequency_changes(
         pencil, Pencil::at_pose(heavier, state.x.template cast<TangentReal<Scalar>>()));
     return added;

@@ -64,9 +64,9 @@ private:
 
     Cell cell(Index v) const {
         Cell cell{};
-        for (int c = 0; c < 3; ++c) {
+        for (std::size_t c = 0; c < 3; ++c) {
             cell[c] = static_cast<std::int64_t>(
-                std::floor(static_cast<double>(vertices_(c, v)) / width_));
+                std::floor(static_cast<double>(vertices_(static_cast<Index>(c), v)) / width_));
         }
         return cell;
     }
@@ -118,7 +118,7 @@ WeldedMesh weld_vertices(const Points<Scalar, 3>& vertices,
     WeldedMesh mesh;
     scene_detail::VertexGrid<Scalar> stayed(vertices, distance);
     for (Index v = 0; v < vertices.cols(); ++v) {
-        if (!vertices.col(v).allFinite()) {
+        if (!detail::all_finite(vertices.col(v).data(), vertices.col(v).size())) {
             fail("weld_vertices: the position of vertex ", v, " is not finite");
         }
         mesh.vertex.push_back(stayed.first_near(v));

@@ -123,7 +123,7 @@ ModalDynamics<Shape, Dim>::ModalDynamics(const LinearSystem<Real>& linear,
 
 template <class Shape, int Dim>
 Report ModalDynamics<Shape, Dim>::step(double h, Index count) {
-    if (!(h > 0) || !std::isfinite(h)) return {Status::invalid_step};
+    if (!(h > 0) || !detail::is_finite(h)) return {Status::invalid_step};
     if (count <= 0) return {};
     set_step(h);
     old_q_ = q_;
@@ -133,7 +133,7 @@ Report ModalDynamics<Shape, Dim>::step(double h, Index count) {
         v_ = a21_ * q_ + a22_ * v_ + b2_ * p_;
         q_.swap(next_);
     }
-    if (!q_.allFinite() || !v_.allFinite()) {
+    if (!detail::all_finite(q_.data(), q_.size()) || !detail::all_finite(v_.data(), v_.size())) {
         q_ = old_q_;
         v_ = old_v_;
         return {Status::diverged};
@@ -187,7 +187,8 @@ void ModalDynamics<Shape, Dim>::set_force(const Points<Shape, Dim>& force) {
         fail("ModalDynamics::set_force: ", force.cols(), " particles; the scene has ",
              pose_.cols());
     }
-    if (!force.allFinite()) fail("ModalDynamics::set_force: a force is not finite");
+    if (!detail::all_finite(force.data(), force.size()))
+        fail("ModalDynamics::set_force: a force is not finite");
     p_ = load_ + project(force, false);
 }
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <algorithm>
-#include <vector>
 
+#include "../core/buffer.hpp"
 #include "../core/types.hpp"
 
 namespace taut {
@@ -19,18 +19,18 @@ public:
     ///                   may repeat
     template <class EachPair>
     BlockPattern(Index columns, EachPair&& each_pair) {
-        std::vector<int> degree(static_cast<std::size_t>(columns), 1);
+        Buffer<int> degree(columns, 1);
         each_pair([&](Index a, Index b) {
             ++degree[a];
             ++degree[b];
         });
-        std::vector<Index> end(degree.size());
+        Buffer<Index> end(degree.size());
         Index total = 0;
         for (std::size_t j = 0; j < degree.size(); ++j) {
             end[j] = total;
             total += degree[j];
         }
-        rows_.resize(static_cast<std::size_t>(total));
+        rows_.resize(total);
         for (std::size_t j = 0; j < end.size(); ++j) rows_[end[j]++] = static_cast<int>(j);
         each_pair([&](Index a, Index b) {
             rows_[end[a]++] = static_cast<int>(b);
@@ -81,7 +81,7 @@ public:
     }
 
 private:
-    void remove_repeats(const std::vector<int>& degree) {
+    void remove_repeats(const Buffer<int>& degree) {
         first_.assign(1, 0);
         auto kept = rows_.begin();
         auto begin = rows_.begin();
@@ -90,13 +90,13 @@ private:
             const auto end = std::unique(begin, begin + size);
             kept = std::copy(begin, end, kept);
             begin += size;
-            first_.push_back(static_cast<Index>(kept - rows_.begin()));
+            first_.push_back(kept - rows_.begin());
         }
-        rows_.erase(kept, rows_.end());
+        rows_.resize(kept - rows_.begin());
     }
 
-    std::vector<Index> first_{0};  // block column → number of blocks before it
-    std::vector<int> rows_;        // block rows of all columns, ascending in each
+    Buffer<Index> first_ = Buffer<Index>(1, 0);  // block column → number of blocks before it
+    Buffer<int> rows_;                           // block rows of all columns, ascending in each
 };
 
 }  // namespace taut

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vector>
-
+#include "../core/buffer.hpp"
 #include "../core/types.hpp"
 
 namespace taut {
@@ -70,8 +69,8 @@ private:
         if (!pinned) list_.push_back(particles() - 1);
     }
 
-    std::vector<Index> list_;   // ascending
-    std::vector<Index> place_;  // particle → its place in list_, or −1
+    Buffer<Index> list_;   // ascending
+    Buffer<Index> place_;  // particle → its place in list_, or −1
 };
 
 }  // namespace taut

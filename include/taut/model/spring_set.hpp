@@ -102,7 +102,8 @@ struct SpringSet {
         t.damping = spring.damping;
         for (int k = 0; k < Dim; ++k) t.d[k] = x(k, t.b) - x(k, t.a);
         const Real l2 = t.d.squaredNorm();
-        if (l2 >= static_cast<Real>((std::numeric_limits<Scalar>::min)()) && std::isfinite(l2)) {
+        if (l2 >= static_cast<Real>((std::numeric_limits<Scalar>::min)()) &&
+            detail::is_finite(l2)) {
             const Real l = std::sqrt(l2);
             for (int k = 0; k < Dim; ++k) t.d[k] /= l;
             t.axial = spring.tension_slope(l);
@@ -135,7 +136,7 @@ struct SpringSet {
         const Real l = std::sqrt(dx.squaredNorm());
         const Real size = far_a + far_b + L;
         const Real reach = 8 * static_cast<Real>(std::numeric_limits<Scalar>::epsilon()) * size;
-        if (!std::isfinite(l + reach)) return {t.axial, t.axial};
+        if (!detail::is_finite(l + reach)) return {t.axial, t.axial};
         // Laws are asked for l > 0: below this length the ends coincide [T3].
         const Real shortest = std::sqrt(static_cast<Real>((std::numeric_limits<Scalar>::min)()));
         const auto [least, most] =

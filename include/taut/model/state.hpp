@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
-
 #include "../core/detail/finite.hpp"
 #include "../core/types.hpp"
 
@@ -15,7 +13,7 @@ template <class Array>
 Index first_not_finite(const Array& x, const Array& v) {
     for (Index i = 0; i < x.cols(); ++i) {
         for (Index d = 0; d < x.rows(); ++d) {
-            if (!std::isfinite(x(d, i)) || !std::isfinite(v(d, i))) return i;
+            if (!detail::is_finite(x(d, i)) || !detail::is_finite(v(d, i))) return i;
         }
     }
     return -1;

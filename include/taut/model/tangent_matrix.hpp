@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
 #include "../core/assert.hpp"
+#include "../core/buffer.hpp"
 #include "block_pattern.hpp"
 #include "combination.hpp"
 #include "free_particles.hpp"
@@ -49,8 +49,8 @@ private:
     };
     FreeParticles free_;
     BlockPattern pattern_;
-    std::vector<int> diagonal_;  // block column → place of its diagonal block
-    std::vector<Slots> slots_;   // one for each spring, in the order of for_each_spring
+    Buffer<int> diagonal_;  // block column → place of its diagonal block
+    Buffer<Slots> slots_;   // one for each spring, in the order of for_each_spring
 };
 
 template <class Scalar, int Dim>

@@ -147,7 +147,7 @@ GeneralLinearSystem<Scalar>::GeneralLinearSystem(Vector mass, Matrix damping, Ma
     if (N == 0) fail("LinearSystem: mass is empty; at least one degree of freedom is needed");
     for (Index i = 0; i < N; ++i) {
         // 1/mass must be finite too, or a step would divide by zero.
-        if (!(mass_[i] > 0) || !std::isfinite(mass_[i]) || !std::isfinite(1 / mass_[i])) {
+        if (!(mass_[i] > 0) || !detail::is_finite(mass_[i]) || !detail::is_finite(1 / mass_[i])) {
             fail("LinearSystem: mass[", i, "] is ", mass_[i], "; it must be finite and > 0");
         }
     }
@@ -164,7 +164,7 @@ GeneralLinearSystem<Scalar>::GeneralLinearSystem(Vector mass, Matrix damping, Ma
         matrix.makeCompressed();
         for (Index j = 0; j < N; ++j) {
             for (typename Matrix::InnerIterator entry(matrix, j); entry; ++entry) {
-                if (!std::isfinite(entry.value())) {
+                if (!detail::is_finite(entry.value())) {
                     fail("LinearSystem: ", argument, "(", entry.row(), ", ", j, ") is ",
                          entry.value(), "; it must be finite");
                 }
@@ -174,7 +174,7 @@ GeneralLinearSystem<Scalar>::GeneralLinearSystem(Vector mass, Matrix damping, Ma
     require_fit("damping", damping_);
     require_fit("stiffness", stiffness_);
     for (Index i = 0; i < N; ++i) {
-        if (!std::isfinite(load_[i])) {
+        if (!detail::is_finite(load_[i])) {
             fail("LinearSystem: load[", i, "] is ", load_[i], "; it must be finite");
         }
     }

@@ -129,7 +129,7 @@ std::optional<double> MatrixPencil<Scalar>::mass_proportional() const {
         least = (std::min)(least, d != 0 && !std::isnormal(quotient) ? -1 : quotient);
         most = (std::max)(most, quotient);
     }
-    if (diagonal && least >= 0 && most <= least * (1 + rounding) && std::isfinite(most))
+    if (diagonal && least >= 0 && most <= least * (1 + rounding) && detail::is_finite(most))
         return most;
     return std::nullopt;
 }
@@ -235,7 +235,8 @@ double MatrixPencil<Scalar>::upper_bound(const Combination& c) const {
         const Eigen::VectorXd weight = mass_.cwiseProduct(p);
         const Eigen::VectorXd quotient = (others + diagonal + error).cwiseQuotient(weight);
         // maxCoeff may pass over what is not a number: a weight that vanished, or overflow.
-        if (!(weight.minCoeff() > 0) || quotient.hasNaN()) break;
+        const bool finite = detail::all_finite(quotient.data(), quotient.size());
+        if (!(weight.minCoeff() > 0) || !finite) break;
         best = (std::min)(best, quotient.maxCoeff());
         const Eigen::VectorXd powered = (others + diagonal.cwiseAbs()).cwiseQuotient(mass_);
         const double growth = powered.cwiseQuotient(p).maxCoeff();

@@ -100,7 +100,7 @@ constexpr const char* reason(StepBound bound) {
 /// The cheapest of plans that all reach the goal. Fails when none has a finite cost.
 inline Recommendation choose(std::vector<Plan> plans, const Goal& goal) {
     plans.erase(std::remove_if(plans.begin(), plans.end(),
-                               [](const Plan& plan) { return !std::isfinite(plan.cost); }),
+                               [](const Plan& plan) { return !detail::is_finite(plan.cost); }),
                 plans.end());
     if (plans.empty()) fail("choose: no plan has a finite cost; at least one is needed");
     std::stable_sort(plans.begin(), plans.end(),

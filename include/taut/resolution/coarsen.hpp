@@ -46,12 +46,13 @@ public:
         coarse.time = fine.time;
         coarse.v.setZero();
         for (Index i = 0; i < mass_.size(); ++i) {
-            if (!system.is_pinned(cluster[i]))
-                coarse.v.col(cluster[i]) += mass_[i] / system.mass(cluster[i]) * fine.v.col(i);
+            const Index c = detail::at(cluster, i);
+            if (!system.is_pinned(c)) coarse.v.col(c) += mass_[i] / system.mass(c) * fine.v.col(i);
         }
         for (Index c = 0; c < system.size(); ++c) {
-            coarse.x.col(c) = fine.x.col(seeds[c]);
-            if (system.is_pinned(c)) coarse.v.col(c) = fine.v.col(seeds[c]);
+            const Index seed = detail::at(seeds, c);
+            coarse.x.col(c) = fine.x.col(seed);
+            if (system.is_pinned(c)) coarse.v.col(c) = fine.v.col(seed);
         }
         return coarse;
     }
@@ -70,7 +71,7 @@ public:
     Eigen::Matrix<Scalar, Dim, 1> lifted(const Points<Scalar, Dim>& displacement, Index i) const {
         const auto& row = lift_.rows[static_cast<std::size_t>(i)];
         Eigen::Matrix<Scalar, Dim, 1> sum = Eigen::Matrix<Scalar, Dim, 1>::Zero();
-        for (int k = 0; k < row.count; ++k)
+        for (std::size_t k = 0; k < row.count; ++k)
             sum += static_cast<Scalar>(row.weight[k]) * displacement.col(row.coarse[k]);
         return sum;
     }
@@ -150,7 +151,7 @@ Coarsening<SpringSystem<Scalar, Dim, Laws...>> coarsen(
         fail("coarsen: count is ", count, "; pins, and one particle of each part that no spring ",
              "joins to them, are at least ", least);
 
-    std::vector<double> mass(clusters.seeds.size(), 0);
+    Buffer<double> mass(clusters.seeds.size(), 0);
     VectorX<Scalar> fine_mass(system.size());
     Eigen::Matrix<double, Dim, Eigen::Dynamic> force(Dim, count);
     force.setZero();
@@ -179,8 +180,11 @@ Coarsening<SpringSystem<Scalar, Dim, Laws...>> coarsen(
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     auto lift = scene_detail::make_lift(x, clusters, pairs);
-    return {std::move(coarse), std::move(clusters.seeds), std::move(clusters.of),
-            std::move(fine_mass), std::move(lift)};
+    return {std::move(coarse),
+            {clusters.seeds.begin(), clusters.seeds.end()},
+            {clusters.of.begin(), clusters.of.end()},
+            std::move(fine_mass),
+            std::move(lift)};
 }
 
 }  // namespace taut

@@ -131,7 +131,7 @@ private:
     }
 
     Resolved find() {
-        if (!(found_.size > 0) || !std::isfinite(found_.size))
+        if (!(found_.size > 0) || !detail::is_finite(found_.size))
             fail("resolve: the scene's size is ", found_.size, " m; it must be finite and > 0");
         if (!may_move()) return Resolved::nothing_moves;
         const Pace fine = pace_of(system_, duration_, options_.samples);

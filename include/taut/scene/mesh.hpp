@@ -79,7 +79,7 @@ private:
 /// The corners opposite to each edge of the triangles; an edge is bent if exactly two share it.
 struct Hinge {
     std::array<Index, 2> opposite{-1, -1};
-    int triangles = 0;
+    std::size_t triangles = 0;
 };
 
 inline void require_faces(const std::vector<std::vector<Index>>& faces, Index vertices) {
@@ -146,7 +146,7 @@ Eigen::VectorXd masses_of_vertices(const Points<Scalar, 3>& vertices,
     const Eigen::VectorXd area = areas_of_vertices(vertices, faces);
     const double all = area.sum();
     for (const Index v : used) {
-        if (!(area[v] > 0) || !std::isfinite(all)) {
+        if (!(area[v] > 0) || !detail::is_finite(all)) {
             fail("springs_from_mesh: mass_by_area: no face around vertex ", v,
                  " has a finite area");
         }
@@ -237,15 +237,15 @@ MeshSprings<Scalar> springs_from_mesh(const Points<Scalar, 3>& vertices,
     require_positive("springs_from_mesh", "mass", options.mass);
     MeshSprings<Scalar> mesh;
     mesh.system.set_rayleigh(options.rayleigh);
-    auto& particle = mesh.particle_of_vertex;
-    particle.assign(static_cast<std::size_t>(vertices.cols()), Index(-1));
+    mesh.particle_of_vertex.assign(static_cast<std::size_t>(vertices.cols()), Index(-1));
+    const auto particle = [&](Index v) -> Index& { return detail::at(mesh.particle_of_vertex, v); };
     for (const auto& face : faces) {
-        for (const Index corner : face) particle[corner] = 0;
+        for (const Index corner : face) particle(corner) = 0;
     }
     std::vector<Index> used;
     for (Index v = 0; v < vertices.cols(); ++v) {
-        if (particle[v] < 0) continue;
-        if (!vertices.col(v).allFinite()) {
+        if (particle(v) < 0) continue;
+        if (!detail::all_finite(vertices.col(v).data(), vertices.col(v).size())) {
             fail("springs_from_mesh: the position of vertex ", v, " is not finite");
         }
         used.push_back(v);
@@ -253,14 +253,14 @@ MeshSprings<Scalar> springs_from_mesh(const Points<Scalar, 3>& vertices,
     mesh.unused_vertices = vertices.cols() - static_cast<Index>(used.size());
     const Eigen::VectorXd mass = scene_detail::masses_of_vertices(vertices, faces, used, options);
     for (const Index v : used) {
-        particle[v] = mesh.system.add_particle(vertices.col(v), static_cast<Scalar>(mass[v]));
+        particle(v) = mesh.system.add_particle(vertices.col(v), static_cast<Scalar>(mass[v]));
     }
     scene_detail::UniqueEdges edges(vertices.cols());
     mesh.stretch_springs = scene_detail::join_corners(faces, options.bend > 0, edges);
     mesh.bend_springs = static_cast<Index>(edges.pairs().size()) - mesh.stretch_springs;
     for (const auto& face : faces) {
         scene_detail::for_each_triangle(face, [&](Index a, Index b, Index c) {
-            mesh.triangles.push_back({particle[a], particle[b], particle[c]});
+            mesh.triangles.push_back({particle(a), particle(b), particle(c)});
         });
     }
     const auto stretch = static_cast<std::size_t>(mesh.stretch_springs);
@@ -268,7 +268,7 @@ MeshSprings<Scalar> springs_from_mesh(const Points<Scalar, 3>& vertices,
     for (std::size_t s = 0; s < edges.pairs().size(); ++s) {
         const auto [a, b] = edges.pairs()[s];
         const double k = stiffness(s < stretch ? options.stretch : options.bend, a, b);
-        mesh.system.add_spring(particle[a], particle[b], static_cast<Scalar>(k));
+        mesh.system.add_spring(particle(a), particle(b), static_cast<Scalar>(k));
     }
     return mesh;
 }

@@ -4,8 +4,8 @@
 
 #include <Eigen/OrderingMethods>
 #include <algorithm>
-#include <vector>
 
+#include "../core/buffer.hpp"
 #include "../core/types.hpp"
 
 namespace taut {
@@ -14,7 +14,7 @@ namespace solver_detail {
 /// A symmetric pattern with each run of consecutive columns of the same rows drawn together to one
 /// vertex: for the Dim × Dim blocks of springs, the graph of the particles.
 struct CompressedGraph {
-    std::vector<int> first;       // vertex → its first column; at the end the number of columns
+    Buffer<int> first;            // vertex → its first column; at the end the number of columns
     SparseMatrix<double> matrix;  // full symmetric pattern between vertices, ones
 
     /// @param A  compressed, both triangles, rows ascending
@@ -36,7 +36,7 @@ template <class Scalar>
 CompressedGraph::CompressedGraph(const SparseMatrix<Scalar>& A) {
     const int* outer = A.outerIndexPtr();
     const int* rows = A.innerIndexPtr();
-    std::vector<int> vertex(static_cast<std::size_t>(A.cols()));
+    Buffer<int> vertex(A.cols());
     for (int j = 0; j < A.cols(); ++j) {
         const bool same = j > 0 && outer[j + 1] - outer[j] == outer[j] - outer[j - 1] &&
                           std::equal(rows + outer[j], rows + outer[j + 1], rows + outer[j - 1]);

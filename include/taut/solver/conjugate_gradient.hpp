@@ -135,7 +135,7 @@ auto ConjugateGradient<Scalar_, Dim>::solve(const Vector& b) const -> const Vect
         info_ = exact_.run(A_, tolerance_ * norm, cap, iterations_);
         x_ += exact_.x;
         set_residual(b, norm);
-        if (!std::isfinite(error_)) info_ = Eigen::NumericalIssue;
+        if (!detail::is_finite(error_)) info_ = Eigen::NumericalIssue;
         // The residual of the recurrence drifts from the true one by rounding. Once more helps,
         // unless the true one is nothing but rounding.
         if (info_ != Eigen::Success || !(2 * error_ <= before)) break;

@@ -3,9 +3,8 @@
 #pragma once
 
 #include <Eigen/SparseCholesky>
-#include <array>
-#include <vector>
 
+#include "../core/buffer.hpp"
 #include "../core/types.hpp"
 
 namespace taut {
@@ -50,7 +49,7 @@ private:
         return Eigen::Map<Lane<Columns>>(y_.data() + Lane<Columns>::RowsAtCompileTime * row);
     }
 
-    std::vector<int> groups_;    // first columns of groups of 4, 2 or 1
+    Buffer<int> groups_;         // first columns of groups of 4, 2 or 1
     mutable VectorX<Scalar> y_;  // the permuted solution, in lanes
     mutable VectorX<Scalar> x_;  // the solution
 };
@@ -84,7 +83,7 @@ template <int Columns, int Width>
 void InterleavedLLT<Scalar, Ordering>::eliminate(int j) const {
     const int* first = factor().outerIndexPtr() + j;
     const Scalar* values = factor().valuePtr();
-    std::array<Lane<Columns>, Width> y;
+    detail::Few<Lane<Columns>, Width> y;
     for (int a = 0; a < Width; ++a) {
         y[a] = lane<Columns>(j + a);
         for (int b = 0; b < a; ++b) y[a] -= values[first[b] + a - b] * y[b];
@@ -93,7 +92,7 @@ void InterleavedLLT<Scalar, Ordering>::eliminate(int j) const {
     }
     const int below = first[Width] - first[Width - 1] - 1;
     const int* rows = factor().innerIndexPtr() + first[Width] - below;
-    std::array<const Scalar*, Width> column;
+    detail::Few<const Scalar*, Width> column;
     for (int a = 0; a < Width; ++a) column[a] = values + first[a + 1] - below;
     for (int e = 0; e < below; ++e) {
         auto target = lane<Columns>(rows[e]);
@@ -109,11 +108,11 @@ template <int Columns, int Width>
 void InterleavedLLT<Scalar, Ordering>::substitute(int j) const {
     const int* first = factor().outerIndexPtr() + j;
     const Scalar* values = factor().valuePtr();
-    std::array<Lane<Columns>, Width> y;
+    detail::Few<Lane<Columns>, Width> y;
     for (int a = 0; a < Width; ++a) y[a] = lane<Columns>(j + a);
     const int below = first[Width] - first[Width - 1] - 1;
     const int* rows = factor().innerIndexPtr() + first[Width] - below;
-    std::array<const Scalar*, Width> column;
+    detail::Few<const Scalar*, Width> column;
     for (int a = 0; a < Width; ++a) column[a] = values + first[a + 1] - below;
     for (int e = 0; e < below; ++e) {
         const Lane<Columns> known = lane<Columns>(rows[e]);

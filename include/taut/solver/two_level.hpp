@@ -30,7 +30,7 @@ public:
         for (Index i = 0; i < A.rows(); ++i) {
             const typename Matrix::Block block = A.block(A.diagonal(i));
             if (Eigen::LLT<typename Matrix::Block>(block).info() != Eigen::Success) return false;
-            inverse_[i] = block.inverse();
+            detail::at(inverse_, i) = block.inverse();
         }
         return true;
     }
@@ -38,7 +38,7 @@ public:
     void apply(const Matrix& A, const VectorX<Scalar>& r, VectorX<Scalar>& z) const {
         for (Index i = 0; i < A.rows(); ++i) {
             z.template segment<Dim>(Dim * i).noalias() =
-                inverse_[i] * r.template segment<Dim>(Dim * i);
+                detail::at(inverse_, i) * r.template segment<Dim>(Dim * i);
         }
     }
 
@@ -83,7 +83,7 @@ public:
 private:
     solver_detail::BlockJacobi<Scalar, Dim> jacobi_;
     solver_detail::Aggregates groups_;
-    std::vector<int> targets_;     // block of A → where it adds to coarse_; −1: nowhere
+    Buffer<int> targets_;          // block of A → where it adds to coarse_; −1: nowhere
     SparseMatrix<Scalar> coarse_;  // ZᵀAZ: both triangles for the ordering, values below only
     InterleavedLLT<Scalar, BlockOrdering<>> llt_;
     VectorX<Scalar> coarse_r_;  // Zᵀr
@@ -97,12 +97,12 @@ void TwoLevel<Scalar, Dim>::analyze(const Matrix& A) {
     std::vector<std::vector<int>> rows(static_cast<std::size_t>(groups_.count));
     for (Index i = 0; i < A.rows(); ++i) {
         for (int k = A.begin(i); k < A.end(i); ++k) {
-            rows[groups_.of[A.column(k)]].push_back(groups_.of[i]);
+            detail::at(rows, groups_.of[A.column(k)]).push_back(groups_.of[i]);
         }
     }
     coarse_.resize(Dim * groups_.count, Dim * groups_.count);
     for (int j = 0; j < coarse_.cols(); ++j) {
-        std::vector<int>& blocks = rows[j / Dim];
+        std::vector<int>& blocks = detail::at(rows, j / Dim);
         if (j % Dim == 0) {
             std::sort(blocks.begin(), blocks.end());
             blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
@@ -118,8 +118,9 @@ void TwoLevel<Scalar, Dim>::analyze(const Matrix& A) {
         const int row = groups_.of[i];
         for (int k = A.begin(i); k < A.end(i); ++k) {
             const int column = groups_.of[A.column(k)];
-            const auto place = std::lower_bound(rows[column].begin(), rows[column].end(), row);
-            const auto before = static_cast<int>(place - rows[column].begin());
+            const std::vector<int>& blocks = detail::at(rows, column);
+            const auto place = std::lower_bound(blocks.begin(), blocks.end(), row);
+            const auto before = static_cast<int>(place - blocks.begin());
             targets_.push_back(row < column ? -1
                                             : coarse_.outerIndexPtr()[Dim * column] + Dim * before);
         }

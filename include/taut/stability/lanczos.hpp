@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "../core/buffer.hpp"
 #include "detail/small_spectrum.hpp"
 #include "pencil.hpp"
 
@@ -65,7 +66,7 @@ void add_scaled(Real* y, Real factor, const Real* x, Index n) {
 
 /// The residual of the largest Ritz value over its size, where H, m × m, is tridiagonal.
 /// @param beta  what the last of its `used` columns leaves
-inline double tridiagonal_residual(const std::vector<double>& H, Index m, Index used, double beta) {
+inline double tridiagonal_residual(const Buffer<double>& H, Index m, Index used, double beta) {
     std::vector<double> d, e;
     for (Index j = 0; j < used; ++j) {
         d.push_back(H[j * m + j]);
@@ -81,7 +82,7 @@ inline double tridiagonal_residual(const std::vector<double>& H, Index m, Index 
 template <class Real>
 class Basis {
 public:
-    Basis(Index N, Index most) : size_(N), numbers_(static_cast<std::size_t>(N * most)) {}
+    Basis(Index N, Index most) : size_(N), numbers_(N * most) {}
 
     Real* operator[](Index j) { return numbers_.data() + j * size_; }
     void set(Index j, const VectorX<Real>& q) {
@@ -89,8 +90,8 @@ public:
     }
     /// w ← w − QQᵀw with the vectors from `first` to `used`, which must be orthonormal.
     /// @returns  Qᵀw with zeros before
-    std::vector<Real> remove_from(VectorX<Real>& w, Index first, Index used) {
-        std::vector<Real> h(static_cast<std::size_t>(used), 0);
+    Buffer<Real> remove_from(VectorX<Real>& w, Index first, Index used) {
+        Buffer<Real> h(used, 0);
         for (Index j = first; j < used; ++j) h[j] = dot((*this)[j], w.data(), size_);
         for (Index j = first; j < used; ++j) add_scaled(w.data(), -h[j], (*this)[j], size_);
         return h;
@@ -106,7 +107,7 @@ public:
 
 private:
     Index size_;
-    std::vector<Real> numbers_;
+    Buffer<Real> numbers_;
 };
 
 /// largest_ritz_pair, or a rough one: its first run is not reorthogonalised and stops early.
@@ -117,8 +118,8 @@ RitzPair ritz_search(const Pencil& pencil, const Combination& c, const LanczosOp
     const Index m = std::min<Index>(options.basis, N);
     VectorX<Real> by_root(N);  // M⁻½
     for (Index i = 0; i < N; ++i) by_root[i] = 1 / std::sqrt(pencil.mass()[i]);
-    Basis<Real> Q(N, m);                                        // orthonormal
-    std::vector<double> H(static_cast<std::size_t>(m * m), 0);  // QᵀAQ with A = M⁻½SM⁻½
+    Basis<Real> Q(N, m);         // orthonormal
+    Buffer<double> H(m * m, 0);  // QᵀAQ with A = M⁻½SM⁻½
     VectorX<Real> u(N);
     VectorX<Real> w(N);
     VectorX<Real> q = scattered_vector(N);
@@ -140,7 +141,7 @@ RitzPair ritz_search(const Pencil& pencil, const Combination& c, const LanczosOp
             pencil.multiply(c, u, w);
             ++pair.products;
             for (Index i = 0; i < N; ++i) w[i] *= by_root[i];
-            const std::vector<double> h = Q.remove_from(w, plain && j > 0 ? j - 1 : 0, used);
+            const Buffer<double> h = Q.remove_from(w, plain && j > 0 ? j - 1 : 0, used);
             double norm = 0;
             for (Index i = 0; i < used; ++i) {
                 H[j * m + i] = H[i * m + j] = h[i];
@@ -158,7 +159,7 @@ RitzPair ritz_search(const Pencil& pencil, const Combination& c, const LanczosOp
                 w = scattered_vector(N, used);
                 for (int pass = 0; pass < 2; ++pass) Q.remove_from(w, 0, used);
             }
-            q = w / stability_detail::norm(w.data(), N);
+            if (used < N) q = w / stability_detail::norm(w.data(), N);  // else none is left
             // H of the first run is tridiagonal, so that what its end will be is cheap to know.
             early = rough && run == 0 && used >= 8 && used % 2 == 0 &&
                     tridiagonal_residual(H, m, used, beta) <= options.tolerance;
@@ -169,7 +170,7 @@ RitzPair ritz_search(const Pencil& pencil, const Combination& c, const LanczosOp
         }
         const auto ritz = small_spectrum(std::move(projected), static_cast<std::size_t>(used));
         const double earlier = pair.value;
-        pair.value = ritz.values[used - 1];
+        pair.value = ritz.values.back();
         pair.residual = beta * (std::abs)(ritz.vector(used - 1)[used - 1]);
         const bool settled =
             run > 0 && pair.value - earlier <= options.settled * (std::abs)(pair.value);
@@ -178,11 +179,11 @@ RitzPair ritz_search(const Pencil& pencil, const Combination& c, const LanczosOp
         kept = last ? 1 : std::max<Index>(1, used / 3);
         std::vector<VectorX<Real>> best;  // what a restart keeps
         for (Index j = 0; j < kept; ++j) best.push_back(Q.sum(ritz.vector(used - kept + j), used));
-        for (Index j = 0; j < kept; ++j) Q.set(j, best[j]);
+        for (Index j = 0; j < kept; ++j) Q.set(j, detail::at(best, j));
         if (last) break;
         for (Index j = 0; j < kept; ++j) {
             for (Index i = 0; i < kept; ++i) H[j * m + i] = 0;
-            H[j * m + j] = ritz.values[used - kept + j];
+            H[j * m + j] = detail::at(ritz.values, used - kept + j);
         }
     }
     const double* shape = Q[kept - 1];

@@ -68,7 +68,7 @@ TAUT_INLINE Enclosed Pencil::quadratic(const Combination& c, const Eigen::Vector
     for (Index i = 0; i < size(); ++i) {
         const double term = mass_.data()[i] * u.data()[i] * u.data()[i];
         sum.value += on_mass * term;
-        sum.error += (std::abs)(on_mass)*term;
+        sum.error += term * (std::abs)(on_mass);
     }
     const bool springs =
         c.stiffness() != 0 || c.projected() != 0 ||
@@ -186,7 +186,8 @@ TAUT_INLINE double Pencil::largest_quotient(const Splitting& split) const {
         const double below = largest * particle_mass(i) * (1 - 1e-15) - split.rounding[i];
         if (dim() > 1 && stability_detail::proved_above(split.block[i], below)) continue;
         const double r = quotient(load(split, i), i);
-        if (!(r <= largest)) largest = r;  // NaN and infinity stay
+        if (!detail::is_finite(r)) return std::numeric_limits<double>::infinity();
+        largest = (std::max)(largest, r);
     }
     return largest;
 }
@@ -209,7 +210,7 @@ TAUT_INLINE double Pencil::upper_bound(const Combination& c) const {
     Splitting split = splitting(c);
     spread(p.data(), split);
     double best = largest_quotient(split);
-    if (!std::isfinite(best)) return std::numeric_limits<double>::infinity();
+    if (!detail::is_finite(best)) return std::numeric_limits<double>::infinity();
     double earlier = best;
     Buffer<double> r(p.size());
     for (int repeat = 1; repeat <= most_repeats && best > 0; ++repeat) {
@@ -235,7 +236,7 @@ template <class Real>
 Pencil Pencil::explicit_part(const std::vector<Real>& shares) const {
     Pencil pencil = *this;
     for (std::size_t s = 0; s < links_.size(); ++s) {
-        const double part = 1 - shares[names_[s].spring];
+        const double part = 1 - detail::at(shares, names_[s].spring);
         Link& link = pencil.links_[s];
         for (double* value :
              {&link.axial, &link.softer, &link.transverse, &link.damping, &link.across}) {
@@ -255,7 +256,7 @@ Pencil Pencil::explicit_part(const std::vector<Real>& shares) const {
 template <class Real>
 void Pencil::add_dampers(const std::vector<Real>& dampers) {
     for (std::size_t s = 0; s < links_.size(); ++s) {
-        const double c = dampers[names_[s].spring];
+        const double c = detail::at(dampers, names_[s].spring);
         Link& link = links_[s];
         link.damping += c;
         link.across += dim() == 1 && link.d[0] != 0 ? 0 : c;

@@ -13,14 +13,14 @@
 namespace taut {
 namespace stability_detail {
 
-/// A number that is above the exact result of the one operation that gave `value` …
+/// Above the exact result of the operation, of two for a division, that gave `value` …
 inline double above(double value) {
-    return std::nextafter(value, std::numeric_limits<double>::infinity());
+    for (int i = 0; i < 3; ++i)
+        value = std::nextafter(value, std::numeric_limits<double>::infinity());
+    return value;
 }
-/// … and one that is below.
-inline double below(double value) {
-    return std::nextafter(value, -std::numeric_limits<double>::infinity());
-}
+/// … and below.
+inline double below(double value) { return -above(-value); }
 
 /// The ends of rayleigh_window for an explicit method, its reason apart, rounded inwards: whether
 /// any α is left.
@@ -84,7 +84,7 @@ TAUT_INLINE AlphaWindow rayleigh_window(Method method, double h, double d0, doub
     require_positive("rayleigh_window", "h", h);
     require_non_negative("rayleigh_window", "d0", d0);
     require_non_negative("rayleigh_window", "k_min", k_min);
-    if (!(k_max >= k_min) || !std::isfinite(k_max)) {
+    if (!(k_max >= k_min) || !detail::is_finite(k_max)) {
         fail("rayleigh_window: k_max is ", k_max, "; it must be finite and >= k_min, ", k_min);
     }
     return method::visit_limited("rayleigh_window", method, [&](auto descriptor) {
@@ -94,7 +94,7 @@ TAUT_INLINE AlphaWindow rayleigh_window(Method method, double h, double d0, doub
 }
 
 TAUT_INLINE double damping_ratio(const RayleighDamping& rayleigh, double omega) {
-    if (!(omega > 0) || !std::isfinite(omega)) {
+    if (!(omega > 0) || !detail::is_finite(omega)) {
         fail("damping_ratio: omega is ", omega, "; it must be finite and > 0");
     }
     return rayleigh.mass_proportional / (2 * omega) + rayleigh.stiffness_proportional * omega / 2;

@@ -23,7 +23,7 @@ AlphaWindow Stability<Scalar>::rayleigh_window(Method method, double h, double d
     const double stiffest = pencil_->upper_bound(matrices::K_plus);
     const bool by_damping = method::is_limited_by<method::LimitedByDamping>(method);
     const double compression = by_damping ? pencil_->compression() : 0;
-    if (!std::isfinite(stiffest) || !std::isfinite(compression)) {
+    if (!detail::is_finite(stiffest) || !detail::is_finite(compression)) {
         return {0, 0, EmptyWindow::overflow, false};
     }
     return taut::rayleigh_window(method, h, d0, 0, (std::max)(0.0, stiffest), compression);

@@ -45,12 +45,14 @@ public:
     }
 
     /// @param state  the pose; its velocity is taken as zero. Fails unless it is finite and fits.
-    template <int Dim, class... Laws>
-    Stability(const SpringSystem<Scalar, Dim, Laws...>& system, const State<Scalar, Dim>& state)
+    template <class Own = Scalar, int Dim, class... Laws>
+    Stability(const SpringSystem<Own, Dim, Laws...>& system, const State<Own, Dim>& state)
         : revision_(system.revision()) {
+        static_assert(std::is_same_v<Own, Scalar>,
+                      "taut::Stability<Scalar>: needs a system of the same Scalar");
         detail::require_fits("Stability", state, system.size());
-        if (!state.x.allFinite()) {
-            const State<Scalar, Dim> still{state.x, State<Scalar, Dim>::zero(system.size()), 0};
+        if (!detail::all_finite(state.x.data(), state.x.size())) {
+            const State<Own, Dim> still{state.x, State<Own, Dim>::zero(system.size()), 0};
             fail("Stability: the position of particle ", still.first_not_finite(),
                  " is not finite");
         }
@@ -99,6 +101,10 @@ private:
     std::shared_ptr<const Pencil> pencil_;  // immutable, so copies may share it
     std::uint64_t revision_ = 0;
 };
+
+template <class Scalar, int Dim, class... Laws>
+Stability(const SpringSystem<Scalar, Dim, Laws...>&, const State<Scalar, Dim>&)
+    -> Stability<Scalar>;
 
 }  // namespace taut
 

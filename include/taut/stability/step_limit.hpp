@@ -100,14 +100,14 @@ struct StepLimit {
     std::uint64_t revision = 0;  ///< of the system that was analysed
 
     /// Whether every step is certified.
-    bool unbounded() const { return std::isinf(certified); }
+    bool unbounded() const { return !detail::is_finite(certified); }
 
     /// safety·certified, or nothing when the system has changed since the analysis, when no step is
     /// certified, or when safety is not in (0, 1].
     template <class System>
     std::optional<Scalar> step_for(const System& system, Scalar safety) const {
         if (system.revision() != revision || !(certified > 0)) return std::nullopt;
-        if (!(safety > 0) || safety > 1) return std::nullopt;
+        if (!(safety > 0) || safety > 1 || !detail::is_finite(safety)) return std::nullopt;
         return safety * certified;
     }
 
@@ -115,28 +115,31 @@ struct StepLimit {
     /// step is certified, or when safety is not in (0, 1]. Fails unless frame is finite and > 0.
     std::optional<Index> substeps(double frame, double safety = 0.95) const {
         require_positive("StepLimit::substeps", "frame", frame);
+        const bool usable = safety > 0 && safety <= 1 && detail::is_finite(safety);
+        if (!usable || !(certified > 0)) return std::nullopt;
         const double steps = frame / (safety * static_cast<double>(certified));
-        // Beyond 1e15 the count is no longer exact, and no frame was meant.
-        if (!(safety > 0) || safety > 1 || !(steps < 1e15)) return std::nullopt;
+        if (!(steps < 1e15)) return std::nullopt;  // no longer exact, and no frame was meant
         return std::max<Index>(1, static_cast<Index>(std::ceil(steps)));
     }
 };
 
 namespace stability_detail {
 
-/// By how much, relative, rounding may move a limit: the arithmetic in double that made it, and
-/// what a stepper holds as Scalars, 1/m, d0, α and two products of these (3/2 ulp).
+/// By how much, relative, rounding in any direction may move a limit: the arithmetic in double that
+/// made it, and what a stepper holds as Scalars, 1/m, d0, α and two products of these (3 ulp).
 template <class Scalar>
 inline constexpr double step_rounding =
     8 * std::numeric_limits<double>::epsilon() +
-    2 * static_cast<double>(std::numeric_limits<Scalar>::epsilon());
+    4 * static_cast<double>(std::numeric_limits<Scalar>::epsilon());
 
 /// The largest Scalar ≤ value, which first loses what rounding may have added.
 template <class Scalar>
 Scalar round_down(double value) {
-    if (std::isnan(value)) return 0;  // no number proves nothing
-    if (!std::isfinite(value)) return static_cast<Scalar>(value);
-    value -= step_rounding<Scalar> * value;
+    if (!detail::is_finite(value)) {  // no number proves nothing
+        return detail::is_finite(std::nextafter(value, 0.0)) ? static_cast<Scalar>(value) : 0;
+    }
+    value = (std::min)(value - step_rounding<Scalar> * value,
+                       static_cast<double>((std::numeric_limits<Scalar>::max)()));
     const Scalar rounded = static_cast<Scalar>(value);
     return static_cast<double>(rounded) <= value ? rounded : std::nextafter(rounded, Scalar(0));
 }
@@ -144,8 +147,8 @@ Scalar round_down(double value) {
 /// The smallest Scalar ≥ value, with the same allowance.
 template <class Scalar>
 Scalar round_up(double value) {
-    if (std::isnan(value)) return std::numeric_limits<Scalar>::infinity();  // and refutes nothing
-    if (!std::isfinite(value)) return static_cast<Scalar>(value);
+    const auto most = static_cast<double>((std::numeric_limits<Scalar>::max)()) / 2;
+    if (!detail::is_finite(value) || value > most) return std::numeric_limits<Scalar>::infinity();
     value += step_rounding<Scalar> * value;
     const Scalar rounded = static_cast<Scalar>(value);
     return static_cast<double>(rounded) >= value
@@ -185,7 +188,7 @@ StepLimit<Scalar> rounded(const UnroundedLimit& limit, std::uint64_t revision) {
     answer.refuted = round_up<Scalar>(limit.refuted);
     answer.cause = limit.cause;
     // Nothing found is no estimate, and none lies where a vector refutes.
-    if (limit.estimate > 0 && std::isfinite(limit.estimate)) {
+    if (limit.estimate > 0 && detail::is_finite(limit.estimate)) {
         answer.estimate = (std::min)(static_cast<Scalar>(limit.estimate), answer.refuted);
     }
     answer.growth_rate = limit.growth_rate;

@@ -4,8 +4,8 @@
 
 #include <Eigen/CholmodSupport>
 #include <type_traits>
-#include <vector>
 
+#include "../core/buffer.hpp"
 #include "../solver/block_ordering.hpp"
 
 namespace taut {
@@ -47,7 +47,7 @@ void Cholmod<Scalar>::analyzePattern(const SparseMatrix<Scalar>& A) {
     common.method[0].ordering = CHOLMOD_AMD;
     common.method[1].ordering = CHOLMOD_METIS;
     cholmod_factor* order = cholmod_analyze(&vertices, &common);
-    std::vector<int> columns(static_cast<std::size_t>(A.cols()));
+    Buffer<int> columns(A.cols(), 0);
     if (order) graph.expand(static_cast<const int*>(order->Perm), columns);
     if (this->m_cholmodFactor) cholmod_free_factor(&this->m_cholmodFactor, &common);
     common.nmethods = 1;

@@ -19,9 +19,9 @@ struct DefinitenessProof {
 
 namespace stability_detail {
 
-/// γ/(1 − γ) with γ = (q + 1)u/(1 − (q + 1)u), rounded up [T22].
+/// γ/(1 − γ) with γ = (q + 1)u/(1 − (q + 1)u), rounded up [T22]: u of rounding in any direction.
 inline double cholesky_rounding(Index q) {
-    const double u = std::numeric_limits<double>::epsilon() / 2;
+    const double u = std::numeric_limits<double>::epsilon();
     const double gamma = static_cast<double>(q + 2) * u;  // one more for this line's own rounding
     return gamma / (1 - 3 * gamma);
 }
@@ -60,7 +60,7 @@ DefinitenessProof Prover::operator()(SparseMatrix<double>&& A, Error&& max_error
     Eigen::VectorXd scale(N);
     const Eigen::VectorXd diagonal = A.diagonal();
     for (Index i = 0; i < N; ++i) {
-        if (!(diagonal[i] > 0) || !std::isfinite(diagonal[i])) return proof;
+        if (!(diagonal[i] > 0) || !detail::is_finite(diagonal[i])) return proof;
         scale[i] = std::exp2(-(std::round)(std::log2(diagonal[i]) / 2));
     }
     for (Index j = 0; j < N; ++j) {
@@ -107,7 +107,7 @@ DefinitenessProof prove(Prover& prover, const Pencil& pencil, const Combination&
 /// that rounding allows, within a factor of 16; infinity when none up to `most` is.
 template <class Real = double>
 double proved_deficit(Prover& prover, const Pencil& pencil, const Combination& c, double most) {
-    if (!(most > 0) || !std::isfinite(most)) return std::numeric_limits<double>::infinity();
+    if (!(most > 0) || !detail::is_finite(most)) return std::numeric_limits<double>::infinity();
     for (double epsilon = 1e-14 * most; epsilon <= most; epsilon *= 16) {
         if (prove(prover, pencil, c + epsilon * matrices::M).proved) return epsilon;
     }

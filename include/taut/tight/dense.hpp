@@ -121,7 +121,7 @@ auto DenseAnalysis<Real>::limits() const -> Limits {
         const Real size = std::norm(lambda);
         limits.estimate =
             (std::min)(limits.estimate, (std::max)(Real(0), -2 * lambda.real() / size));
-        const Real least = (std::abs)(lambda)-error;
+        const Real least = -error + (std::abs)(lambda);
         if (!(least > (std::abs)(lambda) / 2)) continue;
         limits.above = (std::min)(limits.above,
                                   2 * (std::max)(Real(0), error - lambda.real()) / (least * least));

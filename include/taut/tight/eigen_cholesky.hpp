@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../core/detail/finite.hpp"
 #include "detail/factor_rows.hpp"
 
 namespace taut {
@@ -32,7 +33,7 @@ public:
         Base::factorize(A);
         // A NaN passes Eigen's own test for a positive pivot.
         return Base::info() == Eigen::Success && m_matrix.diagonal().sum() > 0 &&
-               std::isfinite(m_matrix.diagonal().sum());
+               detail::is_finite(m_matrix.diagonal().sum());
     }
     /// The smallest squared pivot.
     Real least_pivot() const {

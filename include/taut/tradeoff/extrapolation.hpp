@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-
 #include "../core/concepts.hpp"
 
 namespace taut {
@@ -85,7 +83,7 @@ private:
 
     const System* system_;
     State rate_;
-    std::array<State, columns> table_;
+    State table_[columns];
     decltype(State::x) f_;  // Dim × n, N
 };
 

@@ -28,7 +28,7 @@ namespace tradeoff_detail {
 template <class Real = double>  // a template: only its callers compile the expressions
 std::optional<std::complex<double>> fitted_multiplier(const VectorX<Real>& samples) {
     const Index rows = samples.size() - 2;
-    if (rows < 2 || !samples.allFinite()) return std::nullopt;
+    if (rows < 2 || !detail::all_finite(samples.data(), samples.size())) return std::nullopt;
     // In ε = μ − 1, from second and first differences, so that slow swings lose no digits.
     const VectorX<Real> value = samples.segment(1, rows);
     const VectorX<Real> first = value - samples.head(rows);
@@ -43,7 +43,7 @@ std::optional<std::complex<double>> fitted_multiplier(const VectorX<Real>& sampl
     const double half = (2 + a + b) / 2;
     // q − half² without cancellation for slow swings.
     const double under = -b - (a + b) * (a + b) / 4;
-    if (!(under > 0) || !std::isfinite(q)) return std::nullopt;
+    if (!(under > 0) || !detail::is_finite(q)) return std::nullopt;
     return std::complex<double>(half, std::sqrt(under));
 }
 
@@ -108,7 +108,8 @@ std::optional<ModeError> measured_mode_error(const LinearSystem<Scalar>& system,
     const std::complex<double> rate = std::log(*mu) / (static_cast<double>(stride) * z);
     const double zeta = mode.zeta();
     const double frequency = std::sqrt((std::max)(0.0, (1 - zeta) * (1 + zeta)));
-    return ModeError{-rate.real() / (std::abs)(rate)-zeta, frequency / rate.imag() - 1};
+    const double ratio = -rate.real() / (std::abs)(rate);
+    return ModeError{ratio - zeta, frequency / rate.imag() - 1};
 }
 
 }  // namespace taut

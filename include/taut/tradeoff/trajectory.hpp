@@ -52,7 +52,7 @@ double position_error(const Trajectory<Scalar, Dim>& run,
     const auto particles =
         static_cast<double>(run.x.size() * static_cast<std::size_t>(run.x.front().cols()));
     const double error = std::sqrt(squares / particles / furthest);
-    return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
+    return detail::is_finite(error) ? error : std::numeric_limits<double>::infinity();
 }
 
 /// Mean of E − E_ref over the last quarter of the samples, relative to the largest kinetic energy

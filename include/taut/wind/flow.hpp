@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "../core/buffer.hpp"
 #include "../core/types.hpp"
 
 namespace taut {
@@ -34,6 +34,11 @@ struct Wind {
 
 namespace model_detail {
 
+/// The larger of two numbers; registers have their own.
+template <class Real>
+Real larger(const Real& a, const Real& b) {
+    return a < b ? b : a;
+}
 /// 1/√a of a normal number.
 template <class Real>
 Real reciprocal_sqrt(const Real& a) {
@@ -56,7 +61,7 @@ struct WindFactors {
 };
 
 template <class Real>
-using Axes = std::array<Real, 3>;
+using Axes = detail::Few<Real, 3>;
 
 template <class Real>
 EIGEN_ALWAYS_INLINE Real dot(const Axes<Real>& a, const Axes<Real>& b) {
@@ -81,7 +86,6 @@ struct Flow {
     /// The force on each corner, N.
     template <class Scalar>
     EIGEN_ALWAYS_INLINE Axes<Real> on_corner(const WindFactors<Scalar>& factors) const {
-        using std::max;
         const Real s = larger(cu, -cu);
         // Where a triangle or the flow vanishes, so do s and cu, and the forces with them.
         const Real inverse =

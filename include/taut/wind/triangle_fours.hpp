@@ -110,8 +110,8 @@ template <class Scalar>
 auto TriangleFours<Scalar>::places(const std::array<TrianglePair, 4>& pairs, const Blocks& blocks,
                                    int block) -> Four {
     Four result;
-    for (int k = 0; k < 4; ++k) {
-        for (int i = 0; i < 4; ++i) {
+    for (std::size_t k = 0; k < 4; ++k) {
+        for (std::size_t i = 0; i < 4; ++i) {
             const int place = pairs[k].corner[i];
             const bool inside = blocks.of(place) == block;
             result[i].in_planes[k] = 4 * static_cast<std::uint32_t>(place);
@@ -129,10 +129,10 @@ TriangleFours<Scalar>::TriangleFours(const std::vector<TrianglePair>& pairs, con
         std::vector<int> in_tiles;
         pair.add_tiles(blocks, in_tiles);
         for (const int tile : first_of_blocks(std::move(in_tiles), blocks))
-            of_tile[tile].push_back(pair);
+            detail::at(of_tile, tile).push_back(pair);
     }
     for (int tile = 0; tile < blocks.tiles(); ++tile) {
-        auto& here = of_tile[tile];
+        auto& here = detail::at(of_tile, tile);
         std::sort(here.begin(), here.end(),
                   [](const auto& s, const auto& t) { return s.corner < t.corner; });
         for (std::size_t first = 0; first < here.size(); first += 4) {

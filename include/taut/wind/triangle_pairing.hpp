@@ -24,9 +24,11 @@ public:
 private:
     void find_neighbours();
     /// Neighbours of t that are left.
-    int left_of(int t) const {
-        int count = 0;
-        for (const int n : neighbours_[t]) count += n >= 0 && !taken_[n] ? 1 : 0;
+    std::size_t left_of(int t) const {
+        std::size_t count = 0;
+        for (const int n : neighbours_[t]) {
+            if (n >= 0 && !taken_[n]) ++count;
+        }
         return count;
     }
     void take(int t) {
@@ -37,15 +39,15 @@ private:
     }
     void pair(int t);
 
-    const std::vector<PlacedTriangle>& triangles_;
-    std::vector<std::array<int, 3>> neighbours_;  // of each triangle, −1 for none
-    std::vector<bool> taken_;
+    const PlacedTriangle* triangles_;
+    Buffer<std::array<int, 3>> neighbours_;  // of each triangle, −1 for none
+    Buffer<bool> taken_;
     std::array<std::vector<int>, 4> queue_;  // by the number of neighbours left; may be out of date
     std::vector<TrianglePair> pairs_;
 };
 
 inline TrianglePairing::TrianglePairing(const std::vector<PlacedTriangle>& triangles)
-    : triangles_(triangles),
+    : triangles_(triangles.data()),
       neighbours_(triangles.size(), {-1, -1, -1}),
       taken_(triangles.size(), false) {
     find_neighbours();
@@ -58,7 +60,7 @@ inline TrianglePairing::TrianglePairing(const std::vector<PlacedTriangle>& trian
         }
         const int t = queue_[left].back();
         queue_[left].pop_back();
-        if (taken_[t] || left_of(t) != static_cast<int>(left)) continue;
+        if (taken_[t] || left_of(t) != left) continue;
         pair(t);
         left = 0;
     }
@@ -67,11 +69,13 @@ inline TrianglePairing::TrianglePairing(const std::vector<PlacedTriangle>& trian
 inline void TrianglePairing::find_neighbours() {
     struct Side {
         std::pair<int, int> edge;
-        int triangle, number;
+        int triangle;
+        std::size_t number;
     };
     std::vector<Side> sides;
-    for (int t = 0; t < static_cast<int>(triangles_.size()); ++t) {
-        for (int k = 0; k < 3; ++k) sides.push_back({edge_opposite(triangles_[t], k), t, k});
+    for (int t = 0; t < static_cast<int>(neighbours_.size()); ++t) {
+        for (std::size_t k = 0; k < 3; ++k)
+            sides.push_back({edge_opposite(triangles_[t], k), t, k});
     }
     std::sort(sides.begin(), sides.end(), [](const Side& s, const Side& t) {
         return std::tie(s.edge, s.triangle) < std::tie(t.edge, t.triangle);

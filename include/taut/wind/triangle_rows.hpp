@@ -100,7 +100,7 @@ TriangleRows<Scalar>::TriangleRows(std::vector<TrianglePair> pairs, const Blocks
         Row row{first->corner, kind->second};
         for (int& corner : row.first) corner -= lane(*first);
         for (const int tile : first_of_blocks(std::move(in_tiles), blocks))
-            rows[tile].push_back(row);
+            detail::at(rows, tile).push_back(row);
     }
     for (const auto& of_tile : rows) {
         rows_.insert(rows_.end(), of_tile.begin(), of_tile.end());
@@ -127,7 +127,7 @@ EIGEN_ALWAYS_INLINE void TriangleRows<Scalar>::add_row(const WindView<Scalar>& v
     Vector on_a = flow.at_a.on_corner(view.air.factors);
     Vector on_d = flow.at_d.on_corner(view.air.factors);
     if (row.lanes >= 0) {
-        const Register lanes = Register::load(&lanes_[row.lanes]);
+        const Register lanes = Register::load(lanes_.data() + row.lanes);
         keep(lanes, on_a);
         keep(lanes, on_d);
     }

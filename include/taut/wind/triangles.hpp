@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -51,7 +52,7 @@ struct TrianglePair {
 };
 
 /// The corners of a triangle's edge opposite to corner k, ascending.
-inline std::pair<int, int> edge_opposite(const PlacedTriangle& t, int k) {
+inline std::pair<int, int> edge_opposite(const PlacedTriangle& t, std::size_t k) {
     return std::minmax(t[(k + 1) % 3], t[(k + 2) % 3]);
 }
 /// The triangle in a pair of its own.
@@ -61,9 +62,9 @@ inline TrianglePair pair_of(const PlacedTriangle& t) {
 }
 /// @returns whether two triangles have just two corners in common; then `pair` is theirs
 inline bool join(const PlacedTriangle& s, const PlacedTriangle& t, TrianglePair& pair) {
-    for (int k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3; ++k) {
         const auto edge = edge_opposite(s, k);
-        for (int other = 0; other < 3; ++other) {
+        for (std::size_t other = 0; other < 3; ++other) {
             if (edge_opposite(t, other) != edge) continue;
             const auto [a, d] = std::minmax(s[k], t[other]);
             if (a == d) return false;

@@ -15,7 +15,7 @@ namespace arrays_detail {
 
 template <class Real>
 void require_at_least_0(const char* what, Index i, Real value) {
-    if (value >= 0 && std::isfinite(value)) return;
+    if (value >= 0 && detail::is_finite(value)) return;
     fail("check_step: the ", what, " ", i, " is ", value, "; it must be finite and >= 0");
 }
 
@@ -73,7 +73,8 @@ System<Scalar, Dim>::System(const SpringArrays<Scalar, Dim, Int>& from) : raylei
     require_held<Scalar>("check_step", "mass_proportional", rayleigh_.mass_proportional);
     require_held<Scalar>("check_step", "stiffness_proportional", rayleigh_.stiffness_proportional);
     const Scalar f = from.velocity_factor;
-    if (!(f >= 0 && f <= 1)) fail("check_step: velocity_factor is ", f, "; it must be 0 ... 1");
+    if (!(f >= 0 && f <= 1 && detail::is_finite(f)))
+        fail("check_step: velocity_factor is ", f, "; it must be 0 ... 1");
     add_particles(from);
     add_springs(from);
     if (f == 1) return;
@@ -103,9 +104,10 @@ void System<Scalar, Dim>::add_particles(const SpringArrays<Scalar, Dim, Int>& fr
         const bool inverse = static_cast<bool>(from.inverse_mass);
         const Scalar given = inverse ? from.inverse_mass(i) : from.mass(i);
         if (inverse && given == 0) pinned = 1;
-        const Real mass = inverse ? 1 / static_cast<Real>(given) : static_cast<Real>(given);
+        const bool inverted = inverse && given != 0;
+        const Real mass = inverted ? 1 / static_cast<Real>(given) : static_cast<Real>(given);
         mass_.push_back(mass);
-        if (pinned || (mass > 0 && std::isfinite(mass))) continue;
+        if (pinned || (mass > 0 && detail::is_finite(mass))) continue;
         fail("check_step: the ", inverse ? "inverse mass" : "mass", " of particle ", i, " is ",
              given, "; it must be finite and > 0, or the particle pinned");
     }
@@ -194,7 +196,7 @@ Points<TangentReal<Scalar>, Dim> pose(const SpringArrays<Scalar, Dim, Int>& arra
     for (Index i = 0; i < arrays.particles; ++i) {
         for (int k = 0; k < Dim; ++k) {
             x(k, i) = arrays.position(i, k);
-            if (std::isfinite(x(k, i))) continue;
+            if (detail::is_finite(x(k, i))) continue;
             fail("check_step: the position of particle ", i, " is not finite");
         }
     }
@@ -209,7 +211,7 @@ StepCheck<Scalar> check_step(const SpringArrays<Scalar, Dim, Int>& arrays, Metho
     using Damping = Pencil::Damping;
     require_positive("check_step", "h", h);
     require_non_negative("check_step", "frame", options.frame);
-    if (!(options.safety > 0 && options.safety <= 1)) {
+    if (!(options.safety > 0 && options.safety <= 1 && detail::is_finite(options.safety))) {
         fail("check_step: safety is ", options.safety, "; it must be > 0 and <= 1");
     }
     if (arrays.velocity_factor != 1 && method != Method::position_verlet) {

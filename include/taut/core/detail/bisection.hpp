@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cfenv>
 #include <cmath>
 #include <limits>
 
@@ -62,6 +63,11 @@ private:
 /// @param guess  where to begin; any number
 template <class Real, class Passes>
 Real last_that_passes(Real guess, Real tolerance, Passes&& passes) {
+    struct Untrapped {  // for what overflows at an end of the range
+        std::fenv_t modes;
+        Untrapped() { std::feholdexcept(&modes); }
+        ~Untrapped() { std::fesetenv(&modes); }
+    } untrapped;
     constexpr Real least = (std::numeric_limits<Real>::min)();
     constexpr Real most = (std::numeric_limits<Real>::max)();
     Real here = guess > least ? (std::min)(guess, most) : least;

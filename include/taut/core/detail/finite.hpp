@@ -2,27 +2,61 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
 #include "../types.hpp"
 
 namespace taut::detail {
 
-/// Whether all of `count` numbers are, a register at a time.
+/// Whether all of `count` numbers are, by their bits: -ffast-math takes for granted what compares.
+template <class Scalar>
+bool finite_one_by_one(const Scalar* numbers, Index count) {
+    using Real = std::conditional_t<sizeof(Scalar) == 4, float, double>;
+    using Bits = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
+    constexpr Bits one = Bits(1) << (std::numeric_limits<Real>::digits - 1),
+                   sign = ~(~Bits(0) >> 1);
+    constexpr auto unit = static_cast<Scalar>(sizeof(Scalar) > sizeof(Real) ? 0x1p-16000L : 1);
+    Bits carried = 0, bits;
+    for (Index i = 0; i < count; ++i) {
+        const auto number = static_cast<Real>(unit * numbers[i]);
+        std::memcpy(&bits, &number, sizeof bits);
+        carried |= (bits & (sign - one)) + one;  // an exponent of ones carries into the sign
+    }
+    return carried < sign;
+}
+
+/// The same, a register at a time.
 template <class Scalar>
 bool all_finite(const Scalar* numbers, Index count) {
-    using namespace Eigen::internal;
-    using Packet = typename packet_traits<Scalar>::type;
-    constexpr Index width = packet_traits<Scalar>::size;
-    // x − x is 0, or NaN where x is not finite; and so is the sum.
-    Packet sums = pset1<Packet>(Scalar(0)), others = sums;
-    Index i = 0;
-    for (; i + 2 * width <= count; i += 2 * width) {
-        const Packet x = ploadu<Packet>(numbers + i), y = ploadu<Packet>(numbers + i + width);
-        sums = padd(sums, psub(x, x));
-        others = padd(others, psub(y, y));
+    if constexpr (sizeof(Scalar) <= sizeof(double)) {
+        using namespace Eigen::internal;
+        using Packet = typename packet_traits<Scalar>::type;
+        constexpr Index width = packet_traits<Scalar>::size;
+        // Infinity's bits are those of an exponent. The largest of all exponents is it, or all of
+        // the numbers are finite.
+        constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
+        const Packet exponent = pset1<Packet>(infinity);
+        Packet most = pset1<Packet>(Scalar(0)), other = most;
+        for (; count >= 2 * width; count -= 2 * width, numbers += 2 * width) {
+            most = pmax(most, pand(exponent, ploadu<Packet>(numbers)));
+            other = pmax(other, pand(exponent, ploadu<Packet>(numbers + width)));
+        }
+        Scalar lanes[width];
+        pstoreu(lanes, pmax(most, other));
+        if (!finite_one_by_one(lanes, width)) return false;
     }
-    Scalar sum = predux(padd(sums, others));
-    for (; i < count; ++i) sum += numbers[i] - numbers[i];
-    return sum == Scalar(0);
+    return finite_one_by_one(numbers, count);
+}
+
+/// Whether a number is that was computed just now.
+template <class Real>
+bool is_finite(Real number) {
+    const volatile Real held = number;  // and not what it was computed from
+    const Real seen = held;
+    return finite_one_by_one(&seen, 1);
 }
 
 }  // namespace taut::detail

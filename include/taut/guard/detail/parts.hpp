@@ -102,7 +102,7 @@ struct Energy {
     double mass = 0;     ///< kg
     double terms = 0;    ///< S, what rounding is a share of, J
 
-    bool finite() const { return std::isfinite(total + speed + terms); }
+    bool finite() const { return detail::is_finite(total + speed + terms); }
 };
 
 /// Measures every part in one pass over springs and one over particles; sums in double.

@@ -56,7 +56,7 @@ bool trim(const System& system, typename System::State& state, const Parts& part
         for (std::size_t p = 0; p < gains.size(); ++p) {
             if (!(gains[p].left > 0)) continue;
             const double A = gains[p].slope, B = gains[p].curve;
-            if (!(A > 0) || !(B > 0) || !std::isfinite(A + B)) {
+            if (!(A > 0) || !(B > 0) || !detail::is_finite(A + B)) {
                 gains[p].left = 0;  // nothing to be had
                 continue;
             }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "../../core/types.hpp"
@@ -51,7 +50,7 @@ private:
         bool analyzed = false;    // solver knows the pattern
         bool factorized = false;  // and holds the factors for h
     };
-    std::array<Slot, 2> slots_;
+    Slot slots_[2];
     int current_ = 0;
     std::int64_t count_ = 0;
 };

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "../../core/detail/finite.hpp"
 #include "../../core/status.hpp"
 #include "../../model/free_particles.hpp"
 #include "factor_cache.hpp"
@@ -101,7 +102,8 @@ Status LinearSolve<Solver, Scalar>::solve_factorized(const StepMatrix<Scalar>& m
     const Solver& solver = factors_.solver();
     x = solver.solve(b);
     switch (solver.info()) {
-        case Eigen::Success: return x.allFinite() ? Status::ok : Status::solver_failed;
+        case Eigen::Success:
+            return detail::all_finite(x.data(), x.size()) ? Status::ok : Status::solver_failed;
         case Eigen::NoConvergence: return Status::not_converged;
         default: return matrix.refused;
     }
@@ -110,7 +112,7 @@ Status LinearSolve<Solver, Scalar>::solve_factorized(const StepMatrix<Scalar>& m
 template <class Solver, class Scalar>
 Index LinearSolve<Solver, Scalar>::first_not_finite(const FreeParticles& free, const Vector& b) {
     for (Index i = 0; i < b.size(); ++i) {
-        if (!std::isfinite(b[i])) return free[i / (b.size() / free.count())];
+        if (!detail::is_finite(b[i])) return free[i / (b.size() / free.count())];
     }
     return -1;
 }

@@ -64,7 +64,7 @@ private:
 template <class State>
 template <class AnyState>
 Report StepLoop<State>::check_state(Index size, const AnyState& state, Scalar h) {
-    if (!(h > 0) || !std::isfinite(h)) return {Status::invalid_step};
+    if (!(h > 0) || !detail::is_finite(h)) return {Status::invalid_step};
     if (!detail::fits(state, size)) return {Status::invalid_state};
     if (!state.finite()) return {Status::invalid_state, 0, 0, state.first_not_finite()};
     return {};

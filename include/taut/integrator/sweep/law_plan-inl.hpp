@@ -29,9 +29,9 @@ void add_batch(const PlannedBatches& plan, const Batch& batch, int dim,
         if constexpr (Both) gather(here[g], view.at, places[g]);
         if constexpr (Velocities) gather(v[g], view.v, places[g]);
     }
-    Vector dx[most];
-    Vector old_dx[Both ? most : 1];
-    Vector dv[Velocities ? most : 1];
+    Few<Vector, most> dx;
+    Few<Vector, Both ? most : 1> old_dx;
+    Few<Vector, Velocities ? most : 1> dv;
     Chunk<Scalar> chunk;
     for (int done = 0; done < batch.springs; done += most) {
         const auto* ends = plan.ends.data() + batch.first_spring + done;

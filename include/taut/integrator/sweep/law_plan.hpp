@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-
 #include "star_plan.hpp"
 
 namespace taut::integrator_detail::sweep {
@@ -45,7 +43,7 @@ public:
 private:
     using Register = VectorRegister<Scalar>;
     using Reader = SpringReader<Scalar, Law, Register>;
-    using Vector = std::array<Register, Dim>;
+    using Vector = Few<Register, Dim>;
 
     static EIGEN_ALWAYS_INLINE Register dot(const Vector& a, const Vector& b) {
         Register sum = a[0] * b[0];
@@ -173,16 +171,11 @@ void LawPlan<Scalar, Dim, Law>::add_segment(const TileView<Scalar>& view,
                 here[d] = Register::load(here_b[d] + i) - Register::load(here_a[d] + i);
             }
         });
-        Register dx_dv(Scalar(0));
+        Register dx_dv(Scalar(0)), old_l2(Scalar(0));
         if constexpr (Damped) dx_dv = dot(dx, dv);
-        const auto pull = [&] {
-            if constexpr (Both) {
-                return springs.template pull_ahead<Damped, Rayleigh>(view.alpha, dot(dx, dx), dx_dv,
-                                                                     dot(here, here));
-            } else {
-                return springs.template pull<Damped, Rayleigh>(view.alpha, dot(dx, dx), dx_dv);
-            }
-        }();
+        if constexpr (Both) old_l2 = dot(here, here);
+        const auto pull = springs.template pull_of<Damped, Rayleigh, Both>(view.alpha, dot(dx, dx),
+                                                                           dx_dv, old_l2);
         for_each_axis<Dim>([&](int d) {
             Register force = pull.of_dx * dx[d];
             if constexpr (Both) force -= pull.of_here * here[d];

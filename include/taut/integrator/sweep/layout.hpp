@@ -46,6 +46,9 @@ public:
     template <class Matrix>
     void to_planes(const Matrix& points, const Planes<Scalar>& planes) const {
         constexpr int Dim = Matrix::RowsAtCompileTime;
+        if (order_.empty() && !stars_ && points.colStride() == Dim) {
+            return split<Dim>(points.data(), planes);
+        }
         for_each_place([&](Index i, Index place) {
             for (int d = 0; d < Dim; ++d) at(planes, d, place) = static_cast<Scalar>(points(d, i));
             for (int d = Dim; d < 4 && stars_; ++d) at(planes, d, place) = 0;
@@ -54,8 +57,12 @@ public:
     /// Points ← planes.
     template <class Matrix>
     void from_planes(const Planes<Scalar>& planes, Matrix& points) const {
+        constexpr int Dim = Matrix::RowsAtCompileTime;
+        if (order_.empty() && !stars_ && points.colStride() == Dim) {
+            return join<Dim>(planes, points.data());
+        }
         for_each_place([&](Index i, Index place) {
-            for (int d = 0; d < Matrix::RowsAtCompileTime; ++d) {
+            for (int d = 0; d < Dim; ++d) {
                 points(d, i) = static_cast<typename Matrix::Scalar>(at(planes, d, place));
             }
         });
@@ -80,6 +87,29 @@ public:
     }
 
 private:
+    /// to_planes of points side by side, and from_planes: compilers make registers of these loops.
+    template <int Dim, class From>
+    void split(const From* EIGEN_RESTRICT points, const Planes<Scalar>& planes) const {
+        Scalar* EIGEN_RESTRICT x = planes[0];
+        Scalar* EIGEN_RESTRICT y = planes[Dim > 1];
+        Scalar* EIGEN_RESTRICT z = planes[Dim > 2 ? 2 : 0];
+        for (Index i = 0; i < size_; ++i) {
+            x[i] = static_cast<Scalar>(points[Dim * i]);
+            if constexpr (Dim > 1) y[i] = static_cast<Scalar>(points[Dim * i + 1]);
+            if constexpr (Dim > 2) z[i] = static_cast<Scalar>(points[Dim * i + 2]);
+        }
+    }
+    template <int Dim, class To>
+    void join(const Planes<Scalar>& planes, To* EIGEN_RESTRICT points) const {
+        const Scalar* EIGEN_RESTRICT x = planes[0];
+        const Scalar* EIGEN_RESTRICT y = planes[Dim > 1];
+        const Scalar* EIGEN_RESTRICT z = planes[Dim > 2 ? 2 : 0];
+        for (Index i = 0; i < size_; ++i) {
+            points[Dim * i] = static_cast<To>(x[i]);
+            if constexpr (Dim > 1) points[Dim * i + 1] = static_cast<To>(y[i]);
+            if constexpr (Dim > 2) points[Dim * i + 2] = static_cast<To>(z[i]);
+        }
+    }
     template <class Visitor>
     void for_each_place(Visitor&& visit) const {
         if (order_.empty()) {
@@ -152,18 +182,22 @@ public:
     /// Makes room for vectors of so many planes, `size` scalars in each, `stride` apart.
     /// @param looks_ahead  whether springs look ahead
     void resize(int planes, Index size, Index stride, bool looks_ahead, const ReadAnywhere& read) {
-        planes_of_vector_ = planes;
-        size_ = size;
-        stride_ = stride;
         Index vectors = 3;
         const Index old_x = looks_ahead ? vectors++ : 0;
         const Index new_x = !looks_ahead ? 1 : read.positions ? vectors++ : old_x;
         const Index new_v = read.velocities ? vectors++ : 2;
-        memory_.resize(static_cast<std::size_t>(vectors * planes * stride));
-        // The padding takes part in the steps: from rest.
-        for (Index plane = 0; plane < vectors * planes; ++plane) {
-            detail::set_zero(memory_.data() + plane * stride + size, stride - size);
+        const auto needed = static_cast<std::size_t>(vectors * planes * stride);
+        if (!padded_ || memory_.size() != needed || size_ != size || stride_ != stride) {
+            memory_.resize(needed);
+            // The padding takes part in the steps: from rest.
+            for (Index plane = 0; plane < vectors * planes; ++plane) {
+                detail::set_zero(memory_.data() + plane * stride + size, stride - size);
+            }
+            padded_ = true;
         }
+        planes_of_vector_ = planes;
+        size_ = size;
+        stride_ = stride;
         planes_ = {vector(old_x), vector(new_x), vector(0), vector(1), vector(2), vector(new_v)};
     }
     /// Sets spring_x to x + ahead·v, with `ahead` in s.
@@ -181,7 +215,10 @@ public:
     void for_each_register(Visitor&& visit) const {
         for (Index i = 0; i < whole(); i += Register::width) visit(i);
     }
-    bool finite() const { return finite(planes_.x) && finite(planes_.v); }
+    bool finite() {
+        padded_ = finite(planes_.x) && finite(planes_.v);  // else what is not may have spread there
+        return padded_;
+    }
 
     const StatePlanes<Scalar>& planes() const { return planes_; }
     void swap() { planes_.swap(); }
@@ -200,6 +237,7 @@ private:
     }
 
     int planes_of_vector_ = 0;
+    bool padded_ = false;  // whether the padding is at rest
     Index size_ = 0;
     Index stride_ = 0;
     Buffer<Scalar> memory_;

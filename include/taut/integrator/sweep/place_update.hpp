@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 
 #include "layout.hpp"
 
@@ -24,10 +23,11 @@ template <class Scalar>
 class PlaceUpdate {
 public:
     /// Brings all members up to date.
-    /// @param gravity, inverse_mass  the system's   @param drag  d0 of Rayleigh damping, 1/s
-    /// @param ahead                  s, by which springs see x ahead
-    void load(const Layout<Scalar>& layout, const Scalar* gravity, int dim, Scalar drag,
-              const Scalar* inverse_mass, Scalar ahead);
+    /// @param gravity  the system's   @param drag  d0 of Rayleigh damping, 1/s
+    /// @param ahead    s, by which springs see x ahead
+    void load(const Scalar* gravity, int dim, Scalar drag, Scalar ahead);
+    /// @param inverse_mass  the system's, 1/kg
+    void load_masses(const Layout<Scalar>& layout, const Scalar* inverse_mass);
     /// Forces beside those of springs, N; empty planes for none.
     void set_external(const Planes<Scalar>& force) { external_ = force; }
 
@@ -43,22 +43,25 @@ private:
     template <bool Stars, class Update>
     void move(const TilePlaces<Scalar>& tile, int planes, Scalar h) const;
 
-    std::array<Scalar, 4> gravity_{};                  // m/s²
-    std::array<Scalar, max_width> gravity_of_points_;  // x y z 0 x y z 0 …
-    Planes<Scalar> external_;                          // N
-    Buffer<Scalar> inverse_mass_;                      // a plane, 1/kg, 0 if pinned
-    Scalar drag_ = 0;                                  // d0, 1/s
+    Few<Scalar, 4> gravity_{};                  // m/s²
+    Few<Scalar, max_width> gravity_of_points_;  // x y z 0 x y z 0 …
+    Planes<Scalar> external_;                   // N
+    Buffer<Scalar> inverse_mass_;               // a plane, 1/kg, 0 if pinned
+    Scalar drag_ = 0;                           // d0, 1/s
     Scalar ahead_ = 0;
 };
 
 template <class Scalar>
-void PlaceUpdate<Scalar>::load(const Layout<Scalar>& layout, const Scalar* gravity, int dim,
-                               Scalar drag, const Scalar* inverse_mass, Scalar ahead) {
+void PlaceUpdate<Scalar>::load(const Scalar* gravity, int dim, Scalar drag, Scalar ahead) {
     gravity_.fill(0);
     std::copy_n(gravity, dim, gravity_.begin());
     for (int i = 0; i < max_width; ++i) gravity_of_points_[i] = gravity_[i % 4];
     drag_ = drag;
     ahead_ = ahead;
+}
+
+template <class Scalar>
+void PlaceUpdate<Scalar>::load_masses(const Layout<Scalar>& layout, const Scalar* inverse_mass) {
     const Index size = layout.size() * layout.grain();
     inverse_mass_.resize(static_cast<std::size_t>(layout.stride()));
     detail::set_zero(inverse_mass_.data() + size, layout.stride() - size);
@@ -86,7 +89,7 @@ void PlaceUpdate<Scalar>::move(const TilePlaces<Scalar>& tile, int planes, Scala
     const Register d0(drag_);
     const bool drags = drag_ > 0;
     for (int d = 0; d < planes; ++d) {
-        std::array<Register, turns> gravity;
+        Few<Register, turns> gravity;
         for (int turn = 0; turn < turns; ++turn) {
             gravity[turn] = Stars
                                 ? Register::load(gravity_of_points_.data() + turn * Register::width)

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <utility>
 
@@ -20,7 +19,7 @@ inline Buffer<int> numbers(std::size_t count) {
 inline void sort_by(const Buffer<int>& key, Buffer<int>& items) {
     int most = -1;
     for (const int item : items) most = (std::max)(most, key[item]);
-    Buffer<int> next(static_cast<std::size_t>(most) + 2, 0);
+    Buffer<int> next(most + 2, 0);
     for (const int item : items) ++next[key[item] + 1];
     for (int i = 0; i <= most; ++i) next[i + 1] += next[i];
     Buffer<int> sorted(items.size());
@@ -96,10 +95,10 @@ inline Buffer<HubSpring> choose_hubs(const Buffer<PlacedSpring>& springs, int pl
 inline Buffer<PlannedStar> plan_stars(const Buffer<HubSpring>& by_hub, const Blocks& blocks) {
     Buffer<PlannedStar> stars;
     const int springs = static_cast<int>(by_hub.size());
-    const auto spring = [&](int s) { return by_hub[static_cast<std::size_t>(s)]; };
+    const auto spring = [&](int s) { return by_hub[s]; };
     for (int s = 0; s < springs;) {
         const int hub = spring(s).hub;
-        std::array<int, star_size + 1> places{};  // ascending, like the tips of a hub
+        Few<int, star_size + 1> places{};  // ascending, like the tips of a hub
         int count = 0;
         for (; count < star_size && s + count < springs && spring(s + count).hub == hub; ++count) {
             places[count] = spring(s + count).tip;
@@ -177,7 +176,7 @@ inline Buffer<int> cache_order(int n, const Buffer<SpringEnds>& laws) {
         }
     };
     for_each_spring([&](int a, int b) { ++degree[a], ++degree[b]; });
-    Buffer<int> first(static_cast<std::size_t>(n) + 1, 0);
+    Buffer<int> first(n + 1, 0);
     for (int i = 0; i < n; ++i) first[i + 1] = first[i] + degree[i];
     Buffer<int> neighbour(first[n]);
     auto next = first;
@@ -186,7 +185,7 @@ inline Buffer<int> cache_order(int n, const Buffer<SpringEnds>& laws) {
         neighbour[next[b]++] = a;
     });
 
-    Buffer<int> start = numbers(n);
+    Buffer<int> start = numbers(degree.size());
     sort_by(degree, start);
     // Those of each particle in the order of `start`, too.
     Buffer<int> sorted(neighbour.size());
@@ -196,7 +195,7 @@ inline Buffer<int> cache_order(int n, const Buffer<SpringEnds>& laws) {
     }
     Buffer<int> known(n, 0);
     Buffer<int> order;
-    order.reserve(n);
+    order.reserve(start.size());
     for (const int root : start) {
         if (known[root]) continue;
         known[root] = 1;
@@ -354,7 +353,7 @@ StarGroups Planner<Scalar>::groups(const SortedSprings& sorted, const Blocks& bl
     const auto stars = plan_stars(by_hub, blocks);
     StarGroups plan;
     const auto append = [&](const PlannedStar& star) {
-        const auto* spring = &by_hub[static_cast<std::size_t>(star.first)];
+        const auto* spring = &by_hub[star.first];
         const int block_begin = blocks.begin(blocks.block_of_tile(star.tile));
         Star result;
         result.hub = 4 * (spring->hub - block_begin);
@@ -371,7 +370,7 @@ StarGroups Planner<Scalar>::groups(const SortedSprings& sorted, const Blocks& bl
             append(*next);
         }
         const int groups = (static_cast<int>(plan.stars.size()) + group - 1) / group;
-        plan.stars.resize(static_cast<std::size_t>(groups * group), Star{});
+        plan.stars.resize(groups * group, Star{});
         index.resize(plan.stars.size() * star_size, by_hub.empty() ? 0 : gap(by_hub[0].index));
         return groups;
     };

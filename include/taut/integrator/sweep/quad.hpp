@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <type_traits>
 #include <utility>
 
@@ -16,7 +15,7 @@ struct Quad {
     using Part = VectorRegister<Scalar, 4>;
     static constexpr int parts = 4 / Part::width;
 
-    std::array<Part, parts> part;
+    Few<Part, parts> part;
 
     static EIGEN_ALWAYS_INLINE Quad load(const Scalar* from) {
         Quad a;
@@ -54,9 +53,9 @@ struct Quad {
         if constexpr (parts == 4) return ((part[0] + part[1]) + (part[2] + part[3])).packet;
     }
     /// Four factors, each in all lanes.
-    static EIGEN_ALWAYS_INLINE std::array<Part, 4> factors(const Scalar* from) {
+    static EIGEN_ALWAYS_INLINE Few<Part, 4> factors(const Scalar* from) {
         if constexpr (Part::width == 4) {
-            std::array<Part, 4> all;
+            Few<Part, 4> all;
             Eigen::internal::pbroadcast4(from, all[0].packet, all[1].packet, all[2].packet,
                                          all[3].packet);
             return all;
@@ -146,7 +145,7 @@ EIGEN_ALWAYS_INLINE VectorRegister<Scalar, 2 * lanes> join(
             _mm256_insertf128_ps(_mm256_castps128_ps256(first.packet), second.packet, 1));
     }
 #endif
-    std::array<Scalar, 2 * lanes> numbers;
+    Few<Scalar, 2 * lanes> numbers;
     first.store(numbers.data());
     second.store(numbers.data() + lanes);
     return VectorRegister<Scalar, 2 * lanes>::load(numbers.data());

@@ -4,7 +4,11 @@
 
 #include <Eigen/Core>
 
+#include "../../core/buffer.hpp"
+
 namespace taut::integrator_detail::sweep {
+
+using detail::Few;
 
 /// No register of Eigen's is wider, in scalars; arrays are padded by as many.
 inline constexpr int max_width = 64 / sizeof(float);
@@ -169,10 +173,6 @@ struct VectorRegister {
     friend EIGEN_ALWAYS_INLINE VectorRegister larger(const VectorRegister& a,
                                                      const VectorRegister& b) {
         return of(Eigen::internal::pmax(a.packet, b.packet));
-    }
-    friend EIGEN_ALWAYS_INLINE VectorRegister smaller(const VectorRegister& a,
-                                                      const VectorRegister& b) {
-        return of(Eigen::internal::pmin(a.packet, b.packet));
     }
     friend EIGEN_ALWAYS_INLINE VectorRegister sqrt(const VectorRegister& a) {
         return of(Eigen::internal::psqrt(a.packet));

@@ -49,7 +49,7 @@ public:
     };
     const Scalar* numbers() const { return numbers_.data(); }
     /// Those from the first of an addition on.
-    const Column* columns(int first) const { return columns_.data() + first; }
+    const Column* columns(std::size_t first) const { return columns_.data() + first; }
 
 protected:
     /// Adds a column of springs and gaps.
@@ -78,8 +78,7 @@ class SpringTable : public ColumnTable<Scalar> {
 public:
     using Parameters = typename Law::template Parameters<Scalar>;
     static constexpr bool vectorizable = is_vectorizable_v<Law>;
-    static constexpr int fields =
-        vectorizable ? static_cast<int>(sizeof(Parameters) / sizeof(Scalar)) : 0;
+    static constexpr std::size_t fields = vectorizable ? sizeof(Parameters) / sizeof(Scalar) : 0;
     static_assert(!vectorizable || (std::is_trivially_copyable_v<Parameters> &&
                                     sizeof(Parameters) == fields * sizeof(Scalar)),
                   "taut::SpringSystem: the Parameters of a vectorizable law hold Scalars only");
@@ -95,7 +94,7 @@ public:
             : this->add_column(set.damping.data(), sizeof(Scalar), index, first, end, false);
         if constexpr (vectorizable) {
             const char* bytes = reinterpret_cast<const char*>(set.parameters.data());
-            for (int f = 0; f < fields; ++f) {
+            for (std::size_t f = 0; f < fields; ++f) {
                 this->add_column(bytes + f * sizeof(Scalar), sizeof(Parameters), index, first, end,
                                  false);
             }
@@ -134,7 +133,7 @@ class SpringReader {
     using Table = SpringTable<Scalar, Law_>;
     using Parameters = typename Table::Parameters;
     static constexpr bool vectorizable = Table::vectorizable;
-    static constexpr int fields = Table::fields;
+    static constexpr std::size_t fields = Table::fields;
     struct ColumnReader {
         const Scalar* at;
         std::size_t step;
@@ -147,14 +146,14 @@ public:
 
     /// At spring i of those that `table` took by its addition `number`, counted from 0.
     SpringReader(const Table& table, int number, std::size_t i) {
-        const auto* column = table.columns(number * (2 + fields));
-        const auto reader = [&](int c) -> ColumnReader {
+        const auto* column = table.columns(static_cast<std::size_t>(number) * (2 + fields));
+        const auto reader = [&](std::size_t c) -> ColumnReader {
             return {table.numbers() + column[c].first + column[c].stride * i,
                     column[c].stride * Register::width};
         };
         rest_length_ = reader(0);
         damping_ = reader(1);
-        for (int f = 0; f < fields; ++f) field_[f] = reader(2 + f);
+        for (std::size_t f = 0; f < fields; ++f) field_[f] = reader(2 + f);
         if constexpr (!vectorizable) {
             parameters_ = table.parameters_.data() + table.first_parameters_[number] + i;
         }
@@ -206,6 +205,16 @@ public:
         if constexpr (Rayleigh) pull.of_dv = unless_negative(L, pull.of_dv);
         return pull;
     }
+    /// The one or, if Both, the other.
+    template <bool Dampers, bool Rayleigh, bool Both>
+    EIGEN_ALWAYS_INLINE auto pull_of(Scalar alpha, const Register& l2, const Register& dx_dv,
+                                     [[maybe_unused]] const Register& old_l2) const {
+        if constexpr (Both) {
+            return pull_ahead<Dampers, Rayleigh>(alpha, l2, dx_dv, old_l2);
+        } else {
+            return pull<Dampers, Rayleigh>(alpha, l2, dx_dv);
+        }
+    }
 
 private:
     /// The lanes of a register, for a law that takes one number at a time.
@@ -220,7 +229,7 @@ private:
         const Register L = rest_length_.load();
         if constexpr (vectorizable) {
             std::array<Register, fields> values;
-            for (int f = 0; f < fields; ++f) values[f] = field_[f].load();
+            for (std::size_t f = 0; f < fields; ++f) values[f] = field_[f].load();
             typename Law::template Parameters<Register> p;
             std::memcpy(&p, values.data(), sizeof p);
             return function(p, L, more...);
@@ -234,7 +243,7 @@ private:
     Parameters parameters_of(std::size_t lane) const {
         if constexpr (vectorizable) {
             std::array<Scalar, fields> values;
-            for (int f = 0; f < fields; ++f) {
+            for (std::size_t f = 0; f < fields; ++f) {
                 values[f] = Numbers(field_[f].load()).values[lane];
             }
             Parameters p;

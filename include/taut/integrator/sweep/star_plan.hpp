@@ -3,9 +3,7 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -23,8 +21,9 @@ class StarPlan {
     using Table = SpringTable<Scalar, Law>;
     using Reader = SpringReader<Scalar, Law, Register>;
     static constexpr int group = Planner<Scalar>::group;
+    static constexpr int registers = group * star_size / Register::width;
     /// The springs of a group, a lane each.
-    using Lanes = std::array<Register, group * star_size / Register::width>;
+    using Lanes = Few<Register, registers>;
 
 public:
     StarPlan() = default;
@@ -36,15 +35,15 @@ public:
     void add_forces(const TileView<Scalar>& view) const;
 
 private:
-    using Vectors = std::array<Point, star_size>;
+    using Vectors = Few<Point, star_size>;
     template <int... i>
     using Numbers = std::integer_sequence<int, i...>;
     static constexpr std::make_integer_sequence<int, star_size> all_tips{};
 
     /// What lies in other blocks goes behind the last place of this one.
     static int inside(int place, int end) { return place < 0 || place >= end ? end : place; }
-    static std::array<Star, group> within_block(const Star* stars, int end) {
-        std::array<Star, group> result;
+    static Few<Star, group> within_block(const Star* stars, int end) {
+        Few<Star, group> result;
         for (int s = 0; s < group; ++s) {
             result[s].hub = inside(stars[s].hub, end);
             for (int k = 0; k < star_size; ++k) result[s].tips[k] = inside(stars[s].tips[k], end);
@@ -61,7 +60,7 @@ private:
     static EIGEN_ALWAYS_INLINE Point dots(const Vectors& a, const Vectors& b) {
         return Point::sums(a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]);
     }
-    static EIGEN_ALWAYS_INLINE Lanes lanes(const std::array<Point, group>& points) {
+    static EIGEN_ALWAYS_INLINE Lanes lanes(const Few<Point, group>& points) {
         if constexpr (group == 2) {
             return {join(points[0].part[0], points[1].part[0])};
         } else {
@@ -95,23 +94,17 @@ private:
                                               Numbers<s...>);
     /// Coefficients of the springs of a group.
     struct Pulls {
-        alignas(64) std::array<Scalar, group * star_size> of_dx, of_dv, of_here;
+        alignas(64) Few<Scalar, group * star_size> of_dx, of_dv, of_here;
     };
     template <bool Dampers, bool Rayleigh, bool Both>
     static EIGEN_ALWAYS_INLINE void pull(Scalar alpha, Reader& springs, const Register& l2,
-                                         const Register& dx_dv,
-                                         [[maybe_unused]] const Register& old_l2, Pulls& pulls,
-                                         int first) {
-        const auto keep = [&](const auto& pull) {
-            pull.of_dx.store(pulls.of_dx.data() + first);
-            if constexpr (Rayleigh) pull.of_dv.store(pulls.of_dv.data() + first);
-            if constexpr (Both) pull.of_here.store(pulls.of_here.data() + first);
-        };
-        if constexpr (Both) {
-            keep(springs.template pull_ahead<Dampers, Rayleigh>(alpha, l2, dx_dv, old_l2));
-        } else {
-            keep(springs.template pull<Dampers, Rayleigh>(alpha, l2, dx_dv));
-        }
+                                         const Register& dx_dv, const Register& old_l2,
+                                         Pulls& pulls, int first) {
+        const auto pull =
+            springs.template pull_of<Dampers, Rayleigh, Both>(alpha, l2, dx_dv, old_l2);
+        pull.of_dx.store(pulls.of_dx.data() + first);
+        if constexpr (Rayleigh) pull.of_dv.store(pulls.of_dv.data() + first);
+        if constexpr (Both) pull.of_here.store(pulls.of_here.data() + first);
         springs.next();
     }
     template <bool Dampers, bool Rayleigh, bool Both, int... i>
@@ -163,7 +156,7 @@ void StarPlan<Scalar, Law>::add_forces(const TileView<Scalar>& view) const {
     Reader springs(table_, 0, static_cast<std::size_t>(g * group * star_size));
     const Star* stars = plan_.stars.data();
     const auto [outer, end] = plan_.ends[view.tile];
-    std::array<Star, group> inside_block;
+    Few<Star, group> inside_block;
     for (; g < end; ++g) {  // one loop: the kernel is most of what a program has of springs
         of.stars = of.targets = stars + g * group;
         if (g < outer) {
@@ -178,9 +171,9 @@ template <class Scalar, class Law>
 template <bool Dampers, bool Rayleigh, bool Both, int... s>
 EIGEN_ALWAYS_INLINE void StarPlan<Scalar, Law>::add_group(Scalar alpha, Reader& springs,
                                                           const Group& of, Numbers<s...>) {
-    const std::array<Vectors, group> dx{differences(of.x, of.stars[s], all_tips)...};
-    [[maybe_unused]] std::array<Vectors, group> dv;
-    [[maybe_unused]] std::array<Vectors, group> here;
+    const Few<Vectors, group> dx{differences(of.x, of.stars[s], all_tips)...};
+    [[maybe_unused]] Few<Vectors, group> dv;
+    [[maybe_unused]] Few<Vectors, group> here;
     Lanes dx_dv{}, old_l2{};
     if constexpr (Dampers || Rayleigh) {
         dv = {differences(of.v, of.stars[s], all_tips)...};
@@ -192,8 +185,7 @@ EIGEN_ALWAYS_INLINE void StarPlan<Scalar, Law>::add_group(Scalar alpha, Reader& 
     }
     Pulls pulls;
     pull<Dampers, Rayleigh, Both>(alpha, springs, lanes({dots(dx[s], dx[s])...}), dx_dv, old_l2,
-                                  pulls,
-                                  std::make_integer_sequence<int, std::tuple_size_v<Lanes>>());
+                                  pulls, std::make_integer_sequence<int, registers>());
     (add_star(of.forces, of.targets[s],
               forces<Rayleigh, Both>(pulls, s * star_size, dx[s], dv[s], here[s], all_tips),
               all_tips),

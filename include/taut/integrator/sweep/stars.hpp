@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-
 #include "sorted_springs.hpp"
 #include "tile.hpp"
 
@@ -41,7 +39,7 @@ TAUT_COLD Buffer<PlannedStar> plan_stars(const Buffer<HubSpring>& by_hub, const 
 /// block's first. Where there are fewer than four, the rest are gaps from the hub to itself.
 struct Star {
     int hub;
-    std::array<int, star_size> tips;
+    Few<int, star_size> tips;
 };
 
 /// The stars of one law, tile by tile, in groups.

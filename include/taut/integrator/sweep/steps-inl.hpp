@@ -41,7 +41,7 @@ Index Steps<Scalar, Dim>::first_not_finite(const Layout<Scalar>& layout) const {
     for (Index i = 0; i < layout.size(); ++i) {
         for (int d = 0; d < Dim; ++d) {
             for (const Planes<Scalar>& of : {state_.planes().x, state_.planes().v}) {
-                if (!std::isfinite(layout.at(of, d, places[i]))) return i;
+                if (!detail::is_finite(layout.at(of, d, places[i]))) return i;
             }
         }
     }

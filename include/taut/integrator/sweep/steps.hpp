@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 
 #include "force_plan.hpp"
 #include "place_update.hpp"
@@ -77,6 +78,7 @@ struct Surroundings {
     const Eigen::Matrix<Scalar, Dim, 1>& gravity;  // m/s²
     const RayleighDamping& rayleigh;
     const Scalar* inverse_mass;  // 1/kg
+    std::uint64_t revision;      // of the masses
     const ExternalForces<Scalar, Dim>& external;
 };
 
@@ -148,6 +150,7 @@ private:
     StepWatch<Scalar, Dim>* watch_ = nullptr;
     Buffer<Scalar> acceleration_;  // at the end of the last run_verlet, planes, m/s²
     Scalar last_h_ = 0;            // its step, s
+    std::uint64_t masses_ = 0;     // the revision of those in update_
     Scalar alpha_ = 0;             // of Rayleigh damping, s
 };
 
@@ -162,9 +165,12 @@ void Steps<Scalar, Dim>::load(const Surroundings<Scalar, Dim>& surroundings,
     if (new_plan) scratch_.assign(scratch_.size(), Scalar(0));
     state_.resize(layout.planes(), layout.size() * layout.grain(), layout.stride(), ahead > 0,
                   read);
-    update_.load(layout, surroundings.gravity.data(), Dim,
-                 static_cast<Scalar>(surroundings.rayleigh.mass_proportional),
-                 surroundings.inverse_mass, ahead);
+    update_.load(surroundings.gravity.data(), Dim,
+                 static_cast<Scalar>(surroundings.rayleigh.mass_proportional), ahead);
+    if (new_plan || masses_ != surroundings.revision) {
+        update_.load_masses(layout, surroundings.inverse_mass);
+        masses_ = surroundings.revision;
+    }
     layout.to_planes(state.x, state_.planes().x);
     layout.to_planes(state.v, state_.planes().v);
     if (ahead > 0) state_.look_ahead(ahead);

@@ -227,7 +227,7 @@ private:
         const bool new_plan = plan_.update(system);
         const bool alpha = static_cast<Scalar>(system.rayleigh().stiffness_proportional) > 0;
         steps_.load({system.gravity(), system.rayleigh(), system.inverse_mass().data(),
-                     system.external_forces()},
+                     system.revision(), system.external_forces()},
                     plan_.layout(), new_plan, state, ahead,
                     {plan_.damped() || alpha || plan_.has_outside(), plan_.has_outside() || both});
     }

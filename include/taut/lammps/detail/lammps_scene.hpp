@@ -123,7 +123,7 @@ void LammpsBonds::count(const System& system, const typename System::State& stat
         const double l =
             (state.x.col(b).template cast<double>() - state.x.col(a).template cast<double>())
                 .stableNorm();
-        if (!(l > 0) || !std::isfinite(l)) {
+        if (!(l > 0) || !detail::is_finite(l)) {
             fail("write_lammps: spring ", s, " is ", l, " m long, from particle ", a, " to ", b,
                  "; it must be finite and > 0, since LAMMPS gives no pull without a direction");
         }

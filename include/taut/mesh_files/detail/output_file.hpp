@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "../../core/detail/finite.hpp"
 #include "../file_report.hpp"
 
 namespace taut::io_detail {
@@ -46,7 +47,9 @@ private:
 template <class Number, class Points>
 Index first_unwritable(const Points& x) {
     for (Index i = 0; i < x.cols(); ++i) {
-        if (!x.col(i).template cast<Number>().allFinite()) return i;
+        for (Index d = 0; d < x.rows(); ++d) {
+            if (!detail::is_finite(static_cast<Number>(x(d, i)))) return i;
+        }
     }
     return -1;
 }

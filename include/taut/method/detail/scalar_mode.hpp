@@ -7,6 +7,7 @@
 #include <cmath>
 #include <complex>
 
+#include "../../core/detail/finite.hpp"
 #include "../method.hpp"
 
 // Roots of one scalar mode ẍ + d ẋ + k x = 0: d in 1/s, k in 1/s².
@@ -17,7 +18,7 @@ namespace taut::method_detail {
 /// can vanish or overflow.
 inline double discriminant_root(double d, double k) {
     const double size = (std::max)((std::abs)(d), std::sqrt((std::abs)(k)));
-    const int unit = size > 0 && std::isfinite(size) ? std::ilogb(size) : 0;
+    const int unit = size > 0 && detail::is_finite(size) ? std::ilogb(size) : 0;
     d = std::scalbn(d, -unit);
     k = std::scalbn(std::scalbn(k, -unit), -unit);
     return d * d + 4 * k < 0 ? -1 : std::scalbn(std::sqrt(d * d + 4 * k), unit);

@@ -85,7 +85,7 @@ template <class Law, class Scalar>
 void check_law(const usable_parameters<Law, Scalar>& p, Scalar L) {
     const Scalar bound = Law::stiffness_bound(p, L);
     const Scalar most = bound * (1 + 65536 * std::numeric_limits<Scalar>::epsilon());
-    const auto exceeds = [&](Scalar value) { return std::isfinite(value) && value > most; };
+    const auto exceeds = [&](Scalar value) { return detail::is_finite(value) && value > most; };
     const Scalar unit = L > 0 ? L : Scalar(1);
     for (int i = -24; i <= 24; ++i) {
         const Scalar l = unit * std::exp2(Scalar(i) / 2);

@@ -6,7 +6,7 @@ namespace taut {
 
 template <class Scalar, int Dim, class... Laws>
 Index SpringSystem<Scalar, Dim, Laws...>::add_particle(const Vector& position, Scalar mass) {
-    if (!detail::all_finite(position.data(), Dim)) {
+    if (!detail::all_finite(position.data(), position.size())) {
         fail("SpringSystem::add_particle: the position of particle ", size(), " is not finite");
     }
     require_mass("add_particle", size(), mass);
@@ -138,7 +138,8 @@ void SpringSystem<Scalar, Dim, Laws...>::set_mass(Index i, Scalar mass) {
 
 template <class Scalar, int Dim, class... Laws>
 void SpringSystem<Scalar, Dim, Laws...>::set_gravity(const Vector& gravity) {
-    if (!gravity.allFinite()) fail("SpringSystem::set_gravity: gravity is not finite");
+    if (!detail::all_finite(gravity.data(), gravity.size()))
+        fail("SpringSystem::set_gravity: gravity is not finite");
     gravity_ = gravity;
     ++force_revision_;
 }
@@ -146,7 +147,7 @@ void SpringSystem<Scalar, Dim, Laws...>::set_gravity(const Vector& gravity) {
 template <class Scalar, int Dim, class... Laws>
 void SpringSystem<Scalar, Dim, Laws...>::set_constant_force(Index i, const Vector& force) {
     require_particle("set_constant_force", "i", i);
-    if (!force.allFinite()) {
+    if (!detail::all_finite(force.data(), force.size())) {
         fail("SpringSystem::set_constant_force: the force on particle ", i, " is not finite");
     }
     auto& constant = external_.constant;
@@ -202,7 +203,7 @@ template <class Scalar, int Dim, class... Laws>
 void SpringSystem<Scalar, Dim, Laws...>::require_mass(const char* function, Index i,
                                                       Scalar mass) const {
     // 1/mass must be finite too, or a step would divide by zero.
-    if (!(mass > 0) || !std::isfinite(mass) || !std::isfinite(Scalar(1) / mass)) {
+    if (!(mass > 0) || !detail::is_finite(mass) || !detail::is_finite(Scalar(1) / mass)) {
         fail("SpringSystem::", function, ": the mass of particle ", i, " is ", mass,
              "; it must be finite and > 0 (pin a particle to fix it)");
     }

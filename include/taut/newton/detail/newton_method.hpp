@@ -109,7 +109,7 @@ Report NewtonMethod<System>::step(const System& system, State& state, const Vect
     filter(u1_);
     u1_ += u_;
     const Scalar inertial = objective_.evaluate(system, u1_, g1_);
-    if (!(value <= inertial)) {
+    if (!(value <= inertial) || !detail::is_finite(value)) {
         filter(g1_);
         u_.swap(u1_);
         g_.swap(g1_);

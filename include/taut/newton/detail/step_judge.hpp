@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <type_traits>
-#include <vector>
 
 #include "../energy_guarantee.hpp"
+#include "../../core/buffer.hpp"
 #include "../../model/spring_system.hpp"
 #include "step_objective.hpp"
 
@@ -48,7 +48,7 @@ public:
 private:
     using Wide = std::common_type_t<Scalar, double>;  // a float's energies are judged in double
     using Vector = Eigen::Matrix<Wide, Dim, 1>;
-    using Sizes = std::vector<Wide>;
+    using Sizes = Buffer<Wide>;
     static constexpr Wide epsilon = std::numeric_limits<Scalar>::epsilon();
 
     struct Energy {
@@ -116,7 +116,7 @@ void StepJudge<System>::begin(const System& system, const State& state, Scalar h
     load_ = objective.inertial() - h * state.v;
     for (Index i = 0; i < system.size(); ++i) load_.col(i) *= system.mass(i);  // 0 if pinned
     before_ = weigh(system, start_, v_, [](auto&&...) {});
-    inertial_.assign(static_cast<std::size_t>(system.size()), 0);
+    inertial_.assign(system.size(), 0);
     end_ = start_ + objective.inertial();
     weigh(system, end_, v_, [&](Index a, Index b, Wide tension, Wide, Wide) {
         for (const Index i : {a, b}) inertial_[i] += h_ * h_ * tension;
@@ -129,8 +129,8 @@ void StepJudge<System>::size_up(const System& system, const StepObjective<System
                                 const Moves& u) {
     end_ = start_ + u;
     v_ = u / static_cast<Scalar>(h_);
-    size_.assign(static_cast<std::size_t>(system.size()), 0);
-    blur_.assign(static_cast<std::size_t>(system.size()), 0);
+    size_.assign(system.size(), 0);
+    blur_.assign(system.size(), 0);
     open_blur_ = 0;
     const auto alpha = static_cast<Wide>(system.rayleigh().stiffness_proportional);
     const auto reach = [&](Index i) { return length(start_.col(i)) + length(end_.col(i)); };
@@ -178,7 +178,7 @@ auto StepJudge<System>::judge(const System& system, StepObjective<System>& objec
     Wide worst = 0;
     const auto raise = [&](Wide part, Wide whole) {
         const Wide ratio = part == 0 ? Wide(0) : part / whole;
-        if (!(ratio <= worst) && !std::isnan(worst)) worst = ratio;  // NaN stays
+        if (!(ratio <= worst) && detail::is_finite(worst)) worst = ratio;  // NaN stays
     };
     const auto tol = static_cast<Wide>(tolerance);
     size_up(system, objective, u);
@@ -193,7 +193,7 @@ auto StepJudge<System>::judge(const System& system, StepObjective<System>& objec
         work += move.dot(load_.col(i).template cast<Wide>()) / (h_ * h_);
     }
     const Wide stake = before_.kinetic + before_.springs + (std::abs)(work);
-    if (!std::isfinite(stake)) return {};
+    if (!detail::is_finite(stake)) return {};
     const Wide open =
         (std::abs)(u.template cast<Wide>().cwiseProduct(g.template cast<Wide>()).sum()) / (h_ * h_);
     solved = solved && open <= tol * stake + open_blur_ / (h_ * h_);

@@ -20,7 +20,7 @@ UnroundedLimit implicit_limit(const Pencil& pencil) {
     if (pencil.projected_semidefinite() || kappa == 0) {
         return {infinity, infinity, Cause::unconditional};
     }
-    if (!std::isfinite(kappa)) return {0, infinity, Cause::overflow};
+    if (!detail::is_finite(kappa)) return {0, infinity, Cause::overflow};
     const double delta = pencil.damping_semidefinite() ? 0 : pencil.deficit(D);
     const auto definite_up_to = [delta](double most) {
         return critical_step(Method::symplectic_euler, most, delta) / 2;

@@ -16,7 +16,7 @@ struct Lift {
     struct Row {
         std::array<int, 4> coarse{};  // the first `count` of them
         std::array<double, 4> weight{};
-        int count = 0;
+        std::size_t count = 0;
     };
     std::vector<Row> rows;
 };
@@ -34,8 +34,8 @@ Lift make_lift(const Positions& x, const Clusters& clusters,
     std::vector<std::vector<int>> candidates(count);
     for (std::size_t c = 0; c < count; ++c) candidates[c].push_back(static_cast<int>(c));
     for (const ClusterPair pair : pairs) {
-        candidates[low_of(pair)].push_back(high_of(pair));
-        candidates[high_of(pair)].push_back(low_of(pair));
+        detail::at(candidates, low_of(pair)).push_back(high_of(pair));
+        detail::at(candidates, high_of(pair)).push_back(low_of(pair));
     }
     Lift lift;
     lift.rows.resize(clusters.of.size());
@@ -50,7 +50,7 @@ Lift make_lift(const Positions& x, const Clusters& clusters,
             continue;
         }
         nearest.clear();
-        for (const int c : candidates[own])
+        for (const int c : detail::at(candidates, own))
             nearest.emplace_back((x.col(clusters.seeds[c]) - x.col(static_cast<Index>(i))).norm(),
                                  c);
         const std::size_t five = std::min<std::size_t>(5, nearest.size());
@@ -77,7 +77,7 @@ Lift make_lift(const Positions& x, const Clusters& clusters,
             row.coarse[row.count++] = own;
             row.weight[0] = sum = 1;
         }
-        for (int k = 0; k < row.count; ++k) row.weight[k] /= sum;
+        for (std::size_t k = 0; k < row.count; ++k) row.weight[k] /= sum;
     }
     return lift;
 }

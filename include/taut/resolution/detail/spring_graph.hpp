@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "../../core/buffer.hpp"
 #include "../../core/types.hpp"
 
 namespace taut::scene_detail {
@@ -28,15 +29,14 @@ public:
 
     /// @param x  m, Dim × n
     template <class System, class Positions>
-    SpringGraph(const System& system, const Positions& x)
-        : first_(static_cast<std::size_t>(system.size()) + 1, 0) {
+    SpringGraph(const System& system, const Positions& x) : first_(system.size() + 1, 0) {
         system.for_each_spring([&](Index a, Index b) {
             ++first_[a + 1];
             ++first_[b + 1];
         });
         for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
         neighbours_.resize(first_.back());
-        std::vector<std::size_t> end(first_.begin(), first_.end() - 1);
+        Buffer<std::size_t> end = first_;
         const std::vector<double> lengths = lengths_of(system, x);
         std::size_t spring = 0;
         system.for_each_spring([&](Index a, Index b) {
@@ -74,7 +74,7 @@ private:
     }
     /// Divides the lengths of each part by their mean.
     void measure_by_parts() {
-        std::vector<bool> seen(first_.size() - 1, false);
+        Buffer<bool> seen(first_.size() - 1, false);
         std::vector<int> part;
         for (int start = 0; start < size(); ++start) {
             if (seen[start]) continue;
@@ -97,15 +97,15 @@ private:
         }
     }
 
-    std::vector<std::size_t> first_;  // of particle i in neighbours_
-    std::vector<Neighbour> neighbours_;
+    Buffer<std::size_t> first_;  // of particle i in neighbours_
+    Buffer<Neighbour> neighbours_;
 };
 
 /// Seeds, and for each particle the seed that is nearest to it along the springs.
 struct Clusters {
-    std::vector<int> seeds;      // particles
-    std::vector<int> of;         // particle → index in seeds; −1: no spring leads to a seed
-    std::vector<double> length;  // along the springs from its seed, as of SpringGraph
+    Buffer<int> seeds;      // particles
+    Buffer<int> of;         // particle → index in seeds; −1: no spring leads to a seed
+    Buffer<double> length;  // along the springs from its seed, as of SpringGraph
 
     bool is_seed(int particle) const {
         return of[particle] >= 0 && seeds[of[particle]] == particle;
@@ -143,8 +143,8 @@ inline void add_seed(const SpringGraph& graph, int seed, Clusters& clusters) {
 /// @param given  particles, each once, at most `count`   @param count  at most graph.size()
 inline Clusters farthest_seeds(const SpringGraph& graph, const std::vector<int>& given, int count) {
     Clusters clusters;
-    clusters.of.assign(static_cast<std::size_t>(graph.size()), -1);
-    clusters.length.assign(clusters.of.size(), std::numeric_limits<double>::infinity());
+    clusters.of.assign(graph.size(), -1);
+    clusters.length.assign(graph.size(), std::numeric_limits<double>::infinity());
     for (const int seed : given) add_seed(graph, seed, clusters);
     // Lengths only shrink: one in the heap is the particle's own, or an earlier and larger one.
     std::vector<std::pair<double, int>> farthest;

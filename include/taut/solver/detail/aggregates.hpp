@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "../../core/buffer.hpp"
 #include "block_matrix.hpp"
 
 namespace taut::solver_detail {
@@ -11,8 +12,8 @@ namespace taut::solver_detail {
 /// The block rows of a matrix in connected groups of about `size`, neighbours in its graph with
 /// neighbours.
 struct Aggregates {
-    std::vector<int> of;  // block row → its group
-    int count = 0;        // of groups
+    Buffer<int> of;  // block row → its group
+    int count = 0;   // of groups
 
     template <class Scalar, int Dim>
     void build(const BlockMatrix<Scalar, Dim>& A, std::size_t size);
@@ -22,7 +23,7 @@ struct Aggregates {
 /// between grown groups joins one of them.
 template <class Scalar, int Dim>
 void Aggregates::build(const BlockMatrix<Scalar, Dim>& A, std::size_t size) {
-    of.assign(static_cast<std::size_t>(A.rows()), -1);
+    of.assign(A.rows(), -1);
     count = 0;
     std::vector<int> group;
     for (int seed = 0; seed < A.rows(); ++seed) {

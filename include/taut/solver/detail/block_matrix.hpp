@@ -3,9 +3,9 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
+#include "../../core/buffer.hpp"
 #include "../../core/error.hpp"
 #include "../../core/types.hpp"
 
@@ -63,7 +63,7 @@ public:
     /// it.
     /// @param x  Dim · rows() scalars
     Segment product(int begin, int end, const Scalar* x) const {
-        std::array<Lane, Dim> sum;  // several, since each addition to a sum waits for the last
+        detail::Few<Lane, Dim> sum;  // several, since each addition to a sum waits for the last
         sum.fill(Lane::Zero());
         for (int k = begin; k < end; ++k) {
             const Scalar* a = values_.data() + Dim * Dim * k;
@@ -86,9 +86,9 @@ private:
     // Three numbers travel in a register of four; what the fourth reads is never used.
     using Lane = Eigen::Array<Scalar, Dim == 3 ? 4 : Dim, 1>;
 
-    std::vector<int> first_;      // block row → its first block
-    std::vector<int> columns_;    // block → block column
-    std::vector<int> diagonal_;   // block row → its diagonal block
+    Buffer<int> first_;           // block row → its first block
+    Buffer<int> columns_;         // block → block column
+    Buffer<int> diagonal_;        // block row → its diagonal block
     std::vector<Scalar> values_;  // Dim × Dim by columns for each block, and one more
 };
 

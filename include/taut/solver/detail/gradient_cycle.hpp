@@ -35,7 +35,7 @@ struct GradientCycle {
             rz = next;
             A.multiply(p, q);
             const Scalar curvature = p.dot(q);
-            if (!(curvature > 0) || !std::isfinite(curvature)) return Eigen::NumericalIssue;
+            if (!(curvature > 0) || !detail::is_finite(curvature)) return Eigen::NumericalIssue;
             if (iterations == cap) return Eigen::NoConvergence;
             const Scalar step = rz / curvature;
             x += step * p;

@@ -50,7 +50,7 @@ inline ModeLimit explicit_mode_limit(double k, double d) {
 /// The largest step that proved bounds k on k_max and d on the largest eigenvalue of D' certify for
 /// explicit Euler, or else the bound at each step tried; 0: none.
 inline double certified_explicit(const Pencil& pencil, double k, double d) {
-    if (!std::isfinite(k)) return 0;
+    if (!detail::is_finite(k)) return 0;
     const auto [d0, alpha] = pencil.rayleigh();
     if (pencil.is_rayleigh() && pencil.stiffness_semidefinite()) {
         // k may be anything in (0, k_max]: as k → 0 the limit is 2/d0 [T9], [T13], or α where d0 =
@@ -81,7 +81,7 @@ inline UnroundedLimit explicit_by_bounds(const Pencil& pencil, double k, double 
     if (!(k > 0) && !(d > 0) && pencil.upper_bound(-K) <= 0 && pencil.upper_bound(-D) <= 0) {
         return {infinity, infinity, Cause::nothing_to_limit};
     }
-    if (!std::isfinite(k) || !std::isfinite(d)) return {0, infinity, Cause::overflow};
+    if (!detail::is_finite(k) || !detail::is_finite(d)) return {0, infinity, Cause::overflow};
     if (!(d > 0)) return {0, infinity, Cause::undamped};
     UnroundedLimit limit;
     limit.certified = certified_explicit(pencil, k, d);

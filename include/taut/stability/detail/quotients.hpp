@@ -22,7 +22,9 @@ inline Quotients quotients(const Pencil& pencil, const Eigen::VectorXd& u,
     const Enclosed m = pencil.quadratic(M, u);
     const auto over_m = [&](const Enclosed& q) {
         const double value = q.value / m.value;
-        return Enclosed{value, (q.error + (std::abs)(value)*m.error) / m.lower()};
+        const double error = (q.error + m.error * (std::abs)(value)) / m.lower();
+        if (!detail::is_finite(value + error)) return Enclosed{0, infinity};  // it says nothing
+        return Enclosed{value, error};
     };
     return {over_m(pencil.quadratic(stiffness, u)), over_m(pencil.quadratic(D, u))};
 }

@@ -60,13 +60,13 @@ inline double min_mass_scale(Method method, const Pencil& pencil, double h) {
     const Eigen::VectorXd& mass = pencil.mass();
     const double d0 = pencil.rayleigh().mass_proportional;
     const double least = (std::numeric_limits<double>::min)() / mass.minCoeff();
-    const double most =
-        (std::numeric_limits<double>::max)() / 8 / mass.maxCoeff() / (std::max)(1.0, d0);
-    return 1 / detail::last_that_passes(1.0, scale_tolerance, [&](double lighter) {
-               const double scale =
-                   std::clamp(1 / lighter, (std::min)(least, 1.0), (std::max)(most, 1.0));
-               return certified_when_scaled(method, pencil, 1, scale) >= h;
-           });
+    const double most = (std::numeric_limits<double>::max)() / 8 /
+                        (std::max)(1.0, mass.maxCoeff()) / (std::max)(1.0, d0);
+    const double lightest = detail::last_that_passes(1.0, scale_tolerance, [&](double lighter) {
+        const double scale = std::clamp(1 / lighter, (std::min)(least, 1.0), (std::max)(most, 1.0));
+        return certified_when_scaled(method, pencil, 1, scale) >= h;
+    });
+    return lightest > 0 ? 1 / lightest : infinity;
 }
 
 }  // namespace taut::stability_detail

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "../../core/detail/finite.hpp"
+
 namespace taut::stability_detail {
 
 /// A symmetric matrix of up to three rows: the columns of its lower triangle, zero beyond its
@@ -36,7 +38,7 @@ inline bool proved_above(const SymmetricBlock& A, double sigma) {
             L(i, j) /= L(j, j);
         }
     }
-    return true;
+    return detail::is_finite(L.trace());  // else no comparison above is one
 }
 
 /// The largest eigenvalue of a symmetric 3 × 3 matrix by the cosine formula: good to about √eps of
@@ -62,8 +64,9 @@ inline double eigenvalue_upper_bound(const SymmetricBlock& A, int dim) {
     constexpr double margin = 1 + 64 * std::numeric_limits<double>::epsilon();
     const double trace = A.trace() * margin;  // a bound too, since no eigenvalue is negative
     if (dim == 1) return trace;
+    if (!detail::is_finite(trace)) return std::numeric_limits<double>::infinity();
     if (!(trace > 0)) return 0;
-    if (!(trace > 1e-90 && trace < 1e90) && std::isfinite(trace)) {
+    if (!(trace > 1e-90 && trace < 1e90)) {
         // Squares and cubes would vanish or overflow; powers of two cost nothing.
         const int exponent = std::ilogb(trace);
         SymmetricBlock scaled;

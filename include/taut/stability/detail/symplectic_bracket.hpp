@@ -47,12 +47,12 @@ double refuted_symplectic(const Pencil& pencil, Eigen::VectorXd& vector) {
     if (pencil.is_rayleigh() && pencil.stiffness_semidefinite()) return h;
     // The stiffest vector of K⁺ may lie where the true K is buckled: begin elsewhere.
     for (const Combination& c : {K, D}) {
-        if (std::isfinite(h)) break;
+        if (detail::is_finite(h)) break;
         RitzPair other = largest_ritz_pair(pencil, c);
         h = refuted_by(pencil, other.vector);
-        if (std::isfinite(h)) vector = std::move(other.vector);
+        if (detail::is_finite(h)) vector = std::move(other.vector);
     }
-    if (std::isfinite(h)) sharpen_symplectic(pencil, {}, 1e-4, h, vector);
+    if (detail::is_finite(h)) sharpen_symplectic(pencil, {}, 1e-4, h, vector);
     return h;
 }
 
@@ -68,7 +68,7 @@ inline Cause symplectic_cause(const Pencil& pencil, double h, const Eigen::Vecto
 template <class Effort, class Start>
 UnroundedLimit symplectic_bracket(const Pencil& pencil, Effort& effort, Start&& start) {
     const UnroundedLimit limit = symplectic_by_bounds(pencil);
-    if (!(limit.certified > 0) || !std::isfinite(limit.certified)) return limit;
+    if (!(limit.certified > 0) || !detail::is_finite(limit.certified)) return limit;
     Bracket bracket;
     bracket.certified = limit.certified;
     bracket.vector = start(bracket.certified);

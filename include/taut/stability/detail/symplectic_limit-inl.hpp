@@ -15,7 +15,7 @@ TAUT_INLINE SymplecticStep certified_symplectic(const Pencil& pencil) {
     if (pencil.is_rayleigh()) {
         const double k = (std::max)(0.0, pencil.upper_bound(K_plus));
         const auto& rayleigh = pencil.rayleigh();
-        if (!std::isfinite(k)) return {0, k};  // overflow: nothing is proved
+        if (!detail::is_finite(k)) return {0, k};  // overflow: nothing is proved
         const double d = rayleigh.mass_proportional + rayleigh.stiffness_proportional * k;
         return {critical_step(Method::symplectic_euler, k, d), k};
     }
@@ -24,9 +24,9 @@ TAUT_INLINE SymplecticStep certified_symplectic(const Pencil& pencil) {
     const auto g = [&](double h) { return pencil.upper_bound(2 * h * D + h * h * K_plus) / 4; };
     const double k = (std::max)(0.0, pencil.upper_bound(K_plus));
     const double d = (std::max)(0.0, pencil.upper_bound(D));
-    if (!std::isfinite(k) || !std::isfinite(d)) return {0, k};
+    if (!detail::is_finite(k) || !detail::is_finite(d)) return {0, k};
     double h = critical_step(Method::symplectic_euler, k, d);
-    for (int repeat = 0; repeat < 8 && std::isfinite(h); ++repeat) {
+    for (int repeat = 0; repeat < 8 && detail::is_finite(h); ++repeat) {
         const double larger = h / std::sqrt(g(h));
         if (!(larger > h * (1 + 1e-4))) break;
         h = larger;
@@ -37,7 +37,7 @@ TAUT_INLINE SymplecticStep certified_symplectic(const Pencil& pencil) {
 TAUT_INLINE UnroundedLimit symplectic_by_bounds(const Pencil& pencil) {
     const auto [h, k] =
         pencil.size() == 0 ? SymplecticStep{infinity, 0} : certified_symplectic(pencil);
-    if (!std::isfinite(h)) return {infinity, infinity, Cause::nothing_to_limit};
+    if (!detail::is_finite(h)) return {infinity, infinity, Cause::nothing_to_limit};
     if (!(h > 0)) return {0, infinity, Cause::overflow};
     // Of 4 = 2hd + h²k at the limit damping has more than half where stiffness cannot have it.
     return {h, infinity, h * h * k < 2 ? Cause::damping : Cause::stiffness};
@@ -66,7 +66,7 @@ TAUT_INLINE UnroundedLimit at_any_pose(Method method, const Pencil& laplacian) {
     const bool proved = proof == AnyPose::proved;
     const UnroundedLimit limit = by_laplacian(laplacian, proved ? 0.5 : 1);
     if (proved || proof == AnyPose::limited) return limit;
-    if (!(limit.certified > 0) || std::isinf(limit.certified)) return limit;
+    if (!(limit.certified > 0) || !detail::is_finite(limit.certified)) return limit;
     if (proof == AnyPose::every_step) {
         method::visit_limited("any_pose_limit", method, [](auto) { return true; });  // not BDF2
         return {infinity, infinity, Cause::unconditional};

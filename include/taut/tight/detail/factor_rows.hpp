@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <vector>
 
+#include "../../core/buffer.hpp"
 #include "../../core/types.hpp"
 
 namespace taut::solver_detail {
@@ -26,14 +26,14 @@ template <class Place>
 FactorSize factor_size(const SparseMatrix<double>& A, Place&& place,
                        Index most = (std::numeric_limits<Index>::max)()) {
     using Entry = SparseMatrix<double>::InnerIterator;
-    const auto n = static_cast<std::size_t>(A.rows());
-    std::vector<Index> column(n);  // of A, for each row of PAPᵀ
-    for (Index i = 0; i < A.rows(); ++i) column[place(i)] = i;
-    std::vector<Index> parent(n, -1);
-    std::vector<Index> ancestor(n, -1);  // short cuts towards the root
-    std::vector<Index> seen(n, -1);
+    const Index n = A.rows();
+    Buffer<Index> column(n);  // of A, for each row of PAPᵀ
+    for (Index i = 0; i < n; ++i) column[place(i)] = i;
+    Buffer<Index> parent(n, -1);
+    Buffer<Index> ancestor(n, -1);  // short cuts towards the root
+    Buffer<Index> seen(n, -1);
     FactorSize size;
-    for (Index k = 0; k < A.rows() && size.entries <= most; ++k) {
+    for (Index k = 0; k < n && size.entries <= most; ++k) {
         for (Entry entry(A, column[k]); entry; ++entry) {
             for (Index i = place(entry.row()); i >= 0 && i < k;) {
                 const Index next = ancestor[i];

@@ -78,7 +78,7 @@ ProvedMaximum narrow_maximum(const Pencil& pencil, Prover& prover, double tightn
     narrow(inverse, tightness, sharpen,
            [&](double share) { return prove(prover, pencil, 1 / share * M - K_plus).proved; });
     k.upper = (std::min)(k.upper, 1 / inverse.certified * (1 + 4e-16));
-    k.lower = std::isfinite(inverse.refuted) ? 1 / inverse.refuted : 0;
+    k.lower = detail::is_finite(inverse.refuted) ? 1 / inverse.refuted : 0;
     k.vector = std::move(inverse.vector);
     return k;
 }
