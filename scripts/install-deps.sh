@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 Taut contributors
 # SPDX-License-Identifier: MIT
 
-# Installs what the build, the tests and the examples need. `--ci` adds what only .ci/run needs,
-# `--bench` what only the benchmarks need.
+# Installs what the build, the tests and the examples need. `--ci` adds what only .ci/run needs, `--deep` what
+# only the other platforms of the preset deep need, `--bench` what only the benchmarks need.
 set -eu
 
 # libopenblas-dev comes with SuiteSparse: on the reference BLAS, CHOLMOD is slower than Eigen.
@@ -14,9 +14,11 @@ case "${1-}" in
     '') ;;
     --ci) packages="$packages git clang-format-14 clang-16 libclang-rt-16-dev chromium pkgconf doxygen
 libjs-mathjax libboost-dev libmpfr-dev time" ;;
+    --deep) packages="$packages g++-mingw-w64-x86-64-posix wine wine64 g++-aarch64-linux-gnu qemu-user
+g++-i686-linux-gnu clang-16 libc++-16-dev libc++abi-16-dev emscripten nodejs python3" ;;
     --bench) packages="$packages libboost-dev libmpfr-dev libbullet-dev libsundials-dev
 python3-matplotlib valgrind lammps openmpi-bin" ;;
-    *) echo "install-deps: unknown option '$1'; there are --ci and --bench" >&2; exit 1 ;;
+    *) echo "install-deps: unknown option '$1'; there are --ci, --deep and --bench" >&2; exit 1 ;;
 esac
 if [ "${1-}" = --ci ]; then
     # The lab, and a reader of meshes. Node reads the system's certificates, which it only recommends.

@@ -127,8 +127,19 @@ bool compiled_for();
 #if defined(TAUT_COMPILED)
 #if !defined(TAUT_COMPILED_SOURCE)
 namespace {
-[[maybe_unused]] const bool fits_library =
+// Kept by the compiler and, on ELF, by the linker, though nobody reads it. A call would be code
+// that runs before main.
+#if defined(__ELF__) && __has_cpp_attribute(gnu::retain)
+[[gnu::used, gnu::retain]]
+#elif defined(__GNUC__)
+[[gnu::used]]
+#else
+[[maybe_unused]] const bool is_called =
     detail::compiled_for<EIGEN_MAX_ALIGN_BYTES, EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION>();
+[[maybe_unused]]
+#endif
+constexpr bool (*fits_library)() =
+    &detail::compiled_for<EIGEN_MAX_ALIGN_BYTES, EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION>;
 }  // namespace
 #endif
 TAUT_COMPILED_SWEEP(extern template, float)

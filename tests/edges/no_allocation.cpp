@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
-// After its first call an explicit step allocates nothing: neither by operator new nor by Eigen.
+// After its first call an explicit step allocates nothing, nor does a guarded frame after its
+// second: neither by operator new nor by Eigen.
 
 #define EIGEN_RUNTIME_NO_MALLOC
 #include <cstdio>
@@ -16,6 +17,7 @@ bool eigen_allocated = false;
 
 // Eigen asserts on every allocation while none is allowed.
 #define eigen_assert(condition) ((condition) ? void() : void(eigen_allocated = true))
+#include <taut/guard/guard.hpp>
 #include <taut/taut.hpp>
 
 // Not inline: GCC would take the pair for a mismatch of new and free.
@@ -62,9 +64,43 @@ bool any_allocates(const System& system) {
            allocates<taut::EnergyStableEuler<System>>("energy_stable_euler", system);
 }
 
+/// A cloth thrown so hard that frames are trimmed and taken again; as an engine would, in float.
+bool guarded_frames_allocate() {
+    auto cloth = taut::hanging_cloth<float>({20, 20});
+    const auto start = cloth.initial_state();
+    auto state = start;
+    std::vector<float> x(3 * 400), v = x;
+    taut::StateView<float, 3> view(x.data(), v.data(), 400);
+    taut::Guarded guard(cloth);
+    const auto thrown_until_again = [&] {
+        for (int frame = 0; frame < 600; ++frame) {
+            if (frame % 30 == 0) {
+                state = start;
+                state.v.row(2).tail(380).setConstant(200);
+            }
+            const auto report = guard.advance(state, 1.0f / 60);
+            if (!report) return false;
+            if (report.again == 0) continue;
+            view.copy_from(state);
+            return bool(guard.advance(view, 1.0f / 60));
+        }
+        return false;
+    };
+    if (!thrown_until_again()) return true;
+    const long before = allocations;
+    eigen_allocated = false;
+    Eigen::internal::set_is_malloc_allowed(false);
+    const bool thrown = thrown_until_again();
+    Eigen::internal::set_is_malloc_allowed(true);
+    const bool found = allocations != before || eigen_allocated || !thrown;
+    if (found) std::fprintf(stderr, "Guarded allocates, or is never thrown hard enough\n");
+    return found;
+}
+
 }  // namespace
 
 int main() {
+    if (guarded_frames_allocate()) return 1;
     auto cloth = taut::hanging_cloth<double>({60, 60});
     if (any_allocates(cloth)) return 1;
     cloth.set_rayleigh({0.1, 1e-6});

@@ -200,6 +200,7 @@ private:
     std::vector<double> slack_;   // ρ and σ, J
     std::vector<double> booked_;  // W, J
     std::vector<Taken> taken_;
+    std::vector<guard_detail::Gain> gains_;
     guard_detail::ViewedState<State> viewed_;
 };
 

@@ -163,7 +163,7 @@ template <class Stepper, class System>
 void Guarded<Stepper, System>::judge(State& state, bool tried) {
     if (!tried) return;
     measure(state, end_);
-    std::vector<guard_detail::Gain> gains(parts_.count());
+    gains_.assign(parts_.count(), {});
     for (std::size_t p = 0; p < parts_.count(); ++p) {
         const bool follows = resolved(p);
         too_stiff_ = too_stiff_ || !follows;
@@ -174,11 +174,13 @@ void Guarded<Stepper, System>::judge(State& state, bool tried) {
             taken_[p] = Taken::tried;
         } else if (end_[p].finite() && gain(p) - slack_[p] <= quarter) {
             taken_[p] = Taken::trimmed;
-            gains[p] = {(std::min)(gain(p), quarter), end_[p].speed};
+            gains_[p].left = (std::min)(gain(p), quarter);
+            gains_[p].speed = end_[p].speed;
         }
     }
     if (any(Taken::trimmed)) {
-        trim(*system_, state, parts_, static_cast<double>(any_pose_limit_->certified), gains);
+        trim(*system_, state, parts_, static_cast<double>(any_pose_limit_->certified), gains_,
+             touched_.v);
         measure(state, end_);
     }
     for (std::size_t p = 0; p < parts_.count(); ++p) {

@@ -14,27 +14,26 @@ namespace taut::guard_detail {
 /// A part's gain of energy, J, as far as it may be trimmed away.
 struct Gain {
     double left = 0;
-    double speed = 0;  ///< Σ m|v|², J: its rounding is trimmed, too
+    double speed = 0;                       ///< Σ m|v|², J: its rounding is trimmed, too
+    double slope = 0, curve = 0, step = 0;  ///< A, B and g of A g − ½B g²
 };
 
 /// Takes gains off the end velocities by axial damping, v ← v − g M⁻¹D with D = GV, G = Σ k n nᵀ
 /// over the springs [T43]: at most 4 times, each with g ≤ h²/4. Without pins both momenta are kept.
 /// @param any_pose  h, s   @param gains  of each part; what is not > 0 is let be
+/// @param D         memory, overwritten
 /// @returns whether anything was changed
 template <class System>
 bool trim(const System& system, typename System::State& state, const Parts& parts, double any_pose,
-          std::vector<Gain>& gains) {
+          std::vector<Gain>& gains, typename System::Force& D) {
     using Scalar = typename System::Scalar;
     using Vector = typename System::Vector;
     constexpr double unit = static_cast<double>(std::numeric_limits<Scalar>::epsilon());
-    struct Line {
-        double slope = 0, curve = 0, step = 0;  // A, B and g of A g − ½B g²
-    };
     const auto wanted = [&](Index part) {
         return part >= 0 && gains[static_cast<std::size_t>(part)].left > 0;
     };
     bool changed = false;
-    typename System::Force D(int(System::Dim), system.size());
+    D.resize(Eigen::NoChange, system.size());
     for (int pass = 0; pass < 4; ++pass) {
         D.setZero();
         system.visit_springs([&](const auto& spring) {
@@ -46,17 +45,17 @@ bool trim(const System& system, typename System::State& state, const Parts& part
             D.col(spring.b) += f;
             D.col(spring.a) -= f;
         });
-        std::vector<Line> lines(gains.size());
+        for (auto& gain : gains) gain.slope = gain.curve = gain.step = 0;
         for (Index i = 0; i < system.size(); ++i) {
             if (!wanted(parts.of(i))) continue;
-            auto& line = lines[static_cast<std::size_t>(parts.of(i))];
+            auto& line = gains[static_cast<std::size_t>(parts.of(i))];
             line.slope += static_cast<double>(D.col(i).dot(state.v.col(i)));
             line.curve += static_cast<double>(D.col(i).squaredNorm() * system.inverse_mass()[i]);
         }
         bool any = false;
         for (std::size_t p = 0; p < gains.size(); ++p) {
             if (!(gains[p].left > 0)) continue;
-            const double A = lines[p].slope, B = lines[p].curve;
+            const double A = gains[p].slope, B = gains[p].curve;
             if (!(A > 0) || !(B > 0) || !detail::is_finite(A + B)) {
                 gains[p].left = 0;  // nothing to be had
                 continue;
@@ -66,7 +65,7 @@ bool trim(const System& system, typename System::State& state, const Parts& part
             if (A * A >= 2 * B * aim) {
                 g = (std::min)(g, 2 * aim / (A + std::sqrt(A * A - 2 * B * aim)));
             }
-            lines[p].step = g;
+            gains[p].step = g;
             gains[p].left -= A * g - B * g * g / 2;
             any = true;
         }
@@ -74,7 +73,7 @@ bool trim(const System& system, typename System::State& state, const Parts& part
         changed = true;
         for (Index i = 0; i < system.size(); ++i) {
             if (parts.of(i) < 0) continue;
-            const double g = lines[static_cast<std::size_t>(parts.of(i))].step;
+            const double g = gains[static_cast<std::size_t>(parts.of(i))].step;
             if (g > 0)
                 state.v.col(i) -= static_cast<Scalar>(g) * system.inverse_mass()[i] * D.col(i);
         }

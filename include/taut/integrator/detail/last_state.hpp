@@ -22,14 +22,15 @@ public:
             state_ = state;
         }
         force_revision_ = system.force_revision();
+        kept_ = true;
     }
-    void forget() { state_.x.resize(Eigen::NoChange, 0); }
+    void forget() { kept_ = false; }
     template <class System, class AnyState>
     bool is(const System& system, const AnyState& state) const {
         using Scalar = typename State::Scalar;
-        return system.force_revision() == force_revision_ && state_.x.cols() == state.x.cols() &&
-               state_.v.cols() == state.v.cols() && state.x.cols() > 0 &&
-               static_cast<Scalar>(state.time) == state_.time &&
+        return kept_ && system.force_revision() == force_revision_ &&
+               state_.x.cols() == state.x.cols() && state_.v.cols() == state.v.cols() &&
+               state.x.cols() > 0 && static_cast<Scalar>(state.time) == state_.time &&
                state.x.template cast<Scalar>() == state_.x &&
                state.v.template cast<Scalar>() == state_.v;
     }
@@ -38,6 +39,7 @@ public:
 private:
     State state_;
     std::uint64_t force_revision_ = 0;
+    bool kept_ = false;
 };
 
 }  // namespace taut::integrator_detail
