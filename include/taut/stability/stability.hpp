@@ -102,6 +102,7 @@ private:
     std::uint64_t revision_ = 0;
 };
 
+/// Stability(system, state) is of the system's Scalar.
 template <class Scalar, int Dim, class... Laws>
 Stability(const SpringSystem<Scalar, Dim, Laws...>&, const State<Scalar, Dim>&)
     -> Stability<Scalar>;

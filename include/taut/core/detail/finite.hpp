@@ -7,6 +7,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "../assert.hpp"
 #include "../types.hpp"
 
 namespace taut::detail {
@@ -44,7 +45,7 @@ bool all_finite(const Scalar* numbers, Index count) {
             most = pmax(most, pand(exponent, ploadu<Packet>(numbers)));
             other = pmax(other, pand(exponent, ploadu<Packet>(numbers + width)));
         }
-        Scalar lanes[width];
+        Scalar lanes[sizeof(Packet) / sizeof(Scalar)];
         pstoreu(lanes, pmax(most, other));
         if (!finite_one_by_one(lanes, width)) return false;
     }
@@ -53,7 +54,7 @@ bool all_finite(const Scalar* numbers, Index count) {
 
 /// Whether a number is that was computed just now.
 template <class Real>
-bool is_finite(Real number) {
+TAUT_NOINLINE bool is_finite(Real number) {
     const volatile Real held = number;  // and not what it was computed from
     const Real seen = held;
     return finite_one_by_one(&seen, 1);
