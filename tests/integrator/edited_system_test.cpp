@@ -91,19 +91,23 @@ void check_bits(std::uint32_t seed) {
     System net = net_of<System>(random, 40 + random.below(600));
     Stepper<System> stepper(net);
     auto state = net.initial_state(), other = state;
+    // With damping velocity Verlet goes on with a force at v½, where a fresh one begins at v.
+    const bool damped = Stepper<System>::method != taut::Method::velocity_verlet;
     for (int round = 0; round < 40; ++round) {
-        INFO("seed " << seed << ", round " << round);
+        INFO(name(Stepper<System>::method) << ", seed " << seed << ", round " << round);
         const Index i = random.below(net.size());
         switch (random.below(12)) {
             case 0: net.set_mass(i, Scalar(random.uniform(0.1, 2))); break;
             case 1: net.is_pinned(i) ? net.unpin(i) : net.pin(i); break;
             case 2: net.remove_spring(random.below(net.spring_count())); break;
             case 3:
+                if (!damped) break;
                 net.set_rayleigh({random.uniform(0, 1), random.below(2) == 0 ? 0 : 1e-4});
                 break;
             case 4: net.set_stiffness(random.below(net.spring_count()), Scalar(50)); break;
             case 5:
-                net.add_spring(i, (i + 1) % net.size(), Scalar(20), Scalar(random.uniform(0, 0.1)));
+                net.add_spring(i, (i + 1) % net.size(), Scalar(20),
+                               damped ? Scalar(random.uniform(0, 0.1)) : Scalar(0));
                 break;
             case 6: net = net_of<System>(random, net.size()); break;
             case 7: {

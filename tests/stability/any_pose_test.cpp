@@ -86,7 +86,7 @@ void check_both(const Scene& scene) {
             wide_energy = energy;
             continue;
         }
-        const double apart = (1 + tightness) * (1 + 6 * scene.kind().epsilon());
+        const double apart = (1 + tightness) * (1 + 10 * scene.kind().epsilon());
         CHECK(limit.certified >= wide.certified);
         CHECK(limit.refuted <= wide.refuted);
         CHECK(energy.certified >= wide_energy.certified);

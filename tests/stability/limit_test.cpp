@@ -70,7 +70,7 @@ void check_narrowed(const StepLimit<double>& limit, const Exact& e, double tight
     // Both ends count 2 ulp of a stepper's, and are rounded.
     CHECK((limit.unbounded()
                ? std::isinf(limit.refuted)
-               : limit.refuted <= limit.certified * (1 + tightness) * (1 + 6 * kind.epsilon())));
+               : limit.refuted <= limit.certified * (1 + tightness) * (1 + 10 * kind.epsilon())));
 }
 
 /// Tightened, a bracket keeps every promise and is no wider.

@@ -19,7 +19,7 @@ void check_around(const taut::StepLimit<double>& limit, double truth, double eps
     INFO(limit.certified << " <= " << truth << " <= " << limit.refuted);
     CHECK(limit.certified <= truth * (1 + 1e-15));
     CHECK(limit.refuted >= truth * (1 - 1e-15));
-    CHECK(limit.refuted <= limit.certified * (1 + tightness) * (1 + 6 * epsilon));
+    CHECK(limit.refuted <= limit.certified * (1 + tightness) * (1 + 10 * epsilon));
     CHECK(limit.certified > 0);
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "../core/buffer.hpp"
 #include "../integrator/detail/explicit_steps.hpp"
 #include "../solver/interleaved_llt.hpp"
 #include "../stability/detail/symplectic_limit.hpp"

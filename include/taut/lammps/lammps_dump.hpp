@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "../core/buffer.hpp"
 #include "../core/error.hpp"
 #include "../model/state.hpp"
 #include "detail/text_lines.hpp"

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "../core/buffer.hpp"
 #include "../model/free_particles.hpp"
 #include "../model/spring_system.hpp"
 #include "../stability/pencil.hpp"

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "../core/buffer.hpp"
 #include "../core/detail/fits.hpp"
 #include "../core/error.hpp"
 #include "../model/spring_system.hpp"

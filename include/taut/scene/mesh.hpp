@@ -9,6 +9,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "../core/buffer.hpp"
 #include "../model/spring_system.hpp"
 
 namespace taut {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "../core/buffer.hpp"
 #include "block_ordering.hpp"
 #include "detail/aggregates.hpp"
 #include "detail/block_matrix.hpp"

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "../../core/buffer.hpp"
 #include "coarse_springs.hpp"
 
 namespace taut::scene_detail {
