@@ -73,7 +73,7 @@ template <class Scalar>
 void require_held(const char* function, const char* argument, double value) {
     require_non_negative(function, argument, value);
     constexpr Scalar most = (std::numeric_limits<Scalar>::max)();
-    if (value > most) {
+    if (value > static_cast<double>(most)) {
         fail(function, ": ", argument, " is ", value, "; the system's numbers end at ", most);
     }
 }

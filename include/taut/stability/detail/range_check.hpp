@@ -34,7 +34,7 @@ private:
 
     template <class Real>
     double within(Real value, const char* what, Index index, double least, double most) {
-        const std::common_type_t<Real, double> size = (std::abs)(value);
+        const auto size = static_cast<std::common_type_t<Real, double>>((std::abs)(value));
         if (lost_.empty() && size != 0 && !(size >= least && size <= most)) {
             lose(static_cast<long double>(value), what, index, least, most);
         }
