@@ -20,8 +20,8 @@
 namespace taut {
 
 /// The bracket of Stability::max_step, narrowed by sparse factorisations until refuted/certified ≤
-/// 1 + tightness (and 10 ulp of Scalar) where the method's conditions allow it (1e-6 is reachable; a
-/// factorisation or two) [T22], up to DenseAnalysis<>::good_size degrees of freedom also by dense
+/// 1 + tightness (and 10 ulp of Scalar) where the method's conditions allow it (1e-6 is reachable;
+/// a factorisation or two) [T22], up to DenseAnalysis<>::good_size degrees of freedom also by dense
 /// eigensolvers. Under dampers explicit Euler gets an `estimate` beside it [T18].
 /// @param tightness  ≥ 0 and finite; 0: by bounds alone
 template <class Scalar>

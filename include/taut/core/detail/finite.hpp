@@ -53,10 +53,15 @@ bool all_finite(const Scalar* numbers, Index count) {
 }
 
 /// Whether a number is that was computed just now.
-template <class Real>
-TAUT_NOINLINE bool is_finite(Real number) {
-    const volatile Real held = number;  // and not what it was computed from
-    const Real seen = held;
+TAUT_NOINLINE inline bool is_finite(double number) {
+    const volatile double held = number;  // and not what it was computed from
+    const double seen = held;
+    return finite_one_by_one(&seen, 1);
+}
+inline bool is_finite(float number) { return is_finite(static_cast<double>(number)); }
+inline bool is_finite(long double number) {
+    const volatile long double held = number;
+    const long double seen = held;
     return finite_one_by_one(&seen, 1);
 }
 

@@ -6,7 +6,7 @@ namespace taut {
 
 template <class Scalar, int Dim, class... Laws>
 Index SpringSystem<Scalar, Dim, Laws...>::add_particle(const Vector& position, Scalar mass) {
-    if (!detail::all_finite(position.data(), position.size())) {
+    if (!detail::finite_one_by_one(position.data(), position.size())) {
         fail("SpringSystem::add_particle: the position of particle ", size(), " is not finite");
     }
     require_mass("add_particle", size(), mass);
@@ -138,7 +138,7 @@ void SpringSystem<Scalar, Dim, Laws...>::set_mass(Index i, Scalar mass) {
 
 template <class Scalar, int Dim, class... Laws>
 void SpringSystem<Scalar, Dim, Laws...>::set_gravity(const Vector& gravity) {
-    if (!detail::all_finite(gravity.data(), gravity.size()))
+    if (!detail::finite_one_by_one(gravity.data(), gravity.size()))
         fail("SpringSystem::set_gravity: gravity is not finite");
     gravity_ = gravity;
     ++force_revision_;
@@ -147,7 +147,7 @@ void SpringSystem<Scalar, Dim, Laws...>::set_gravity(const Vector& gravity) {
 template <class Scalar, int Dim, class... Laws>
 void SpringSystem<Scalar, Dim, Laws...>::set_constant_force(Index i, const Vector& force) {
     require_particle("set_constant_force", "i", i);
-    if (!detail::all_finite(force.data(), force.size())) {
+    if (!detail::finite_one_by_one(force.data(), force.size())) {
         fail("SpringSystem::set_constant_force: the force on particle ", i, " is not finite");
     }
     auto& constant = external_.constant;
