@@ -2,15 +2,7 @@
 # SPDX-License-Identifier: MIT
 
 # Compiles SOURCE by the command after `--`, which writes no file.
-set(command "")
-set(begun FALSE)
-foreach(i RANGE ${CMAKE_ARGC})
-    if(begun)
-        list(APPEND command ${CMAKE_ARGV${i}})
-    elseif("${CMAKE_ARGV${i}}" STREQUAL "--")
-        set(begun TRUE)
-    endif()
-endforeach()
+include(${CMAKE_CURRENT_LIST_DIR}/../command.cmake)
 
 file(STRINGS ${SOURCE} sentences REGEX "^// EXPECT: ")
 if(NOT sentences)

@@ -4,15 +4,7 @@
 # No header uses a name of macros.txt: every one becomes a macro that leaves a mark, once what the headers
 # include from elsewhere has been read, and the preprocessor's output must hold no mark.
 #   cmake -D INCLUDE=DIR -D LIST=macros.txt -D WORK=DIR -P macros.cmake -- COMPILER FLAGS...
-set(command "")
-set(seen FALSE)
-foreach(i RANGE ${CMAKE_ARGC})
-    if(seen)
-        list(APPEND command ${CMAKE_ARGV${i}})
-    elseif("${CMAKE_ARGV${i}}" STREQUAL "--")
-        set(seen TRUE)
-    endif()
-endforeach()
+include(${CMAKE_CURRENT_LIST_DIR}/../command.cmake)
 
 file(GLOB_RECURSE headers RELATIVE ${INCLUDE} ${INCLUDE}/taut/*.hpp)
 set(elsewhere "")
