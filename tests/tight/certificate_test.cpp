@@ -255,7 +255,7 @@ TEST_CASE("certificate: the errors of forming a matrix count", "[tight]") {
 TEST_CASE("certificate: its allowance for rounding is that of the theory, and little more",
           "[tight]") {
     const Real u = std::numeric_limits<double>::epsilon();  // of rounding in any direction
-    const auto share = [&](Index q) {  // [T22] in long double
+    const auto share = [&](Index q) {                       // [T22] in long double
         const Real gamma = static_cast<Real>(q + 1) * u / (1 - static_cast<Real>(q + 1) * u);
         return gamma / (1 - gamma);
     };
