@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdio>
 #include <sstream>
 #include <stdexcept>
@@ -160,7 +161,34 @@ inline std::string describe(const Scene& scene) {
     return text.str();
 }
 
-/// One line about its size and which way is down: where a wrong unit or axis shows.
+/// Its mass and stiffness.
+inline std::string material(const Scene& scene) {
+    double mass = 0;
+    for (Index i = 0; i < scene.system.size(); ++i) mass += scene.system.mass(i);
+    const auto springs = scene.system.springs();
+    const auto count = static_cast<std::size_t>(springs.size());
+    const auto stiffness = [&](std::size_t from, std::size_t to) {
+        double least = springs[from].parameters.stiffness, most = least;
+        for (std::size_t s = from; s < to; ++s) {
+            least = std::min(least, springs[s].parameters.stiffness);
+            most = std::max(most, springs[s].parameters.stiffness);
+        }
+        char text[80];
+        std::snprintf(text, sizeof text, least < most ? "%.4g to %.4g N/m" : "%.4g N/m", least,
+                      most);
+        return std::string(text);
+    };
+    char text[40];
+    std::snprintf(text, sizeof text, "%.4g kg", mass);
+    std::string line = text;
+    const auto stretch = static_cast<std::size_t>(scene.stretch_springs);
+    if (stretch > 0) line += ", springs " + stiffness(0, stretch);
+    if (stretch < count) line += ", across folds " + stiffness(stretch, count);
+    return line;
+}
+
+/// One line about its size, which way is down and its material: where a wrong unit or axis shows,
+/// and what was assumed.
 inline std::string describe_space(const Scene& scene) {
     const auto x = scene.system.initial_state().x;
     const Eigen::Vector3d size = x.rowwise().maxCoeff() - x.rowwise().minCoeff();
@@ -169,10 +197,11 @@ inline std::string describe_space(const Scene& scene) {
     std::snprintf(text, sizeof text, "%.3g x %.3g x %.3g m, ", size[0], size[1], size[2]);
     std::string line = text;
     Eigen::Index axis = 0;
-    if (g.cwiseAbs().maxCoeff(&axis) == 0) return line + "no gravity";
+    const std::string rest = "; " + material(scene);
+    if (g.cwiseAbs().maxCoeff(&axis) == 0) return line + "no gravity" + rest;
     std::snprintf(text, sizeof text, "up is %c%c, gravity %.4g m/s^2", g[axis] > 0 ? '-' : '+',
                   "xyz"[axis], g.norm());
-    return line + text;
+    return line + text + rest;
 }
 
 }  // namespace example

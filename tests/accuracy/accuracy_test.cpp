@@ -4,6 +4,7 @@
 #include <taut/tradeoff/mode_probe.hpp>
 
 #include "../support/catch.hpp"
+#include "../support/faults.hpp"
 #include "../support/message.hpp"
 #include "../support/methods.hpp"
 #include "../support/random.hpp"
@@ -155,6 +156,21 @@ TEST_CASE("accuracy: accurate_step is the last step within tolerance", "[accurac
         }
     }
     CHECK(accurate_step(Method::implicit_euler, {1, infinity}, 100) == infinity);
+}
+
+TEST_CASE("accuracy: no floating-point trap is sprung", "[accuracy]") {
+    for (const double k : {0.0, 1.0, 1e6}) {
+        for (const double d : {0.0, 0.5, 2.0}) {
+            for (const Method method : all_methods) {
+                CAPTURE(k, d, taut::name(method));
+                CHECK(faults_of([&] { taut::critical_step(method, k, d); }) == 0);
+                if (method != Method::bdf2) {  // which has three
+                    CHECK(faults_of([&] { taut::multipliers(method, k, d, 1e-3); }) == 0);
+                }
+                CHECK(faults_of([&] { accurate_step(method, {}, 10, 0.01); }) == 0);
+            }
+        }
+    }
 }
 
 TEST_CASE("accuracy: wrong input is named", "[accuracy]") {

@@ -3,26 +3,16 @@
 
 // With floating-point traps on, as games and solvers switch them on to find their faults, no call
 // of Taut is one: each runs once on scenes of all kinds, and none computes what is invalid, divides
-// by zero or overflows. Where traps cannot be had, the flags that they go by are looked at.
+// by zero or overflows. Where traps cannot be had, the flags that they go by are looked at; so do
+// the tests of steppers in modules (support/faults.hpp).
 
-#include <taut/accuracy/accuracy.hpp>
 #include <taut/arrays/arrays.hpp>
-#include <taut/bdf2/bdf2.hpp>
 #include <taut/equilibrium/equilibrium.hpp>
 #include <taut/guard/guard.hpp>
-#include <taut/imex/imex.hpp>
 #include <taut/integrator/implicit_euler.hpp>
-#include <taut/newton/newton.hpp>
-#include <taut/own_matrices/own_matrices.hpp>
-#include <taut/projective/projective.hpp>
-#include <taut/recommend/recommend.hpp>
 #include <taut/stability/bracket.hpp>
 #include <taut/taut.hpp>
 #include <taut/tight/tight.hpp>
-#if __has_include(<Spectra/SymEigsShiftSolver.h>)
-#include <taut/modal/modal.hpp>
-#define TAUT_TEST_MODAL
-#endif
 
 #include <cfenv>
 #include <cstdio>
@@ -147,11 +137,9 @@ void run_guarded(const System& system, const typename System::State& start) {
     });
 }
 
-/// @param damped  so that explicit Euler has steps. Of float the core's and ImplicitEuler's: what
-///                follows does the same in both
+/// @param damped  so that explicit Euler has steps
 template <class System>
 void run_steps(const System& system, const typename System::State& start, bool damped) {
-    using Scalar = typename System::Scalar;
     const auto any = static_cast<double>(taut::any_pose_limit(system).certified);
     const auto energy = static_cast<double>(taut::energy_limit(system).certified);
     const auto h = [](double limit) { return limit < 1e-2 ? limit : 1e-2; };
@@ -162,18 +150,6 @@ void run_steps(const System& system, const typename System::State& start, bool d
         run_stepper<taut::ExplicitEuler<System>>("ExplicitEuler", system, start, h(0.1 * any));
     }
     run_stepper<taut::ImplicitEuler<System>>("ImplicitEuler", system, start, 1e-2);
-    if constexpr (sizeof(Scalar) == 8) {
-        run_stepper<taut::Bdf2<System>>("Bdf2", system, start, 1e-2);
-        run_stepper<taut::ProjectiveDynamics<System>>("ProjectiveDynamics", system, start, 1e-2);
-        run_stepper<taut::NewtonEuler<System>>("NewtonEuler", system, start, 1e-2);
-        run("ImexEuler", [&] {
-            taut::ImexOptions options;
-            options.step = 1e-2;
-            taut::ImexEuler<System> imex(system, options);
-            auto state = start;
-            require(bool(imex.step(state, Scalar(1e-2), 3)), "ImexEuler");
-        });
-    }
     run_guarded(system, start);
 }
 
@@ -204,19 +180,6 @@ void run_rest(const System& system, const typename System::State& start, bool ba
         arrays.rest_length = rest.data();
         (void)taut::check_step(arrays, Method::symplectic_euler, 1e-3);
     });
-#if defined(TAUT_TEST_MODAL)
-    if constexpr (sizeof(Scalar) == 8) {
-        run("ModalDynamics", [&] {
-            if (system.pinned_count() == system.size()) return;
-            const auto linear = taut::linearize(system, start);
-            taut::ModalBasis basis;
-            if (!taut::modal_analysis(linear, 4, basis)) return;
-            taut::ModalDynamics<float, System::Dim> modal(linear, start, basis);
-            require(bool(modal.step(1e-3, 3)), "ModalDynamics");
-            (void)modal.state();
-        });
-    }
-#endif
 }
 
 template <class System>
@@ -264,25 +227,6 @@ void run_scenes() {
     run_all("pressed", pressed, false, false);
 }
 
-void run_recommend() {
-    scene_name = "recommend";
-    const auto cloth = taut::hanging_cloth<double>({4, 4});
-    run("recommend", [&] {
-        taut::Goal goal;
-        (void)taut::recommend(cloth, cloth.initial_state(), goal);
-    });
-    run("critical_step, accuracy", [&] {
-        for (const double k : {0.0, 1.0, 1e6}) {
-            for (const double d : {0.0, 0.5, 2.0}) {
-                (void)taut::critical_step(Method::symplectic_euler, k, d);
-                (void)taut::critical_step(Method::explicit_euler, k, d);
-                (void)taut::multipliers(Method::implicit_euler, k, d, 1e-3);
-            }
-        }
-        (void)taut::accurate_step(Method::symplectic_euler, {}, 10, 0.01);
-    });
-}
-
 }  // namespace
 
 int main() {
@@ -291,6 +235,5 @@ int main() {
 #endif
     run_scenes<float>();
     run_scenes<double>();
-    run_recommend();
     return failures == 0 ? 0 : 1;
 }

@@ -11,6 +11,7 @@
 #include "../support/catch.hpp"
 #include "../support/decompositions.hpp"
 #include "../support/dense.hpp"
+#include "../support/faults.hpp"
 #include "../support/message.hpp"
 #include "../support/random_system.hpp"
 #include "../support/tolerance.hpp"
@@ -216,11 +217,14 @@ TEMPLATE_TEST_CASE("modal_dynamics: on springs it moves the free particles about
     state.x.rightCols(6) += random.points<double, 3>(6, -0.01, 0.01);
     state.v.rightCols(6) = random.points<double, 3>(6, -0.1, 0.1);
     modal.set_state({state.x.template cast<TestType>(), state.v.template cast<TestType>(), 0});
-    REQUIRE(modal.step(0.3));
+    taut::Report report;
+    CHECK(faults_of([&] { report = modal.step(0.3); }) == 0);
+    REQUIRE(report);
     auto expected = pose;
     linear.from_free(
         exact(linear, linear.to_free(state), Eigen::VectorXd::Zero(linear.size()), 0.3), expected);
     const auto found = modal.state();
+    CHECK(faults_of([&] { modal.state(); }) == 0);
     const double tolerance = Tolerance<TestType>::accumulated * largest(expected.x);
     CHECK(distance(found.x, expected.x) <= tolerance);
     CHECK(distance(found.v, expected.v) <= 10 * tolerance);

@@ -8,6 +8,7 @@
 #include <taut/recommend/recommend.hpp>
 
 #include "../support/catch.hpp"
+#include "../support/faults.hpp"
 #include "../support/message.hpp"
 #include "../support/random.hpp"
 
@@ -244,6 +245,10 @@ TEST_CASE("recommend: scenes at the edge", "[recommend]") {
     CHECK(taut::recommend(held, held.initial_state(), goal, brief).pick.substeps == 1);
     const auto flat = taut::chain<float, 2>();
     CHECK(taut::recommend(flat, flat.initial_state(), goal, brief).plans.size() == 3);
+    for (const Cloth& scene : {dust, held, cloth(100)}) {
+        const auto ask = [&] { taut::recommend(scene, scene.initial_state(), goal, brief); };
+        CHECK(faults_of(ask) == 0);
+    }
 }
 
 TEST_CASE("step_cost: a step that fails costs infinity", "[recommend]") {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "catch.hpp"
+#include "faults.hpp"
 
 namespace taut_test {
 
@@ -250,6 +251,30 @@ void check_nothing_free(const StepperBattery& battery, const Kind& kind) {
     CHECK(moving.v == start.v);
 }
 
+/// Damped, undamped, without springs, pressed to a point.
+void check_faults(const StepperBattery& battery, const Kind& kind) {
+    Random random(28);
+    Scene loose(kind);
+    for (int i = 0; i < 3; ++i) loose.add_particle(Eigen::VectorXd::Constant(kind.dim, i), 1);
+    Scene pressed = loose;
+    pressed.add_particle(Eigen::VectorXd::Constant(kind.dim, 2), 0.5);
+    pressed.add_spring(spring_between(pressed, 0, 1, 100, 4));
+    pressed.add_spring(spring_between(pressed, 2, 3, 50, 0.1));
+    pressed.add_spring(spring_between(pressed, 1, 3, 0, 1));
+    pressed.pin(0);
+    for (const Scene& scene :
+         {random_scene(random, kind, damped_options()), smooth_scene(kind), loose, pressed}) {
+        const auto stepper = battery.make(scene);
+        auto state = scene.initial_state();
+        const double h = scene.rounded(0.001);
+        for (const Index count : {3, 1}) {
+            taut::Report report;
+            CHECK(faults_of([&] { report = stepper->step(state, h / 2, count); }) == 0);
+            CHECK(report);
+        }
+    }
+}
+
 /// log2 of the ratio of errors at h and h/2, against a fine reference that the library's steppers
 /// have no part in: the classical Runge-Kutta method.
 double measured_order(const StepperBattery& battery) {
@@ -345,6 +370,7 @@ void test_stepper(const StepperBattery& battery) {
     each("linear momentum of an unpinned scene is kept to rounding", check_momentum);
     each("changes of the system and the state between steps are taken up", check_takes_up);
     each("a scene without free particles is stepped without failure", check_nothing_free);
+    each("nothing is computed that a floating-point trap would stop", check_faults);
     if (battery.linear) each("a linear scene moves as its matrices do", check_linear_scene);
     if (battery.diverges) each("divergence is reported and the state put back", check_divergence);
     if (battery.order > 0) {

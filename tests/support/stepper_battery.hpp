@@ -22,7 +22,8 @@ struct StepperBattery {
 
 /// Sections of a test case: counted steps are single steps; bad input is refused and nothing
 /// touched; pins obey their velocity; momentum is kept; changes are taken up; nothing free is no
-/// failure; a linear scene moves as its matrices; the order; divergence is reported.
+/// failure; traps stay silent; a linear scene moves as its matrices; the order; divergence is
+/// reported.
 void test_stepper(const StepperBattery& battery);
 
 /// A loose net of 6 particles, 2 of them pinned, undamped, its springs well stretched: smooth

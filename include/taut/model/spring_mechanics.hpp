@@ -197,7 +197,8 @@ EIGEN_ALWAYS_INLINE Real tension_ahead(const AnySpring& spring, const Real& of_y
         const Real below = k_plus(spring.energy(y) + of_y * (l - y) - spring.energy(l));
         const Real square = Real(0.5) * k * (y - l) * (y - l);
         const Real change = spring.tension(l) + k * (y - l) - of_y;
-        return where_less(zero, below, of_y + change * (below / (square + below)), of_y);
+        const Real not_zero = where_less(zero, below, square + below, Real(1));  // a trap's 0/0
+        return where_less(zero, below, of_y + change * (below / not_zero), of_y);
     }
 }
 
