@@ -10,6 +10,8 @@ function(taut_private_flags target)
         target_compile_options(${target} PRIVATE
             -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wshadow
             $<$<BOOL:${TAUT_WERROR}>:-Werror>)
+        # It looks for what it may forget once in a file and not ten times: a tenth sooner, a tenth more memory.
+        target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=450000>)
     endif()
     if(TAUT_SANITIZE)
         set(flags -fsanitize=${TAUT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)

@@ -65,17 +65,19 @@ TEST_CASE("parts: block_pattern has the blocks of the pairs and of the diagonal,
         const int dim = 1 + repeat % 3;
         CAPTURE(repeat);
         const Index n = 1 + random.below(12);
-        std::vector<std::pair<Index, Index>> pairs;
+        taut::Buffer<taut::BlockPair> pairs;
         for (Index p = 0; n > 1 && p < random.below(30); ++p) {
             const Index a = random.below(n);
-            pairs.emplace_back(a, (a + 1 + random.below(n - 1)) % n);
+            const Index b = (a + 1 + random.below(n - 1)) % n;
+            pairs.push_back({static_cast<int>(a), static_cast<int>(b)});
+            if (p % 4 == 0) pairs.push_back({static_cast<int>(b), -1});  // a pinned end
         }
-        const taut::BlockPattern pattern(n, [&](const auto& visit) {
-            for (const auto& [a, b] : pairs) visit(a, b);
-        });
+        const taut::BlockPattern pattern(n, pairs);
         Pairs places;
         for (Index i = 0; i < n; ++i) places.emplace(i, i);
-        for (const auto& [a, b] : pairs) places.insert({{a, b}, {b, a}});
+        for (const auto& [a, b] : pairs) {
+            if (b >= 0) places.insert({{a, b}, {b, a}});
+        }
         REQUIRE(pattern.columns() == n);
         REQUIRE(pattern.blocks() == static_cast<Index>(places.size()));
         Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(dim * n, dim * n);

@@ -6,6 +6,7 @@
 
 #include "../../examples/common/number.hpp"
 #include "../support/catch.hpp"
+#include "../support/compiled_once.hpp"
 #include "../support/random.hpp"
 #include "../support/random_system.hpp"
 

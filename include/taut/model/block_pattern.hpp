@@ -9,21 +9,26 @@
 
 namespace taut {
 
+/// Two block columns, those of a spring's ends; −1 of a pinned one.
+struct BlockPair {
+    int a;
+    int b;
+};
+
 /// The sparsity of a symmetric matrix of blocks: a block on the diagonal of every column and two
 /// for every pair of columns that a spring joins.
 class BlockPattern {
 public:
     BlockPattern() = default;
-    /// @param columns    n, block columns
-    /// @param each_pair  each_pair(visit) calls visit(a, b) for every spring, 0 ≤ a, b < n; pairs
-    ///                   may repeat
-    template <class EachPair>
-    BlockPattern(Index columns, EachPair&& each_pair) {
+    /// @param columns  n, block columns
+    /// @param pairs    of every spring, they may repeat; one with a pinned end has no block
+    BlockPattern(Index columns, const Buffer<BlockPair>& pairs) {
         Buffer<int> degree(columns, 1);
-        each_pair([&](Index a, Index b) {
+        for (const auto& [a, b] : pairs) {
+            if (a < 0 || b < 0) continue;
             ++degree[a];
             ++degree[b];
-        });
+        }
         Buffer<Index> end(degree.size());
         Index total = 0;
         for (std::size_t j = 0; j < degree.size(); ++j) {
@@ -32,10 +37,11 @@ public:
         }
         rows_.resize(total);
         for (std::size_t j = 0; j < end.size(); ++j) rows_[end[j]++] = static_cast<int>(j);
-        each_pair([&](Index a, Index b) {
-            rows_[end[a]++] = static_cast<int>(b);
-            rows_[end[b]++] = static_cast<int>(a);
-        });
+        for (const auto& [a, b] : pairs) {
+            if (a < 0 || b < 0) continue;
+            rows_[end[a]++] = b;
+            rows_[end[b]++] = a;
+        }
         remove_repeats(degree);
     }
 

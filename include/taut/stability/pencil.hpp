@@ -236,8 +236,8 @@ private:
     template <class Real, class CoefficientsOf>
     SparseMatrix<Real> assemble_links(const Combination& c,
                                       const CoefficientsOf& coefficients_of) const;
-    template <int Dim, class CoefficientsOf>
-    SparseMatrix<double> assemble_in(const CoefficientsOf& coefficients_of) const;
+    template <int Dim>
+    SparseMatrix<double> assemble_in(const Buffer<Coefficients>& of_links) const;
     /// What the rounding errors of a link's block are relative to, N/m.
     double magnitude(const Combination& c, const Link& link) const {
         const double factor = (std::abs)(c.stiffness()) + (std::abs)(c.projected()) +

@@ -14,27 +14,30 @@ namespace taut {
 template <class Real, class CoefficientsOf>
 SparseMatrix<Real> Pencil::assemble_links(const Combination& c,
                                           const CoefficientsOf& coefficients_of) const {
-    SparseMatrix<Real> S = dim() == 1   ? assemble_in<1>(coefficients_of)
-                           : dim() == 2 ? assemble_in<2>(coefficients_of)
-                                        : assemble_in<3>(coefficients_of);
+    Buffer<Coefficients> of_links;
+    of_links.reserve(links_.size());
+    for (const Link& link : links_) of_links.push_back(coefficients_of(link));
+    SparseMatrix<Real> S = dim() == 1   ? assemble_in<1>(of_links)
+                           : dim() == 2 ? assemble_in<2>(of_links)
+                                        : assemble_in<3>(of_links);
     S.diagonal() += mass_coefficient(c) * mass_;
     return S;
 }
 
-template <int Dim, class CoefficientsOf>
-SparseMatrix<double> Pencil::assemble_in(const CoefficientsOf& coefficients_of) const {
+template <int Dim>
+SparseMatrix<double> Pencil::assemble_in(const Buffer<Coefficients>& of_links) const {
     using Matrix = Eigen::Matrix<double, Dim, Dim>;
-    const BlockPattern pattern(size() / Dim, [&](const auto& visit) {
-        for (const Link& link : links_) {
-            if (link.a >= 0 && link.b >= 0) visit(link.a, link.b);
-        }
-    });
+    Buffer<BlockPair> pairs;
+    pairs.reserve(links_.size());
+    for (const Link& link : links_) pairs.push_back({link.a, link.b});
+    const BlockPattern pattern(size() / Dim, pairs);
     SparseMatrix<double> S = pattern.zero<double, Dim>();
     const auto add = [&](int row, int column, const Matrix& P) {
         if (row >= 0 && column >= 0) pattern.add(S, pattern.place(row, column), column, P);
     };
-    for (const Link& link : links_) {
-        const auto [axial, transverse] = coefficients_of(link);
+    for (std::size_t s = 0; s < links_.size(); ++s) {
+        const Link& link = links_[s];
+        const auto [axial, transverse] = of_links[s];
         const Eigen::Matrix<double, Dim, 1> d(link.d);
         const Matrix P = spring_block(d, axial, transverse);
         add(link.a, link.a, P);

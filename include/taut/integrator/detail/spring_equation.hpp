@@ -48,13 +48,8 @@ public:
     void load(const System& system, const State& state, Scalar tau, Scalar s,
               const Points<Scalar, Dim>& u, VectorX<Scalar>& b) {
         system.force(state, f_);
-        system.for_each_tangent(state.x, [&](const SpringTangent<Scalar, Dim>& raw) {
-            const auto t = raw.projected();
-            const Eigen::Matrix<Scalar, Dim, 1> du = u.col(t.b) - u.col(t.a);
-            const Eigen::Matrix<Scalar, Dim, 1> force =
-                s * spring_product(t.d, t.axial, t.transverse, du);
-            f_.col(t.a) += force;
-            f_.col(t.b) -= force;
+        system.for_each_tangent(state.x, [&](const SpringTangent<Scalar, Dim>& spring) {
+            TangentMatrix<Scalar, Dim>::add_product(spring, s, u, f_);
         });
         f_ *= tau;
         free().gather(f_, b);

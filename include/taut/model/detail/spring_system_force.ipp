@@ -8,12 +8,11 @@ template <class Scalar, int Dim, class... Laws>
 template <class PullOf>
 void SpringSystem<Scalar, Dim, Laws...>::sum_forces(const State& state, Force& f,
                                                     PullOf&& pull) const {
-    const Eigen::Map<const VectorX<Scalar>> mass(mass_.data(), size());
     f.resize(Dim, size());
-    f.noalias() = gravity_ * mass.transpose();
-    if (rayleigh_.mass_proportional > 0) {
-        const Scalar d0 = static_cast<Scalar>(rayleigh_.mass_proportional);
-        f.array() -= state.v.array().rowwise() * (d0 * mass.transpose().array());
+    const Scalar d0 = static_cast<Scalar>(rayleigh_.mass_proportional);
+    for (Index i = 0; i < size(); ++i) {
+        f.col(i) = mass_[i] * gravity_;
+        if (d0 > 0) f.col(i) -= d0 * mass_[i] * state.v.col(i);
     }
     for_each_set([&](const auto& set) {
         for (const auto spring : set) {
