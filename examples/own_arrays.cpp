@@ -26,8 +26,8 @@ int main() {
     rope.particles = int(bodies.size());
     rope.springs = int(stiffness.size());
     rope.inverse_mass = {&bodies[0].inverse_mass, sizeof(Body)};
-    rope.ends = links.data();
-    rope.stiffness = stiffness.data();
+    rope.ends = links;
+    rope.stiffness = stiffness;
     rope.damping = 0.05f;           // N·s/m, of every spring
     rope.velocity_factor = 0.999f;  // x += 0.999·(x − x_before) + h²a
     const auto check = taut::check_step(rope, taut::Method::position_verlet, 1.0 / 240, {1.0 / 60});

@@ -65,24 +65,24 @@ taut::StepCheck<double> check_apart(const Net& net, taut::Method method, double 
     if (inverses) {
         for (Scalar& m : mass) m = 1 / m;
         for (const int i : net.pins) mass[std::size_t(i)] = 0;
-        arrays.inverse_mass = mass.data();
+        arrays.inverse_mass = mass;
     } else {
-        arrays.mass = mass.data();
-        arrays.pinned = net.pins.data();
+        arrays.mass = mass;
+        arrays.pinned = net.pins;
         arrays.pins = static_cast<Index>(net.pins.size());
     }
-    if (positions) arrays.position = x.data();
-    if (!net.ends.empty()) arrays.ends = net.ends[0].data();
-    arrays.stiffness = k.data();
-    arrays.rest_length = L.data();
+    if (positions) arrays.position = x;
+    if (!net.ends.empty()) arrays.ends = {net.ends[0].data(), sizeof net.ends[0]};
+    arrays.stiffness = k;
+    arrays.rest_length = L;
     // One number may stand for all.
     if (std::all_of(L.begin(), L.end(), [](Scalar one) { return one == 0; })) {
         arrays.rest_length = 0;
     }
     const bool same = std::all_of(c.begin(), c.end(), [&](Scalar one) { return one == c[0]; });
     if (same && !c.empty()) arrays.damping = c[0];
-    if (!same) arrays.damping = c.data();
-    arrays.whole_damping = whole.data();
+    if (!same) arrays.damping = c;
+    arrays.whole_damping = whole;
     return in_double(taut::check_step(arrays, method, h, options));
 }
 

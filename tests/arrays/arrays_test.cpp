@@ -134,6 +134,33 @@ TEST_CASE("arrays: the answers of a SpringSystem", "[arrays]") {
     CHECK(named > 100);
 }
 
+TEST_CASE("arrays: one number stands for all rows, whichever the field", "[arrays]") {
+    const std::vector<int> ends = {0, 1, 1, 2, 2, 3};
+    taut::SpringArrays<double, 1> rows, numbers;
+    const std::vector<double> four(4, 4), half(3, 0.5), quarter(4, 0.25), stiffness(3, 70);
+    rows.particles = numbers.particles = 4;
+    rows.springs = numbers.springs = 3;
+    rows.ends = numbers.ends = ends;
+    rows.stiffness = stiffness;
+    numbers.stiffness = 70;
+    const auto same = [&] {
+        const auto a = taut::check_step(rows, Method::symplectic_euler, 0.1);
+        const auto b = taut::check_step(numbers, Method::symplectic_euler, 0.1);
+        CHECK(a.limit.certified == b.limit.certified);
+        return a.limit.certified;
+    };
+    rows.inverse_mass = quarter;
+    numbers.inverse_mass = 0.25;
+    const double undamped = same();
+    rows.damping = rows.whole_damping = half;
+    numbers.damping = numbers.whole_damping = 0.5;
+    CHECK(same() < undamped);
+    rows.inverse_mass = numbers.inverse_mass = {};
+    rows.mass = four;
+    numbers.mass = 4;
+    CHECK(same() < undamped);
+}
+
 TEST_CASE("arrays: dampers of both kinds against dense eigenvalues", "[arrays]") {
     double worst = 1;
     for (std::uint32_t seed = 1; seed <= 40; ++seed) {
@@ -357,6 +384,20 @@ TEST_CASE("arrays: wrong numbers are named", "[arrays][bad_input]") {
     says(refusal([](Net& n) { n.whole_damping[3] = 1e200; }),
          "whole damping of spring 3 is 1e+200");
     CHECK(refusal([](Net& n) { n.mass[1] = 0; }).empty());  // pinned
+    says(refusal([](Net& n) { n.stiffness.pop_back(); }),
+         "stiffness has 5 rows; there are 6 springs");
+    says(refusal([](Net& n) { n.stiffness.clear(); }), "stiffness has 0 rows");
+    says(refusal([](Net& n) { n.rest_length.pop_back(); }), "rest_length has 5 rows");
+    says(refusal([](Net& n) { n.whole_damping.pop_back(); }), "whole_damping has 5 rows");
+    const std::vector<double> eight(8, 1);
+    for (auto field :
+         {&taut::SpringArrays<double, 1>::mass, &taut::SpringArrays<double, 1>::inverse_mass}) {
+        taut::SpringArrays<double, 1> arrays;
+        arrays.particles = 9;
+        arrays.*field = eight;
+        says(message_of([&] { (void)taut::check_step(arrays, Method::symplectic_euler, 1e-3); }),
+             "mass has 8 rows; there are 9 particles");
+    }
     for (const double h : {0.0, -1.0, infinity, nan}) {
         says(message_of([&] { (void)check_step(good, Method::symplectic_euler, h); }), "h is ");
         taut::StepCheckOptions options;

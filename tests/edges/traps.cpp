@@ -173,11 +173,11 @@ void run_rest(const System& system, const typename System::State& start, bool ba
         taut::SpringArrays<Scalar, System::Dim> arrays;
         arrays.particles = system.size();
         arrays.springs = system.spring_count();
-        arrays.inverse_mass = system.inverse_mass().data();
-        arrays.position = start.x.data();
-        arrays.ends = ends.data();
-        arrays.stiffness = stiffness.data();
-        arrays.rest_length = rest.data();
+        arrays.inverse_mass = system.inverse_mass();
+        arrays.position = start.x;
+        arrays.ends = ends;
+        arrays.stiffness = stiffness;
+        arrays.rest_length = rest;
         (void)taut::check_step(arrays, Method::symplectic_euler, 1e-3);
     });
 }

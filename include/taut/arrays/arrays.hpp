@@ -18,8 +18,8 @@ namespace taut {
 
 /// Particles and springs as they lie in a program's memory, which is read during the call only.
 ///
-/// A field is given a pointer to its first number, with a stride in bytes where the next row does
-/// not follow at once: `{&body[0].x, sizeof(Body)}`. One number stands for all rows.
+/// A field takes a container of numbers, row after row; a pointer to its first number with a stride
+/// in bytes, `{&body[0].x, sizeof(Body)}`; or one number for all rows.
 /// @tparam Scalar  float, double or long double   @tparam Dim  1, 2 or 3
 /// @tparam Int  of the particles' indices
 template <class Scalar_, int Dim_ = 3, class Int = int>
@@ -52,7 +52,8 @@ struct SpringArrays {
     /// Drag, 1/s, and stiffness-proportional damping, s.
     RayleighDamping rayleigh;
     /// What each step of symplectic Euler or position Verlet multiplies the velocity by, 0 … 1:
-    /// x⁺ = x + f·(x − x⁻) + h²a, a drag of (1 − f)/h.
+    /// x⁺ = x + f·(x − x⁻) + h²a, a drag of (1 − f)/h. It belongs to h: with n substeps in place of
+    /// one step the same drag is f^(1/n), and the answer for that is another.
     Scalar velocity_factor = 1;
 };
 
@@ -88,8 +89,8 @@ struct StepCheck : StepAnswer<Scalar> {
 /// it; where it turns from one to the other, small vibrations may grow at a step that is safe here.
 /// With energy_stable_euler the answer holds for such springs, too [T42].
 ///
-/// Fails by name when a number is out of its range, an index is that of no particle, a spring joins
-/// a particle to itself, or velocity_factor is not 1 with another method.
+/// Fails by name when a number is out of its range, a container too short, an index that of no
+/// particle, a spring joins a particle to itself, or velocity_factor is not 1 with another method.
 /// Cost: O(springs) for each of a few passes [T26], and a Lanczos iteration for the springs named.
 template <class Scalar, int Dim, class Int>
 StepCheck<Scalar> check_step(const SpringArrays<Scalar, Dim, Int>& arrays, Method method, double h,

@@ -19,6 +19,13 @@ void require_at_least_0(const char* what, Index i, Real value) {
     fail("check_step: the ", what, " ", i, " is ", value, "; it must be finite and >= 0");
 }
 
+template <class T, int Width>
+void require_rows(const char* field, const ArrayView<T, Width>& rows, Index count,
+                  const char* of_what) {
+    if (rows.rows() < 0 || rows.rows() >= count) return;
+    fail("check_step: ", field, " has ", rows.rows(), " rows; there are ", count, " ", of_what);
+}
+
 /// Checked arrays in the place of a SpringSystem, as far as Pencil reads one.
 template <class Scalar_, int Dim_>
 class System {
@@ -68,6 +75,15 @@ System<Scalar, Dim>::System(const SpringArrays<Scalar, Dim, Int>& from) : raylei
         fail("check_step: there are ", from.particles, " particles, ", from.springs,
              " springs and ", from.pins, " pins; none of these may be negative");
     }
+    require_rows("mass", from.mass, from.particles, "particles");
+    require_rows("inverse_mass", from.inverse_mass, from.particles, "particles");
+    require_rows("position", from.position, from.particles, "particles");
+    require_rows("pinned", from.pinned, from.pins, "pins");
+    require_rows("ends", from.ends, from.springs, "springs");
+    require_rows("stiffness", from.stiffness, from.springs, "springs");
+    require_rows("rest_length", from.rest_length, from.springs, "springs");
+    require_rows("damping", from.damping, from.springs, "springs");
+    require_rows("whole_damping", from.whole_damping, from.springs, "springs");
     if (!from.ends && from.springs > 0) fail("check_step: ends is null, and there are springs");
     if (!from.pinned && from.pins > 0) fail("check_step: pinned is null, and there are pins");
     require_held<Scalar>("check_step", "mass_proportional", rayleigh_.mass_proportional);
