@@ -8,7 +8,7 @@
 #include <taut/taut.hpp>
 
 int main() {
-    auto cloth = taut::hanging_cloth<float>({64, 64});  // 1 m × 1 m, 0.3 kg, by two corners
+    auto cloth = taut::hanging_cloth<float>({64, 64});  // rows, columns; flat, 1 m × 1 m, 0.3 kg
     auto state = cloth.initial_state();
     state.v.row(2).tail(63 * 64).setConstant(20);  // m/s, all but the upper row
     const float before = cloth.energy(state);

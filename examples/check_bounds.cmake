@@ -24,7 +24,7 @@ foreach(size RANGE 3 14)
     math(EXPR stretch "1000 + 377 * ${size} * ${size}")
     execute_process(
         COMMAND ${stability_report} --scene hanging_cloth --size ${size} --stretch ${stretch} --alpha 1e-5
-            --want-step 1/50 --json report.json
+            --want-step 1/2000 --json report.json
         WORKING_DIRECTORY ${folder} OUTPUT_VARIABLE table COMMAND_ERROR_IS_FATAL ANY)
     file(READ ${folder}/report.json json)
     set(rest "${table}")

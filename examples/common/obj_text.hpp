@@ -160,7 +160,7 @@ inline bool ObjReader::read_corner(std::string_view word, taut::Index& index) {
         if (i == 0) good = read_number(part, vertex) && vertex != 0;
         if (i > 0) good = part.empty() || read_number(part, other);
     }
-    if (!good) return fail(in_quotes(word) + " is no corner");
+    if (!good) return fail(in_quotes(word) + " is no corner (OBJ counts from 1)");
     const auto count = static_cast<taut::Index>(vertices_.size());
     index = static_cast<taut::Index>(vertex > 0 ? vertex - 1 : count + vertex);
     if (index < 0) {

@@ -153,15 +153,22 @@ inline void print_verdict(const Findings& found, const char* step, const Verdict
 }
 
 inline void print_remedies(const Findings& found) {
+    constexpr double far = 30;  // nobody makes a shirt so much heavier
     const auto& [verdict, cures] = *found.remedies;
     print_verdict(found, "The wanted step of symplectic Euler,", verdict);
     if (found.is_safe(verdict)) return;
     if (found.moving_step() > 0) {
-        std::printf("  %.0f steps of taut::EnergyStableEuler take its place as well\n",
-                    std::ceil(verdict.step / found.moving_step()));
+        std::printf(
+            "  %.0f steps of taut::EnergyStableEuler take its place as well, at any speed\n",
+            std::ceil(verdict.step / found.moving_step()));
     }
     if (!(cures.stiffness_scale > 0) || !std::isfinite(cures.mass_scale)) {
         std::printf("  no scale of stiffness or masses is proved to make it safe\n");
+        return;
+    }
+    if (cures.mass_scale > far) {
+        std::printf("  no other cure is near: stiffness or masses would have to change %s-fold\n",
+                    rounded_up(cures.mass_scale, 3, 'g').c_str());
         return;
     }
     if (found.any_pose) {

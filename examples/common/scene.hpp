@@ -196,6 +196,7 @@ inline std::string describe_space(const Scene& scene) {
     char text[160];
     std::snprintf(text, sizeof text, "%.3g x %.3g x %.3g m, ", size[0], size[1], size[2]);
     std::string line = text;
+    if (size.maxCoeff() > 20) line += "is that in metres? (--units cm), ";
     Eigen::Index axis = 0;
     const std::string rest = "; " + material(scene);
     if (g.cwiseAbs().maxCoeff(&axis) == 0) return line + "no gravity" + rest;
