@@ -111,6 +111,14 @@ void print_start(const Options& options, const example::Scene& scene, const Plan
                 options.integrator.c_str(), options.guard ? ", guarded" : "",
                 options.guard ? "at most " : "", example::rounded_down(plan.h, 5).c_str(),
                 static_cast<long long>(plan.steps), plan.frames, plan.frame);
+    if (options.step > 0 && static_cast<double>(plan.steps) > plan.frame / options.step + 1) {
+        std::printf("not the %g s of --step: the guard's steps are proved at any pose\n",
+                    options.step);
+    }
+    const bool undamped = options.scene.d0 == 0 && options.scene.alpha == 0;
+    if (undamped && !options.implicit()) {
+        std::printf("undamped: it swings on and on (--d0, --alpha)\n");
+    }
 }
 
 /// The end of a sentence that says which step is too large.

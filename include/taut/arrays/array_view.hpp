@@ -24,13 +24,17 @@ public:
     template <class Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>
     ArrayView(Number number) : number_(static_cast<T>(number)), given_(true) {}
     /// All numbers of a container with data() and size(), row after row: std::vector<T>, or a
-    /// matrix of Eigen with a row in each column.
+    /// matrix of Eigen with a row in each column. It must live until the call is over.
     template <class Container, class = IfOfNumbers<Container>>
-    ArrayView(const Container& numbers)
+    ArrayView(Container&& numbers)
         : first_(numbers.data()),
           stride_(Width * sizeof(T)),
           rows_(static_cast<Index>(numbers.size()) / Width),
-          given_(true) {}
+          given_(true) {
+        static_assert(std::is_lvalue_reference_v<Container> ||
+                          std::is_trivially_copyable_v<std::remove_reference_t<Container>>,
+                      "taut::SpringArrays: the container would be gone before it is read");
+    }
     /// @param first  of the first row   @param stride  bytes from row to row
     ArrayView(const T* first, std::size_t stride)
         : first_(first), stride_(stride), given_(first != nullptr) {}
