@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-// EXPECT: taut::SpringArrays: the container would be gone before it is read
+// EXPECT: taut::SpringArrays: a container without a name may be gone before it is read
 
 #include <taut/arrays/arrays.hpp>
 #include <vector>

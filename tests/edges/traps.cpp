@@ -173,7 +173,8 @@ void run_rest(const System& system, const typename System::State& start, bool ba
         taut::SpringArrays<Scalar, System::Dim> arrays;
         arrays.particles = system.size();
         arrays.springs = system.spring_count();
-        arrays.inverse_mass = system.inverse_mass();
+        const auto inverse_mass = system.inverse_mass();
+        arrays.inverse_mass = inverse_mass;
         arrays.position = start.x;
         arrays.ends = ends;
         arrays.stiffness = stiffness;

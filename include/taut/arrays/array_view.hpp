@@ -31,9 +31,10 @@ public:
           stride_(Width * sizeof(T)),
           rows_(static_cast<Index>(numbers.size()) / Width),
           given_(true) {
-        static_assert(std::is_lvalue_reference_v<Container> ||
-                          std::is_trivially_copyable_v<std::remove_reference_t<Container>>,
-                      "taut::SpringArrays: the container would be gone before it is read");
+        static_assert(
+            std::is_lvalue_reference_v<Container> ||
+                std::is_trivially_copyable_v<std::remove_reference_t<Container>>,
+            "taut::SpringArrays: a container without a name may be gone before it is read");
     }
     /// @param first  of the first row   @param stride  bytes from row to row
     ArrayView(const T* first, std::size_t stride)
