@@ -251,7 +251,7 @@ void check_nothing_free(const StepperBattery& battery, const Kind& kind) {
     CHECK(moving.v == start.v);
 }
 
-/// Damped, undamped, without springs, pressed to a point.
+/// Damped, undamped, without springs, with drag alone, pressed to a point, with nothing free.
 void check_faults(const StepperBattery& battery, const Kind& kind) {
     Random random(28);
     Scene loose(kind);
@@ -262,8 +262,11 @@ void check_faults(const StepperBattery& battery, const Kind& kind) {
     pressed.add_spring(spring_between(pressed, 2, 3, 50, 0.1));
     pressed.add_spring(spring_between(pressed, 1, 3, 0, 1));
     pressed.pin(0);
-    for (const Scene& scene :
-         {random_scene(random, kind, damped_options()), smooth_scene(kind), loose, pressed}) {
+    Scene drag = loose, held = pressed;
+    drag.set_rayleigh(0.5, 0);
+    for (Index i = 0; i < held.size(); ++i) held.pin(i);
+    for (const Scene& scene : {random_scene(random, kind, damped_options()), smooth_scene(kind),
+                               loose, drag, pressed, held}) {
         const auto stepper = battery.make(scene);
         auto state = scene.initial_state();
         const double h = scene.rounded(0.001);
