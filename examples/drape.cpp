@@ -111,7 +111,7 @@ void print_start(const Options& options, const example::Scene& scene, const Plan
                 options.integrator.c_str(), options.guard ? ", guarded" : "",
                 options.guard ? "at most " : "", example::rounded_down(plan.h, 5).c_str(),
                 static_cast<long long>(plan.steps), plan.frames, plan.frame);
-    if (options.step > 0 && static_cast<double>(plan.steps) > plan.frame / options.step + 1) {
+    if (plan.shortened) {
         std::printf("not the %g s of --step: the guard's steps are proved at any pose\n",
                     options.step);
     }

@@ -15,9 +15,10 @@ namespace drape {
 /// How a frame is cut: `steps` of h each, contacts resolved after each.
 struct Plan {
     int frames = 0;
-    double frame = 0;       // s
-    taut::Index steps = 1;  // at least, with a guard
-    double h = 0;           // s, at most
+    double frame = 0;        // s
+    taut::Index steps = 1;   // at least, with a guard
+    bool shortened = false;  // the guard takes no step as long as that of --step
+    double h = 0;            // s, at most
 };
 
 /// A particle that falls at 3 m/s enters an obstacle by 12 mm within this time, s.
@@ -52,6 +53,7 @@ inline Plan make_plan(const Options& options, const Cloth& cloth) {
     double wanted = options.step > 0 ? options.step : default_step(options, cloth, plan.frame);
     if (options.guard && !options.implicit()) {  // it takes no longer ones
         wanted = std::min(wanted, default_step(options, cloth, plan.frame));
+        plan.shortened = wanted < options.step;
     }
     if (!(plan.frame / wanted <= 1e9)) {
         throw std::runtime_error("--step: more than 1e9 steps for each frame");

@@ -40,7 +40,7 @@ public:
     ArrayView(const T* first, std::size_t stride)
         : first_(first), stride_(stride), given_(first != nullptr) {}
     /// A pointer alone may be one into a struct.
-    template <class Pointer, class = void, std::enable_if_t<std::is_pointer_v<Pointer>, int> = 0>
+    template <class Pointer, std::enable_if_t<std::is_pointer_v<Pointer>, int> = 0>
     ArrayView(Pointer) {
         static_assert(!std::is_pointer_v<Pointer>,
                       "taut::SpringArrays: a pointer needs its stride in bytes, as in "

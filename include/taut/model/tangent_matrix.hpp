@@ -60,8 +60,8 @@ private:
     struct Factors {
         Scalar k, plus, rayleigh, damper;
     };
+    // These are no templates of the system, and compiled once for all of them.
     void set_pattern(const Buffer<BlockPair>& pairs);
-    // What follows is no template of the system, and compiled once for all of them.
     void add_spring(const SpringTangent<Scalar, Dim>& raw, Slots own, const Factors& on,
                     Matrix& A) const;
     void add_mass(Index j, Scalar mass, Matrix& A) const;
