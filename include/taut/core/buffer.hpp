@@ -23,6 +23,9 @@ TAUT_COLD inline void* regrow(void* old, std::size_t used, std::size_t bytes) {
     return grown;
 }
 
+/// Ends a debug build with an index beyond the end. Plain: all element types share it.
+TAUT_COLD TAUT_NOINLINE inline void bad_index() { eigen_assert(false && "index out of range"); }
+
 /// Sets numbers to 0.
 template <class Number>
 void set_zero(Number* numbers, Eigen::Index count) {
@@ -103,16 +106,16 @@ public:
     const T* begin() const { return data_; }
     /// Behind the last one.
     const T* end() const { return data_ + size_; }
-    /// Element i; not checked but by eigen_assert.
+    /// Element i; checked where Eigen checks its own.
     template <class Number>
     T& operator[](Number i) {
-        eigen_assert(static_cast<std::size_t>(i) < size_);
+        check(static_cast<std::size_t>(i));
         return data_[i];
     }
     /// Element i.
     template <class Number>
     const T& operator[](Number i) const {
-        eigen_assert(static_cast<std::size_t>(i) < size_);
+        check(static_cast<std::size_t>(i));
         return data_[i];
     }
     /// The last one.
@@ -160,6 +163,11 @@ public:
     }
 
 private:
+    void check([[maybe_unused]] std::size_t i) const {
+#if !defined(EIGEN_NO_DEBUG)
+        if (i >= size_) detail::bad_index();
+#endif
+    }
     TAUT_COLD TAUT_NOINLINE void set_capacity(std::size_t capacity) {
         data_ = static_cast<T*>(detail::regrow(data_, size_ * sizeof(T), capacity * sizeof(T)));
         capacity_ = capacity;

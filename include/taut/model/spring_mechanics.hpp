@@ -113,20 +113,19 @@ struct Pull {
     Real of_dv;  ///< N·s/m
 };
 
-/// Adds to a spring's pull that of its damper where Dampers, and of Rayleigh damping αK⁺ where
-/// Rayleigh [T2], [T28]. Numbers, or registers of as many springs.
+/// Adds to a spring's pull that of its damper and of Rayleigh damping αK⁺ [T2], [T28]. Numbers, or
+/// registers of as many springs.
 /// @param spring  tension_slope(l), stiffness_bound(), axial_damping(): Spring has them
-/// @param alpha   α, s
-/// @param l2      dx·dx, m², of `length`   @param over_l  T/l, N/m
-/// @param dx_dv   dx·dv, m²/s; read where there is either
-template <bool Dampers, bool Rayleigh, class AnySpring, class Scalar, class Real>
+/// @param alpha   α, s; the same for all springs, so that its test costs next to nothing
+/// @param l2      dx·dx, m², of `length`   @param over_l  T/l, N/m   @param dx_dv   dx·dv, m²/s
+template <class AnySpring, class Scalar, class Real>
 EIGEN_ALWAYS_INLINE void add_damping(const AnySpring& spring, Scalar alpha,
                                      const SpringLength<Real>& length, const Real& l2,
                                      const Real& over_l, const Real& dx_dv, Pull<Real>& pull) {
     using model_detail::where_less;
-    [[maybe_unused]] const Real strain_rate = length.divide(length.divide(dx_dv));  // 1/s
-    if constexpr (Dampers) pull.of_dx += spring.axial_damping() * strain_rate;
-    if constexpr (Rayleigh) {
+    const Real strain_rate = length.divide(length.divide(dx_dv));  // 1/s
+    pull.of_dx += spring.axial_damping() * strain_rate;
+    if (alpha > 0) {
         const Real axial = k_plus(spring.tension_slope(length.l));
         const Real transverse =
             where_less(Real(Scalar(0)), l2, k_plus(over_l), Real(spring.stiffness_bound()));
@@ -135,17 +134,17 @@ EIGEN_ALWAYS_INLINE void add_damping(const AnySpring& spring, Scalar alpha,
     }
 }
 
-/// The pull of a spring and of its damping: see add_damping.
+/// The pull of a spring and, if Damped, of its damping: see add_damping.
 ///
 /// Ends that coincide (l² = 0) have no direction: of_dx then stands for nothing and must meet
 /// dx = 0, and K⁺ is the law's bound times the identity.
-template <bool Dampers, bool Rayleigh, class AnySpring, class Scalar, class Real>
+template <bool Damped, class AnySpring, class Scalar, class Real>
 EIGEN_ALWAYS_INLINE Pull<Real> pull_coefficients(const AnySpring& spring, Scalar alpha,
                                                  const Real& l2, const Real& dx_dv) {
     const SpringLength<Real> length(l2);
     const Real over_l = length.divide(spring.tension(length.l));
     Pull<Real> pull{over_l, Real(Scalar(0))};
-    add_damping<Dampers, Rayleigh>(spring, alpha, length, l2, over_l, dx_dv, pull);
+    if constexpr (Damped) add_damping(spring, alpha, length, l2, over_l, dx_dv, pull);
     return pull;
 }
 
@@ -154,7 +153,7 @@ template <class Scalar, class Law, class Vector>
 EIGEN_ALWAYS_INLINE Vector pull(const Spring<Scalar, Law>& spring, const Vector& dx) {
     const Scalar l2 = dx.squaredNorm();
     if (l2 == 0) return Vector::Zero();
-    return pull_coefficients<false, false>(spring, Scalar(0), l2, Scalar(0)).of_dx * dx;
+    return pull_coefficients<false>(spring, Scalar(0), l2, Scalar(0)).of_dx * dx;
 }
 
 /// The force of a spring and its damper on its end a, N; the opposite acts on b.
@@ -164,10 +163,9 @@ template <class Scalar, class Law, class Vector>
 Vector pull(const Spring<Scalar, Law>& spring, const Vector& dx, const Vector& dv, Scalar alpha) {
     const Scalar l2 = dx.squaredNorm();
     const Scalar dx_dv = dx.dot(dv);
-    const Pull<Scalar> c = alpha > 0 ? pull_coefficients<true, true>(spring, alpha, l2, dx_dv)
-                           : spring.damping > 0
-                               ? pull_coefficients<true, false>(spring, alpha, l2, dx_dv)
-                               : pull_coefficients<false, false>(spring, alpha, l2, dx_dv);
+    const Pull<Scalar> c = alpha > 0 || spring.damping > 0
+                               ? pull_coefficients<true>(spring, alpha, l2, dx_dv)
+                               : pull_coefficients<false>(spring, alpha, l2, dx_dv);
     Vector force = Vector::Zero();
     if (!(l2 == 0)) force = c.of_dx * dx;  // what is not a number stays so
     if (alpha > 0) force += c.of_dv * dv;
@@ -207,7 +205,7 @@ EIGEN_ALWAYS_INLINE Real tension_ahead(const AnySpring& spring, const Real& of_y
 /// A spring one step ahead pulls along its new direction and pushes along the old one [T42]; it is
 /// damped at y. Numbers, or registers.
 /// @param y2    y·y, m²   @param y_dv  y·dv, m²/s   @param l2  dx·dx, m²
-template <bool Dampers, bool Rayleigh, class AnySpring, class Scalar, class Real>
+template <bool Damped, class AnySpring, class Scalar, class Real>
 EIGEN_ALWAYS_INLINE PullAhead<Real> pull_ahead_coefficients(const AnySpring& spring, Scalar alpha,
                                                             const Real& y2, const Real& y_dv,
                                                             const Real& l2) {
@@ -218,7 +216,9 @@ EIGEN_ALWAYS_INLINE PullAhead<Real> pull_ahead_coefficients(const AnySpring& spr
     pull.of_dx = k_plus(ahead.divide(tension));
     pull.of_dv = Real(Scalar(0));
     pull.of_here = k_plus(here.divide(-tension));
-    add_damping<Dampers, Rayleigh>(spring, alpha, ahead, y2, ahead.divide(of_y), y_dv, pull);
+    if constexpr (Damped) {
+        add_damping(spring, alpha, ahead, y2, ahead.divide(of_y), y_dv, pull);
+    }
     return pull;
 }
 
@@ -232,8 +232,8 @@ Vector pull_ahead(const Spring<Scalar, Law>& spring, const Vector& dx, const Vec
     if constexpr (Law::convex) {
         return pull(spring, y, dv, alpha);
     } else {
-        const auto c = pull_ahead_coefficients<true, true>(spring, alpha, y.squaredNorm(),
-                                                           y.dot(dv), dx.squaredNorm());
+        const auto c = pull_ahead_coefficients<true>(spring, alpha, y.squaredNorm(), y.dot(dv),
+                                                     dx.squaredNorm());
         Vector force = c.of_dx * y + c.of_dv * dv;
         if (!(dx.squaredNorm() == 0)) force -= c.of_here * dx;  // what is not a number stays so
         return force;

@@ -8,7 +8,7 @@
 
 namespace taut::integrator_detail::sweep {
 
-template <class Scalar, bool Velocities, bool Rayleigh, bool Both>
+template <class Scalar, bool Damped, bool Both>
 void add_batch(const PlannedBatches& plan, const Batch& batch, int dim,
                const TileView<Scalar>& view,
                void (*pull)(void* springs, Chunk<Scalar>& chunk, int count), void* springs) {
@@ -17,8 +17,9 @@ void add_batch(const PlannedBatches& plan, const Batch& batch, int dim,
     constexpr int most = Chunk<Scalar>::most;
     alignas(64) Scalar x[most_gathered][4];
     alignas(64) Scalar here[Both ? most_gathered : 1][4];
-    alignas(64) Scalar v[Velocities ? most_gathered : 1][4];
+    alignas(64) Scalar v[Damped ? most_gathered : 1][4];
     alignas(64) Scalar f[most_gathered][4];
+    const Scalar alpha = view.alpha;
     const int* places = plan.gathered.data() + batch.first_gathered;
     const auto gather = [&](Scalar(&to)[4], const Planes<const Scalar>& from, int place) {
         for (int d = 0; d < 4; ++d) to[d] = d < dim ? from[d][place] : Scalar(0);
@@ -27,11 +28,11 @@ void add_batch(const PlannedBatches& plan, const Batch& batch, int dim,
         for (Scalar& axis : f[g]) axis = 0;
         gather(x[g], view.x, places[g]);
         if constexpr (Both) gather(here[g], view.at, places[g]);
-        if constexpr (Velocities) gather(v[g], view.v, places[g]);
+        if constexpr (Damped) gather(v[g], view.v, places[g]);
     }
     Few<Vector, most> dx;
     Few<Vector, Both ? most : 1> old_dx;
-    Few<Vector, Velocities ? most : 1> dv;
+    Few<Vector, Damped ? most : 1> dv;
     Chunk<Scalar> chunk;
     for (int done = 0; done < batch.springs; done += most) {
         const auto* ends = plan.ends.data() + batch.first_spring + done;
@@ -44,7 +45,7 @@ void add_batch(const PlannedBatches& plan, const Batch& batch, int dim,
                 old_dx[s] = Vector::load(here[b]) - Vector::load(here[a]);
                 chunk.old_l2[s] = (old_dx[s] * old_dx[s]).total();
             }
-            if constexpr (Velocities) {
+            if constexpr (Damped) {
                 dv[s] = Vector::load(v[b]) - Vector::load(v[a]);
                 chunk.dx_dv[s] = (dx[s] * dv[s]).total();
             }
@@ -53,7 +54,9 @@ void add_batch(const PlannedBatches& plan, const Batch& batch, int dim,
         for (int s = 0; s < count; ++s) {
             Vector force = Factor(chunk.l2[s]) * dx[s];
             if constexpr (Both) force = force - Factor(chunk.old_l2[s]) * old_dx[s];
-            if constexpr (Rayleigh) force = force + Factor(chunk.dx_dv[s]) * dv[s];
+            if constexpr (Damped) {
+                if (alpha > 0) force = force + Factor(chunk.dx_dv[s]) * dv[s];
+            }
             const auto [a, b] = ends[s];
             (Vector::load(f[a]) + force).store(f[a]);
             (Vector::load(f[b]) - force).store(f[b]);

@@ -21,7 +21,7 @@ struct Chunk {
 /// Adds the forces of a batch: the same for all laws but for coefficients.
 /// @tparam Both  whether a spring takes its positions ahead and as they are [T42]
 /// @param pull   pull(springs, chunk, count): coefficients of the next springs of the batch
-template <class Scalar, bool Velocities, bool Rayleigh, bool Both>
+template <class Scalar, bool Damped, bool Both>
 void add_batch(const PlannedBatches& plan, const Batch& batch, int dim,
                const TileView<Scalar>& view,
                void (*pull)(void* springs, Chunk<Scalar>& chunk, int count), void* springs);
@@ -58,23 +58,21 @@ private:
                       void (*)(void*, Chunk<Scalar>&, int), void*);
         void (*pull)(void*, Chunk<Scalar>&, int);
 
-        /// Beside Rayleigh damping dampers, zeros where there are none, cost less than a kernel.
-        template <bool Damped, bool Rayleigh, bool Both>
+        template <bool Damped, bool Both>
         static constexpr Kernels of() {
-            return {&LawPlan::add_segment<Damped, Rayleigh, Both>,
-                    &add_batch<Scalar, Damped, Rayleigh, Both>,
-                    &LawPlan::pull<Damped, Rayleigh, Both>};
+            return {&LawPlan::add_segment<Damped, Both>, &add_batch<Scalar, Damped, Both>,
+                    &LawPlan::pull<Damped, Both>};
         }
     };
     void add(const Kernels& kernels, const TileView<Scalar>& view) const;
-    template <bool Damped, bool Rayleigh, bool Both>
+    template <bool Damped, bool Both>
     void add_segment(const TileView<Scalar>& view, const Segment& segment) const;
     /// What a batch asks for coefficients.
     struct BatchSprings {
         Reader reader;
         Scalar alpha;
     };
-    template <bool Damped, bool Rayleigh, bool Both>
+    template <bool Damped, bool Both>
     static void pull(void* springs, Chunk<Scalar>& chunk, int count);
 
     SpringTable<Scalar, Law> table_;  // of runs, then of batches
@@ -112,18 +110,16 @@ void LawPlan<Scalar, Dim, Law>::renew(const SpringSet<Scalar, Law>& set,
 template <class Scalar, int Dim, class Law>
 template <bool Both>
 void LawPlan<Scalar, Dim, Law>::add_forces(const TileView<Scalar>& view) const {
-    const bool rayleigh = view.alpha > 0;
+    const bool damped = damped_ || view.alpha > 0;
     if constexpr (Dim > 1) {
         if (in_stars_) {
-            return rayleigh  ? stars_.template add_forces<true, true, Both>(view)
-                   : damped_ ? stars_.template add_forces<true, false, Both>(view)
-                             : stars_.template add_forces<false, false, Both>(view);
+            return damped ? stars_.template add_forces<true, Both>(view)
+                          : stars_.template add_forces<false, Both>(view);
         }
     }
-    static constexpr Kernels kernels[] = {Kernels::template of<false, false, Both>(),
-                                          Kernels::template of<true, false, Both>(),
-                                          Kernels::template of<true, true, Both>()};
-    add(kernels[rayleigh ? 2 : damped_ ? 1 : 0], view);
+    static constexpr Kernels kernels[] = {Kernels::template of<false, Both>(),
+                                          Kernels::template of<true, Both>()};
+    add(kernels[damped], view);
 }
 
 template <class Scalar, int Dim, class Law>
@@ -142,7 +138,7 @@ void LawPlan<Scalar, Dim, Law>::add(const Kernels& kernels, const TileView<Scala
 }
 
 template <class Scalar, int Dim, class Law>
-template <bool Damped, bool Rayleigh, bool Both>
+template <bool Damped, bool Both>
 void LawPlan<Scalar, Dim, Law>::add_segment(const TileView<Scalar>& view,
                                             const Segment& segment) const {
     const auto& run = runs_.runs[segment.run];
@@ -158,6 +154,7 @@ void LawPlan<Scalar, Dim, Law>::add_segment(const TileView<Scalar>& view,
         segment.writes_a ? view.force_a.at(first_a - view.begin) : view.discard;
     const Planes<Scalar> force_b =
         segment.writes_b ? view.force_b.at(first_b - view.begin) : view.discard;
+    const Scalar alpha = view.alpha;
     Reader springs(table_, segment.run, static_cast<std::size_t>(first_a - run.first_a));
     for (int i = 0; i < segment.count; i += Register::width, springs.next()) {
         Vector dx, dv;
@@ -174,12 +171,13 @@ void LawPlan<Scalar, Dim, Law>::add_segment(const TileView<Scalar>& view,
         Register dx_dv(Scalar(0)), old_l2(Scalar(0));
         if constexpr (Damped) dx_dv = dot(dx, dv);
         if constexpr (Both) old_l2 = dot(here, here);
-        const auto pull = springs.template pull_of<Damped, Rayleigh, Both>(view.alpha, dot(dx, dx),
-                                                                           dx_dv, old_l2);
+        const auto pull = springs.template pull_of<Damped, Both>(alpha, dot(dx, dx), dx_dv, old_l2);
         for_each_axis<Dim>([&](int d) {
             Register force = pull.of_dx * dx[d];
             if constexpr (Both) force -= pull.of_here * here[d];
-            if constexpr (Rayleigh) force += pull.of_dv * dv[d];
+            if constexpr (Damped) {
+                if (alpha > 0) force += pull.of_dv * dv[d];
+            }
             Scalar* on_a = force_a[d] + i;
             Scalar* on_b = force_b[d] + i;
             (Register::load(on_a) + force).store(on_a);
@@ -189,7 +187,7 @@ void LawPlan<Scalar, Dim, Law>::add_segment(const TileView<Scalar>& view,
 }
 
 template <class Scalar, int Dim, class Law>
-template <bool Damped, bool Rayleigh, bool Both>
+template <bool Damped, bool Both>
 void LawPlan<Scalar, Dim, Law>::pull(void* of, Chunk<Scalar>& chunk, int count) {
     auto& all = *static_cast<BatchSprings*>(of);
     BatchSprings springs = all;  // a copy is in registers
@@ -201,12 +199,12 @@ void LawPlan<Scalar, Dim, Law>::pull(void* of, Chunk<Scalar>& chunk, int count) 
             pull.of_dv.store(chunk.dx_dv + s);
         };
         if constexpr (Both) {
-            const auto pull = springs.reader.template pull_ahead<Damped, Rayleigh>(
+            const auto pull = springs.reader.template pull_ahead<Damped>(
                 springs.alpha, square, product, Register::load(chunk.old_l2 + s));
             keep(pull);
             pull.of_here.store(chunk.old_l2 + s);
         } else {
-            keep(springs.reader.template pull<Damped, Rayleigh>(springs.alpha, square, product));
+            keep(springs.reader.template pull<Damped>(springs.alpha, square, product));
         }
     }
     all = springs;

@@ -185,34 +185,35 @@ public:
         return Register::load(result.data());
     }
     /// The pull of the springs here, 0 in the gaps: see pull_coefficients.
-    template <bool Dampers, bool Rayleigh>
+    template <bool Damped>
     EIGEN_ALWAYS_INLINE Pull<Register> pull(Scalar alpha, const Register& l2,
                                             const Register& dx_dv) const {
-        const auto pull = pull_coefficients<Dampers, Rayleigh>(*this, alpha, l2, dx_dv);
+        auto pull = pull_coefficients<Damped>(*this, alpha, l2, dx_dv);
         const Register L = rest_length_.load();
-        return {unless_negative(L, pull.of_dx),
-                !Rayleigh ? pull.of_dv : unless_negative(L, pull.of_dv)};
+        pull.of_dx = unless_negative(L, pull.of_dx);
+        if (Damped && alpha > 0) pull.of_dv = unless_negative(L, pull.of_dv);
+        return pull;
     }
     /// The pull of the springs here one step ahead, 0 in the gaps: see pull_ahead_coefficients.
-    template <bool Dampers, bool Rayleigh>
+    template <bool Damped>
     EIGEN_ALWAYS_INLINE PullAhead<Register> pull_ahead(Scalar alpha, const Register& y2,
                                                        const Register& y_dv,
                                                        const Register& l2) const {
-        auto pull = pull_ahead_coefficients<Dampers, Rayleigh>(*this, alpha, y2, y_dv, l2);
+        auto pull = pull_ahead_coefficients<Damped>(*this, alpha, y2, y_dv, l2);
         const Register L = rest_length_.load();
         pull.of_dx = unless_negative(L, pull.of_dx);
         pull.of_here = unless_negative(L, pull.of_here);
-        if constexpr (Rayleigh) pull.of_dv = unless_negative(L, pull.of_dv);
+        if (Damped && alpha > 0) pull.of_dv = unless_negative(L, pull.of_dv);
         return pull;
     }
     /// The one or, if Both, the other.
-    template <bool Dampers, bool Rayleigh, bool Both>
+    template <bool Damped, bool Both>
     EIGEN_ALWAYS_INLINE auto pull_of(Scalar alpha, const Register& l2, const Register& dx_dv,
                                      [[maybe_unused]] const Register& old_l2) const {
         if constexpr (Both) {
-            return pull_ahead<Dampers, Rayleigh>(alpha, l2, dx_dv, old_l2);
+            return pull_ahead<Damped>(alpha, l2, dx_dv, old_l2);
         } else {
-            return pull<Dampers, Rayleigh>(alpha, l2, dx_dv);
+            return pull<Damped>(alpha, l2, dx_dv);
         }
     }
 

@@ -31,7 +31,7 @@ public:
 
     /// Adds the forces of the tile's stars; then those on its places are complete.
     /// @tparam Both  as of LawPlan::add_forces
-    template <bool Dampers, bool Rayleigh, bool Both>
+    template <bool Damped, bool Both>
     void add_forces(const TileView<Scalar>& view) const;
 
 private:
@@ -89,34 +89,33 @@ private:
         const Star* targets;
         Scalar* forces;
     };
-    template <bool Dampers, bool Rayleigh, bool Both, int... s>
+    template <bool Damped, bool Both, int... s>
     static EIGEN_ALWAYS_INLINE void add_group(Scalar alpha, Reader& springs, const Group& of,
                                               Numbers<s...>);
     /// Coefficients of the springs of a group.
     struct Pulls {
         alignas(64) Few<Scalar, group * star_size> of_dx, of_dv, of_here;
     };
-    template <bool Dampers, bool Rayleigh, bool Both>
+    template <bool Damped, bool Both>
     static EIGEN_ALWAYS_INLINE void pull(Scalar alpha, Reader& springs, const Register& l2,
                                          const Register& dx_dv, const Register& old_l2,
                                          Pulls& pulls, int first) {
-        const auto pull =
-            springs.template pull_of<Dampers, Rayleigh, Both>(alpha, l2, dx_dv, old_l2);
+        const auto pull = springs.template pull_of<Damped, Both>(alpha, l2, dx_dv, old_l2);
         pull.of_dx.store(pulls.of_dx.data() + first);
-        if constexpr (Rayleigh) pull.of_dv.store(pulls.of_dv.data() + first);
+        if (Damped && alpha > 0) pull.of_dv.store(pulls.of_dv.data() + first);
         if constexpr (Both) pull.of_here.store(pulls.of_here.data() + first);
         springs.next();
     }
-    template <bool Dampers, bool Rayleigh, bool Both, int... i>
+    template <bool Damped, bool Both, int... i>
     static EIGEN_ALWAYS_INLINE void pull(Scalar alpha, Reader& springs, const Lanes& l2,
                                          const Lanes& dx_dv, const Lanes& old_l2, Pulls& pulls,
                                          Numbers<i...>) {
-        (pull<Dampers, Rayleigh, Both>(alpha, springs, l2[i], dx_dv[i], old_l2[i], pulls,
-                                       i * Register::width),
+        (pull<Damped, Both>(alpha, springs, l2[i], dx_dv[i], old_l2[i], pulls, i * Register::width),
          ...);
     }
-    template <bool Rayleigh, bool Both, int... k>
-    static EIGEN_ALWAYS_INLINE Vectors forces(const Pulls& pulls, int first, const Vectors& dx,
+    template <bool Damped, bool Both, int... k>
+    static EIGEN_ALWAYS_INLINE Vectors forces([[maybe_unused]] Scalar alpha, const Pulls& pulls,
+                                              int first, const Vectors& dx,
                                               [[maybe_unused]] const Vectors& dv,
                                               [[maybe_unused]] const Vectors& here, Numbers<k...>) {
         const auto of_dx = Point::factors(pulls.of_dx.data() + first);
@@ -125,9 +124,11 @@ private:
             const auto of_here = Point::factors(pulls.of_here.data() + first);
             force = {(force[k] - of_here[k] * here[k])...};
         }
-        if constexpr (Rayleigh) {
-            const auto of_dv = Point::factors(pulls.of_dv.data() + first);
-            force = {(force[k] + of_dv[k] * dv[k])...};
+        if constexpr (Damped) {
+            if (alpha > 0) {
+                const auto of_dv = Point::factors(pulls.of_dv.data() + first);
+                force = {(force[k] + of_dv[k] * dv[k])...};
+            }
         }
         return force;
     }
@@ -146,7 +147,7 @@ StarPlan<Scalar, Law>::StarPlan(const Set& set, const SortedSprings& springs,
 }
 
 template <class Scalar, class Law>
-template <bool Dampers, bool Rayleigh, bool Both>
+template <bool Damped, bool Both>
 void StarPlan<Scalar, Law>::add_forces(const TileView<Scalar>& view) const {
     const Index first = static_cast<Index>(view.begin) * 4;
     Group of{view.x.first + first, view.at.first + first, view.v.first + first, nullptr, nullptr,
@@ -163,19 +164,19 @@ void StarPlan<Scalar, Law>::add_forces(const TileView<Scalar>& view) const {
             inside_block = within_block(of.stars, 4 * view.size);
             of.targets = inside_block.data();
         }
-        add_group<Dampers, Rayleigh, Both>(view.alpha, springs, of, all);
+        add_group<Damped, Both>(view.alpha, springs, of, all);
     }
 }
 
 template <class Scalar, class Law>
-template <bool Dampers, bool Rayleigh, bool Both, int... s>
+template <bool Damped, bool Both, int... s>
 EIGEN_ALWAYS_INLINE void StarPlan<Scalar, Law>::add_group(Scalar alpha, Reader& springs,
                                                           const Group& of, Numbers<s...>) {
     const Few<Vectors, group> dx{differences(of.x, of.stars[s], all_tips)...};
     [[maybe_unused]] Few<Vectors, group> dv;
     [[maybe_unused]] Few<Vectors, group> here;
     Lanes dx_dv{}, old_l2{};
-    if constexpr (Dampers || Rayleigh) {
+    if constexpr (Damped) {
         dv = {differences(of.v, of.stars[s], all_tips)...};
         dx_dv = lanes({dots(dx[s], dv[s])...});
     }
@@ -184,10 +185,10 @@ EIGEN_ALWAYS_INLINE void StarPlan<Scalar, Law>::add_group(Scalar alpha, Reader& 
         old_l2 = lanes({dots(here[s], here[s])...});
     }
     Pulls pulls;
-    pull<Dampers, Rayleigh, Both>(alpha, springs, lanes({dots(dx[s], dx[s])...}), dx_dv, old_l2,
-                                  pulls, std::make_integer_sequence<int, registers>());
+    pull<Damped, Both>(alpha, springs, lanes({dots(dx[s], dx[s])...}), dx_dv, old_l2, pulls,
+                       std::make_integer_sequence<int, registers>());
     (add_star(of.forces, of.targets[s],
-              forces<Rayleigh, Both>(pulls, s * star_size, dx[s], dv[s], here[s], all_tips),
+              forces<Damped, Both>(alpha, pulls, s * star_size, dx[s], dv[s], here[s], all_tips),
               all_tips),
      ...);
 }
