@@ -13,7 +13,7 @@
 #include <taut/guard/guard.hpp>
 #include <taut/taut.hpp>
 #include <taut/wind/wind.hpp>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/tension_only.hpp>
 #include <taut/scene/with_law.hpp>
 #include <vector>
 

@@ -14,7 +14,7 @@
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/lattice/lattice.hpp>
 #include <taut/taut.hpp>
-#include <taut/stability/bracket.hpp>
+#include <taut/proof/bracket.hpp>
 #include <type_traits>
 
 #include "../examples/common/number.hpp"

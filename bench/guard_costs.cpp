@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <taut/guard/guard.hpp>
 #include <taut/taut.hpp>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/tension_only.hpp>
 #include <taut/scene/with_law.hpp>
 
 #include "measure.hpp"

@@ -14,7 +14,7 @@
 #include <taut/lammps/lammps.hpp>
 #include <taut/lammps/lammps_dump.hpp>
 #include <taut/lattice/lattice.hpp>
-#include <taut/stability/bracket.hpp>
+#include <taut/proof/bracket.hpp>
 
 #include "../examples/common/number.hpp"
 #include "measure.hpp"

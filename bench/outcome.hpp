@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
-#include <taut/model/spring_system.hpp>
+#include <taut/network/spring_system.hpp>
 #include <utility>
 #include <vector>
 

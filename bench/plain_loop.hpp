@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <taut/model/spring_system.hpp>
+#include <taut/network/spring_system.hpp>
 
 namespace bench {
 

@@ -16,7 +16,7 @@
 #include <taut/scene/cloth.hpp>
 #include <taut/scene/mesh.hpp>
 #include <taut/resolution/resolution.hpp>
-#include <taut/stability/energy_limit.hpp>
+#include <taut/proof/energy_limit.hpp>
 #include <vector>
 
 #include "../examples/common/mesh_file.hpp"

@@ -15,7 +15,7 @@
 #include <taut/taut.hpp>
 #include <taut/tight/dense.hpp>
 #include <taut/tight/tight.hpp>
-#include <taut/stability/bracket.hpp>
+#include <taut/proof/bracket.hpp>
 #include <tuple>
 #include <vector>
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <taut/taut.hpp>
 #include <taut/tight/tight.hpp>
-#include <taut/stability/bracket.hpp>
+#include <taut/proof/bracket.hpp>
 #include <vector>
 
 #include "measure.hpp"

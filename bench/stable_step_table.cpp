@@ -10,10 +10,10 @@
 #include <string>
 #include <taut/integrator/energy_stable_euler.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/tension_only.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/scene/with_law.hpp>
-#include <taut/stability/energy_limit.hpp>
+#include <taut/proof/energy_limit.hpp>
 #include <utility>
 #include <vector>
 

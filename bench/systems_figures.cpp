@@ -18,8 +18,8 @@
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/projective/projective.hpp>
 #include <taut/taut.hpp>
-#include <taut/model/buckling.hpp>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/buckling.hpp>
+#include <taut/network/tension_only.hpp>
 #include <utility>
 
 #include "hanging_net.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <taut/integrator/sweep/register.hpp>
+#include <taut/step/register.hpp>
 #include <vector>
 
 #include "outcome.hpp"
@@ -58,7 +58,7 @@ private:
     using Vector = Eigen::Vector4d;
     // Taut's own, with its 1/√: division and root would be most of a pass.
     static constexpr std::size_t lanes = 4;
-    using Four = taut::integrator_detail::sweep::VectorRegister<double, int(lanes)>;
+    using Four = taut::step_detail::VectorRegister<double, int(lanes)>;
 
     struct Group {
         std::size_t first;
@@ -117,7 +117,7 @@ private:
 
 template <class Register>
 EIGEN_ALWAYS_INLINE void Xpbd::move_four(const Springs springs, Vector* x, std::size_t s) {
-    using taut::integrator_detail::sweep::transpose;
+    using taut::step_detail::transpose;
     Register a[lanes], b[lanes], d[lanes], row[lanes];
     for (std::size_t i = 0; i < lanes; ++i) {
         a[i] = Register::load(x[springs.a[s + i]].data());

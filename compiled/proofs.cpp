@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include <taut/stability/detail/symplectic_limit-inl.hpp>
-#include <taut/stability/pencil-inl.hpp>
-#include <taut/stability/pencil_matrix-inl.hpp>
-#include <taut/stability/rayleigh-inl.hpp>
-#include <taut/stability/stability-inl.hpp>
+#include <taut/proof/detail/symplectic_limit-inl.hpp>
+#include <taut/proof/pencil-inl.hpp>
+#include <taut/proof/pencil_matrix-inl.hpp>
+#include <taut/proof/rayleigh-inl.hpp>
+#include <taut/proof/stability-inl.hpp>
 
 #if defined(__FAST_MATH__) || defined(_M_FP_FAST)
 #error "Taut::Compiled is compiled strictly: the flag was lost"

@@ -7,7 +7,7 @@
 #include <taut/mass_scaling/mass_scaling.hpp>
 #include <taut/taut.hpp>
 #include <taut/tight/tight.hpp>
-#include <taut/stability/bracket.hpp>
+#include <taut/proof/bracket.hpp>
 
 using taut::Method;
 

@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <taut/bdf2/bdf2.hpp>
 #include <taut/taut.hpp>
-#include <taut/model/buckling.hpp>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/buckling.hpp>
+#include <taut/network/tension_only.hpp>
 
 using taut::Buckling;
 using taut::TensionOnly;

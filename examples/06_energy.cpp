@@ -8,7 +8,7 @@
 #include <taut/newton/energy_guarantee.hpp>
 #include <taut/projective/projective.hpp>
 #include <taut/taut.hpp>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/tension_only.hpp>
 
 int main() {
     using Net = taut::SpringSystem<double, 3, taut::TensionOnly>;

@@ -12,7 +12,7 @@
 #include <random>
 #include <taut/guard/guard.hpp>
 #include <taut/taut.hpp>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/tension_only.hpp>
 #include <taut/scene/with_law.hpp>
 #include <vector>
 

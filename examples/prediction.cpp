@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <string>
 #include <taut/own_matrices/own_matrices.hpp>
-#include <taut/stability/bracket.hpp>
+#include <taut/proof/bracket.hpp>
 #include <utility>
 
 #include "common/main.hpp"

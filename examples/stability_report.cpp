@@ -11,7 +11,7 @@
 #include <string>
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/tight/tight.hpp>
-#include <taut/stability/bracket.hpp>
+#include <taut/proof/bracket.hpp>
 
 #include "common/lammps_files.hpp"
 #include "common/main.hpp"

@@ -13,7 +13,7 @@
 #include <taut/taut.hpp>
 #include <taut/accuracy/accuracy.hpp>
 #include <taut/tight/tight.hpp>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/tension_only.hpp>
 #include <taut/scene/with_law.hpp>
 
 #include "common/number.hpp"

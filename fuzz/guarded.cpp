@@ -12,8 +12,8 @@
 #include <taut/bdf2/bdf2.hpp>
 #include <taut/guard/guard.hpp>
 #include <taut/integrator/implicit_euler.hpp>
-#include <taut/model/buckling.hpp>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/buckling.hpp>
+#include <taut/network/tension_only.hpp>
 
 #include "../bench/guard/books.hpp"
 #include "soup.hpp"

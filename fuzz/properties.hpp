@@ -14,7 +14,7 @@
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/projective/projective.hpp>
 #include <taut/tight/tight.hpp>
-#include <taut/stability/bracket.hpp>
+#include <taut/proof/bracket.hpp>
 
 #include "soup.hpp"
 

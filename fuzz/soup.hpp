@@ -11,8 +11,8 @@
 #include <limits>
 #include <stdexcept>
 #include <taut/taut.hpp>
-#include <taut/model/buckling.hpp>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/buckling.hpp>
+#include <taut/network/tension_only.hpp>
 
 // Scenes decoded from bytes: every input is one, and a small change of it is a small change of the
 // scene.

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <taut/method/visit.hpp>
-#include <taut/stability/any_pose.hpp>
-#include <taut/stability/energy_limit.hpp>
-#include <taut/stability/stability.hpp>
-#include <taut/stability/bracket.hpp>
+#include <taut/conditions/visit.hpp>
+#include <taut/proof/any_pose.hpp>
+#include <taut/proof/energy_limit.hpp>
+#include <taut/proof/stability.hpp>
+#include <taut/proof/bracket.hpp>
 #include <vector>
 
 #include "../examples/common/kick.hpp"

@@ -8,7 +8,7 @@
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/integrator/velocity_verlet.hpp>
-#include <taut/method/visit.hpp>
+#include <taut/conditions/visit.hpp>
 #include <taut/recommend/candidate.hpp>
 #include <taut/solver/conjugate_gradient.hpp>
 #include <variant>

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <string>
 #include <taut/resolution/resolution.hpp>
-#include <taut/stability/energy_limit.hpp>
+#include <taut/proof/energy_limit.hpp>
 #include <vector>
 
 #include "lab.hpp"

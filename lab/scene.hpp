@@ -3,7 +3,7 @@
 #pragma once
 
 #include <array>
-#include <taut/model/spring_system.hpp>
+#include <taut/network/spring_system.hpp>
 #include <vector>
 
 namespace lab {

@@ -15,7 +15,7 @@
 #
 # The core is what taut.hpp reaches; a module is a folder of include/taut, as far as taut.hpp does not reach it.
 # core.unasked counts functions that taut.hpp, nothing called, compiles at -O0 and Eigen's headers do not;
-# core.public_headers those headers that are in no detail/ or sweep/. x-inl.hpp is a part of x.hpp: its lines count.
+# core.public_headers those headers that are in no detail/ or step/. x-inl.hpp is a part of x.hpp: its lines count.
 #
 # What is 3 % off its budget fails, above and below. A number of the budget may rise only with a line "Budget:
 # REASON" in a message since, one of the core not at all; a module's may be dropped, any other only with such a
@@ -149,7 +149,7 @@ measure() {
     done
     echo "core.unasked $(unasked | wc -l)"
     reached core >"$work/core"
-    echo "core.public_headers $(grep -cv -e -inl -e /detail/ -e /sweep/ "$work/core")"
+    echo "core.public_headers $(grep -cv -e -inl -e /detail/ -e /step/ "$work/core")"
     find include -type f | sort | comm -23 - "$work/core" >"$work/modules"
     for module in $(sed -E 's#^include/taut/([^/.]*).*#\1#' "$work/modules" | sort -u); do
         echo "module.$module $(grep "^include/taut/$module[/.]" "$work/modules" | lines)"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 #include <taut/guard/report.hpp>
-#include <taut/model/spring_system.hpp>
+#include <taut/network/spring_system.hpp>
 #include <vector>
 
 // What Guarded's promise [T43] is judged by: energies in long double, written from their

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
-#include <taut/model/tension_only.hpp>
+#include <taut/network/tension_only.hpp>
 
 #include "scenes.hpp"
 #include "tables.hpp"

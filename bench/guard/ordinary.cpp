@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
-#include <taut/stability/rayleigh.hpp>
+#include <taut/proof/rayleigh.hpp>
 
 #include "scenes.hpp"
 #include "tables.hpp"

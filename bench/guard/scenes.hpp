@@ -8,7 +8,7 @@
 #include <random>
 #include <taut/equilibrium/equilibrium.hpp>
 #include <taut/guard/guard.hpp>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/tension_only.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/scene/with_law.hpp>
 

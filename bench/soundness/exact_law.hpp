@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <taut/model/buckling.hpp>
-#include <taut/model/hookean.hpp>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/buckling.hpp>
+#include <taut/network/hookean.hpp>
+#include <taut/network/tension_only.hpp>
 
 #include "definite.hpp"
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <limits>
 #include <taut/own_matrices/own_matrices.hpp>
-#include <taut/model/spring_system.hpp>
+#include <taut/network/spring_system.hpp>
 
 #include "exact_law.hpp"
 

@@ -4,10 +4,10 @@
 
 #include <map>
 #include <string>
-#include <taut/method/visit.hpp>
-#include <taut/stability/any_pose.hpp>
-#include <taut/stability/energy_limit.hpp>
-#include <taut/stability/bracket.hpp>
+#include <taut/conditions/visit.hpp>
+#include <taut/proof/any_pose.hpp>
+#include <taut/proof/energy_limit.hpp>
+#include <taut/proof/bracket.hpp>
 #include <taut/tight/tight.hpp>
 
 #include "claims.hpp"

@@ -4,10 +4,10 @@
 
 #include <cmath>
 #include <limits>
-#include <taut/model/buckling.hpp>
+#include <taut/network/buckling.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
-#include <taut/model/spring_system.hpp>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/spring_system.hpp>
+#include <taut/network/tension_only.hpp>
 #include <vector>
 
 #include "../../tests/support/random.hpp"

@@ -10,8 +10,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <stdexcept>
-#include <taut/model/buckling.hpp>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/buckling.hpp>
+#include <taut/network/tension_only.hpp>
 
 #include "judge.hpp"
 #include "once_false.hpp"

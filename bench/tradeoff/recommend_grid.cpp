@@ -15,7 +15,7 @@
 #include <taut/taut.hpp>
 #include <vector>
 #include <taut/tradeoff/tradeoff.hpp>
-#include <taut/stability/bracket.hpp>
+#include <taut/proof/bracket.hpp>
 
 #include "../measure.hpp"
 #include "../outcome.hpp"

@@ -14,7 +14,7 @@
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/taut.hpp>
 #include <taut/tight/tight.hpp>
-#include <taut/stability/bracket.hpp>
+#include <taut/proof/bracket.hpp>
 
 #include "../../examples/common/number.hpp"
 
@@ -65,7 +65,7 @@ Cloth::State disturbed(const Cloth& cloth) {
     auto state = cloth.initial_state();
     const taut::LinearSystem<double> linear = taut::linearize(cloth, state);
     const Eigen::VectorXd push =
-        linear.stiffness() * taut::stability_detail::scattered_vector(linear.size());
+        linear.stiffness() * taut::proof_detail::scattered_vector(linear.size());
     auto u = linear.to_free(state);
     u.x = 1e-7 / push.norm() * push.transpose();
     linear.from_free(u, state);

@@ -4,6 +4,7 @@
 // check_pages FOLDER: reads every page (*.md) of the repository in FOLDER and names what a reader
 // should not meet: what a shell or a compiler says when it fails, paths of the machine that wrote
 // the page, cells of a table without a number, links to files and headings that are not there,
+// headers and programs of the repository that are called by a path where there is none,
 // labels such as [T19] that docs/theory/ does not have or its index does not list, long lines.
 
 #include <cctype>
@@ -142,6 +143,7 @@ private:
             }
             if (std::regex_search(line, machine)) fault(path, row, "a path of some machine");
             if (std::regex_search(line, no_number)) fault(path, row, "a cell that is no number");
+            check_files(path, row, line);
             if (begins(line, "```")) fenced = !fenced;
             if (fenced || begins(line, "    ")) continue;
             if (!begins(line, "|") && length(line) > longest_line && !is_changelog) {
@@ -159,6 +161,18 @@ private:
             }
         }
         if (fenced) fault(path, page.lines.size() - 1, "the code that ``` begins does not end");
+    }
+
+    void check_files(const fs::path& path, std::size_t row, const std::string& line) {
+        static const std::regex file(
+            "(^|[ `<(])((taut|tests|bench|examples|scripts)/[a-z0-9_/-]+[.](hpp|cpp|cmake|py|sh))");
+        for (std::sregex_iterator found(line.begin(), line.end(), file), end; found != end;
+             ++found) {
+            const std::string name = (*found)[2];
+            if (!fs::exists(root_ / (begins(name, "taut/") ? "include" : "") / name)) {
+                fault(path, row, name + " does not exist");
+            }
+        }
     }
 
     void check_links_and_labels(const fs::path& path, std::size_t row, const std::string& line) {

@@ -10,7 +10,7 @@
 #include <taut/resolution/resolution.hpp>
 #include <taut/taut.hpp>
 #include <taut/tight/tight.hpp>
-#include <taut/stability/bracket.hpp>
+#include <taut/proof/bracket.hpp>
 #include <vector>
 
 #include "remedies.hpp"

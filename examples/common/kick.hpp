@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <taut/model/spring_system.hpp>
-#include <taut/stability/stability.hpp>
+#include <taut/network/spring_system.hpp>
+#include <taut/proof/stability.hpp>
 
 // How a scene is kicked along its limiting mode, to be stepped just below and just above its limit.
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <taut/integrator/symplectic_euler.hpp>
-#include <taut/stability/stability.hpp>
+#include <taut/proof/stability.hpp>
 #include <utility>
 #include <vector>
 

@@ -64,7 +64,7 @@ Cures cures_at_any_pose(const taut::SpringSystem<double, Dim>& system,
         if (system.is_pinned(i)) continue;
         heavier.set_mass(i, system.mass(i) + added.mass[static_cast<std::size_t>(i)]);
     }
-    added.frequency_change = taut::stability_detail::frequency_changes(
+    added.frequency_change = taut::proof_detail::frequency_changes(
         taut::Pencil::at_pose(system, state.x), taut::Pencil::at_pose(heavier, state.x));
     return found;
 }

@@ -7,8 +7,8 @@
 #include <string>
 #include <taut/guard/report.hpp>
 #include <taut/taut.hpp>
-#include <taut/model/buckling.hpp>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/buckling.hpp>
+#include <taut/network/tension_only.hpp>
 
 namespace drape {
 

@@ -11,7 +11,7 @@
 #include <taut/guard/guard.hpp>
 #include <taut/lattice/lattice.hpp>
 #include <taut/mesh_files/mesh_files.hpp>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/tension_only.hpp>
 #include <taut/taut.hpp>
 #include <vector>
 

@@ -7,9 +7,9 @@
 #include "integrator/symplectic_euler.hpp"
 #include "integrator/velocity_verlet.hpp"
 #include "scene/cloth.hpp"
-#include "stability/any_pose.hpp"
-#include "stability/energy_limit.hpp"
-#include "stability/stability.hpp"
+#include "proof/any_pose.hpp"
+#include "proof/energy_limit.hpp"
+#include "proof/stability.hpp"
 
 // What the library Taut::Compiled holds: explicit instantiations for float and double, two and
 // three dimensions, springs by Hookean, by TensionOnly, and by Hookean with Buckling; Hookean
@@ -37,23 +37,23 @@
         Index, const State<SCALAR, DIM>&, SCALAR);
 
 // What the explicit steps of all laws share.
-#define TAUT_COMPILED_SWEEP(KIND, SCALAR)                        \
-    TAUT_COMPILED_SPACE(KIND, SCALAR, 1)                         \
-    TAUT_COMPILED_SPACE(KIND, SCALAR, 2)                         \
-    TAUT_COMPILED_SPACE(KIND, SCALAR, 3)                         \
-    namespace integrator_detail::sweep {                         \
-    KIND class Layout<SCALAR>;                                   \
-    KIND class StateMemory<SCALAR>;                              \
-    KIND class PlaceUpdate<SCALAR>;                              \
-    TAUT_COMPILED_SWEEP_BY(KIND, SCALAR, KickAndDrift)           \
-    TAUT_COMPILED_SWEEP_BY(KIND, SCALAR, DriftAndKick)           \
-    TAUT_COMPILED_SWEEP_BY(KIND, SCALAR, VerletUpdate<1, false>) \
-    TAUT_COMPILED_SWEEP_BY(KIND, SCALAR, VerletUpdate<2, false>) \
-    TAUT_COMPILED_SWEEP_BY(KIND, SCALAR, VerletUpdate<1, true>)  \
-    TAUT_COMPILED_SWEEP_BY(KIND, SCALAR, VerletUpdate<0, true>)  \
-    TAUT_COMPILED_SWEEP_IN(KIND, SCALAR, 1)                      \
-    TAUT_COMPILED_SWEEP_IN(KIND, SCALAR, 2)                      \
-    TAUT_COMPILED_SWEEP_IN(KIND, SCALAR, 3)                      \
+#define TAUT_COMPILED_SWEEP(KIND, SCALAR)                                 \
+    TAUT_COMPILED_SPACE(KIND, SCALAR, 1)                                  \
+    TAUT_COMPILED_SPACE(KIND, SCALAR, 2)                                  \
+    TAUT_COMPILED_SPACE(KIND, SCALAR, 3)                                  \
+    namespace step_detail {                                               \
+    KIND class Layout<SCALAR>;                                            \
+    KIND class StateMemory<SCALAR>;                                       \
+    KIND class PlaceUpdate<SCALAR>;                                       \
+    TAUT_COMPILED_SWEEP_BY(KIND, SCALAR, integrator_detail::KickAndDrift) \
+    TAUT_COMPILED_SWEEP_BY(KIND, SCALAR, integrator_detail::DriftAndKick) \
+    TAUT_COMPILED_SWEEP_BY(KIND, SCALAR, VerletUpdate<1, false>)          \
+    TAUT_COMPILED_SWEEP_BY(KIND, SCALAR, VerletUpdate<2, false>)          \
+    TAUT_COMPILED_SWEEP_BY(KIND, SCALAR, VerletUpdate<1, true>)           \
+    TAUT_COMPILED_SWEEP_BY(KIND, SCALAR, VerletUpdate<0, true>)           \
+    TAUT_COMPILED_SWEEP_IN(KIND, SCALAR, 1)                               \
+    TAUT_COMPILED_SWEEP_IN(KIND, SCALAR, 2)                               \
+    TAUT_COMPILED_SWEEP_IN(KIND, SCALAR, 3)                               \
     }
 
 #define TAUT_COMPILED_SWEEP_BY(KIND, SCALAR, ...)                           \
@@ -79,7 +79,7 @@
     KIND void LawPlan<SCALAR, DIM, LAW>::add_forces<true>(const TileView<SCALAR>&) const;
 
 #define TAUT_COMPILED_LAWS(KIND, SCALAR)                \
-    namespace integrator_detail::sweep {                \
+    namespace step_detail {                             \
     TAUT_COMPILED_PUSHING_LAW(KIND, SCALAR, 1, Hookean) \
     TAUT_COMPILED_PUSHING_LAW(KIND, SCALAR, 2, Hookean) \
     TAUT_COMPILED_PUSHING_LAW(KIND, SCALAR, 3, Hookean) \

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "stability/bracket.hpp"
+#include "proof/bracket.hpp"
 
-// What the library Taut::Compiled holds of stability/bracket.hpp: as compiled.hpp, for who includes
+// What the library Taut::Compiled holds of proof/bracket.hpp: as compiled.hpp, for who includes
 // that.
 
 #define TAUT_COMPILED_PENCILS(KIND)                                                         \

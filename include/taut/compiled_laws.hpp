@@ -3,8 +3,8 @@
 #pragma once
 
 #include "compiled.hpp"
-#include "model/buckling.hpp"
-#include "model/tension_only.hpp"
+#include "network/buckling.hpp"
+#include "network/tension_only.hpp"
 
 // What the library Taut::Compiled holds of springs by TensionOnly, and by Hookean with Buckling: as
 // compiled.hpp, for who includes one of these laws.
@@ -12,7 +12,7 @@
 #define TAUT_COMPILED_OTHER_LAWS(KIND, SCALAR)           \
     KIND struct SpringSet<SCALAR, TensionOnly>;          \
     KIND struct SpringSet<SCALAR, Buckling>;             \
-    namespace integrator_detail::sweep {                 \
+    namespace step_detail {                              \
     TAUT_COMPILED_LAW(KIND, SCALAR, 2, TensionOnly)      \
     TAUT_COMPILED_LAW(KIND, SCALAR, 3, TensionOnly)      \
     TAUT_COMPILED_PUSHING_LAW(KIND, SCALAR, 2, Buckling) \

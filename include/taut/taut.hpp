@@ -10,12 +10,12 @@
 #include "integrator/explicit_euler.hpp"
 #include "integrator/symplectic_euler.hpp"
 #include "integrator/velocity_verlet.hpp"
-#include "model/state_view.hpp"
+#include "network/state_view.hpp"
 #include "scene/cloth.hpp"
-#include "stability/any_pose.hpp"
-#include "stability/energy_limit.hpp"
-#include "stability/rayleigh.hpp"
-#include "stability/stability.hpp"
+#include "proof/any_pose.hpp"
+#include "proof/energy_limit.hpp"
+#include "proof/rayleigh.hpp"
+#include "proof/stability.hpp"
 
 #if defined(TAUT_COMPILED)
 #include "compiled.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include <taut/method/mode.hpp>
+#include <taut/conditions/mode.hpp>
 #include <taut/tradeoff/mode_probe.hpp>
 
 #include "../support/catch.hpp"

@@ -3,8 +3,8 @@
 #include "arrays_scenes.hpp"
 
 #include <algorithm>
-#include <taut/model/spring_system.hpp>
-#include <taut/stability/bracket.hpp>
+#include <taut/network/spring_system.hpp>
+#include <taut/proof/bracket.hpp>
 
 #include "../support/scene.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 // What Stability says of a method that has no Limit.
-#include <taut/stability/stability.hpp>
+#include <taut/proof/stability.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/compiled_once.hpp"
@@ -25,7 +25,7 @@ taut::SpringSystem<double, 1> line() {
 
 }  // namespace
 
-TEST_CASE("bdf2: no step is called safe or unsafe, but by name", "[stability]") {
+TEST_CASE("bdf2: no step is called safe or unsafe, but by name", "[proof]") {
     const auto system = line();
     const taut::Stability<double> stability(system, system.initial_state());
     const auto refused = [&](auto ask) { return missing(message_of(ask), {"bdf2", "proved"}); };
@@ -38,7 +38,7 @@ TEST_CASE("bdf2: no step is called safe or unsafe, but by name", "[stability]") 
     CHECK(refused([&] { (void)stability.rayleigh_window(bdf2, 1e-3); }) == "");
 }
 
-TEST_CASE("bdf2: the radius of a system is that of its worst mode", "[stability]") {
+TEST_CASE("bdf2: the radius of a system is that of its worst mode", "[proof]") {
     const auto system = line();
     const taut::Stability<double> stability(system, system.initial_state());
     const taut::DenseAnalysis<> dense(stability.pencil());

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // EXPECT: a method has no descriptor in the list
 
-#include <taut/method/visit.hpp>
+#include <taut/conditions/visit.hpp>
 
 namespace method = taut::method;
 using Forgetful = method::List<method::ExplicitEuler, method::SymplecticEuler,

@@ -2,6 +2,6 @@
 // SPDX-License-Identifier: MIT
 // EXPECT: taut::SpringSystem<Scalar, Dim>: Dim must be 1, 2 or 3
 
-#include <taut/model/spring_system.hpp>
+#include <taut/network/spring_system.hpp>
 
 void four_dimensions() { taut::SpringSystem<double, 4> system; }

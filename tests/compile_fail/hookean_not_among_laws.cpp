@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 // EXPECT: taut::SpringSystem::add_spring: the law is not one of the system's Laws
 
-#include <taut/model/spring_system.hpp>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/spring_system.hpp>
+#include <taut/network/tension_only.hpp>
 
 #include "../support/laws.hpp"
 

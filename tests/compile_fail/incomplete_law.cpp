@@ -13,7 +13,7 @@
 // Each law lacks one member, and is told so in one sentence, whatever is done with it.
 
 #include <taut/integrator/symplectic_euler.hpp>
-#include <taut/model/spring_system.hpp>
+#include <taut/network/spring_system.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
 
 class NoParameters : public taut::Hookean {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // EXPECT: a descriptor lacks a member
 
-#include <taut/method/visit.hpp>
+#include <taut/conditions/visit.hpp>
 
 namespace method = taut::method;
 

@@ -3,7 +3,7 @@
 // EXPECT: taut::Obstacle: what surface(point) returns needs `Vector normal`
 // ERRORS: 1
 
-#include <taut/model/spring_system.hpp>
+#include <taut/network/spring_system.hpp>
 #include <taut/contact/contact.hpp>
 
 struct Depth {

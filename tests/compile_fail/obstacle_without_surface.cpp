@@ -3,7 +3,7 @@
 // EXPECT: taut::Obstacle: needs `Surface<Scalar, Dim> surface(const Vector& point) const`
 // ERRORS: 1
 
-#include <taut/model/spring_system.hpp>
+#include <taut/network/spring_system.hpp>
 #include <taut/contact/contact.hpp>
 
 struct Ground {

@@ -6,7 +6,7 @@
 #include <taut/constraints/constraints.hpp>
 #include <taut/contact/contact.hpp>
 #include <taut/guard/guard.hpp>
-#include <taut/method/visit.hpp>
+#include <taut/conditions/visit.hpp>
 #include <taut/newton/newton.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/projective/projective.hpp>

@@ -2,6 +2,6 @@
 // SPDX-License-Identifier: MIT
 // EXPECT: Absent
 
-#include <taut/method/bdf2.hpp>
+#include <taut/conditions/bdf2.hpp>
 
 taut::StepQuadratic four_multipliers() { return taut::method::Bdf2::step_quadratic(1, 0, 0.01); }

@@ -9,7 +9,7 @@
 #include <taut/newton/newton.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/taut.hpp>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/tension_only.hpp>
 
 #include "../support/laws.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 #include <taut/integrator/symplectic_euler.hpp>
-#include <taut/model/state.hpp>
+#include <taut/network/state.hpp>
 
 struct Incomplete {
     using Scalar = double;

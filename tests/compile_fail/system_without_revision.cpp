@@ -3,7 +3,7 @@
 // EXPECT: taut::System: needs `revision() const`
 
 #include <taut/integrator/symplectic_euler.hpp>
-#include <taut/model/state.hpp>
+#include <taut/network/state.hpp>
 
 struct Incomplete {
     using Scalar = double;

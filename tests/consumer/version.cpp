@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include <taut/core/version.hpp>
-#include <taut/model/state.hpp>
+#include <taut/network/state.hpp>
 
 int main() {
     const taut::State<float, 3> state{};

@@ -13,10 +13,10 @@
 #include <taut/core/revision.hpp>
 #include <taut/core/status.hpp>
 #include <taut/core/types.hpp>
-#include <taut/model/spring_system.hpp>
+#include <taut/network/spring_system.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
-#include <taut/model/buckling.hpp>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/buckling.hpp>
+#include <taut/network/tension_only.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/laws.hpp"

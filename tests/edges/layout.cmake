@@ -12,7 +12,7 @@
 # - whether a number is finite is asked of what -ffast-math folds away.
 cmake_minimum_required(VERSION 3.21)
 cmake_path(ABSOLUTE_PATH INCLUDE)
-set(rooms core method model scene solver stability integrator)
+set(rooms core conditions network scene solver proof step integrator)
 set(include "^[ \t]*#[ \t]*include[ \t]*")
 set(modules "")
 set(faults "")

@@ -7,7 +7,7 @@
 // once, sums run in another order, and each C library has its own cosine. Wherever a bound begins,
 // it is proved.
 
-#include <taut/stability/bracket.hpp>
+#include <taut/proof/bracket.hpp>
 #include <taut/taut.hpp>
 
 #include <cmath>

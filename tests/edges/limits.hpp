@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <taut/stability/bracket.hpp>
+#include <taut/proof/bracket.hpp>
 #include <taut/taut.hpp>
 #include <taut/tight/tight.hpp>
 

@@ -10,7 +10,7 @@
 #include <taut/equilibrium/equilibrium.hpp>
 #include <taut/guard/guard.hpp>
 #include <taut/integrator/implicit_euler.hpp>
-#include <taut/stability/bracket.hpp>
+#include <taut/proof/bracket.hpp>
 #include <taut/taut.hpp>
 #include <taut/tight/tight.hpp>
 

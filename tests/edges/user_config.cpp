@@ -4,7 +4,7 @@
 // Compiled without exceptions, with TAUT_USER_CONFIG: what Taut has to say reaches the engine's own
 // handlers, and nothing is written or aborted behind their back.
 
-#include <taut/model/spring_system.hpp>
+#include <taut/network/spring_system.hpp>
 
 #include <csetjmp>
 #include <cstring>

@@ -5,7 +5,7 @@
 #include <taut/lattice/chain.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/equilibrium/equilibrium.hpp>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/tension_only.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/random_system.hpp"

@@ -6,7 +6,7 @@
 #include <taut/integrator/energy_stable_euler.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/lattice/chain.hpp>
-#include <taut/stability/stability.hpp>
+#include <taut/proof/stability.hpp>
 #include <taut/taut.hpp>
 
 #include "../support/catch.hpp"

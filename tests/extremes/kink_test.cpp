@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include <taut/stability/stability.hpp>
-#include <taut/model/tension_only.hpp>
+#include <taut/proof/stability.hpp>
+#include <taut/network/tension_only.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/compiled_once.hpp"

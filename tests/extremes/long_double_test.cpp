@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <taut/definitions.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
-#include <taut/stability/bracket.hpp>
+#include <taut/proof/bracket.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/message.hpp"

@@ -5,12 +5,12 @@
 #include <taut/bdf2/bdf2.hpp>
 #include <taut/guard/guard.hpp>
 #include <taut/integrator/implicit_euler.hpp>
-#include <taut/model/state_view.hpp>
+#include <taut/network/state_view.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/scene/with_law.hpp>
 #include <taut/tight/tight.hpp>
 #include <taut/wind/wind.hpp>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/tension_only.hpp>
 #include <vector>
 
 #include "../support/catch.hpp"

@@ -10,8 +10,8 @@ ImexMatrices::ImexMatrices(const Scene& scene, double step,
     A = L = D = RealMatrix::Zero(n, n);
     const auto alpha = static_cast<Real>(scene.stiffness_proportional());
     const auto drag = static_cast<Real>(scene.mass_proportional());
-    const double rounded = scene.kind().single ? taut::stability_detail::step_rounding<float>
-                                               : taut::stability_detail::step_rounding<double>;
+    const double rounded = scene.kind().single ? taut::proof_detail::step_rounding<float>
+                                               : taut::proof_detail::step_rounding<double>;
     const Real h = static_cast<Real>(step) * static_cast<Real>(1 + rounded);
     for (Index i = 0; i < n; ++i) {
         A(i, i) = static_cast<Real>(scene.mass(i));

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "imex_scenes.hpp"
 
-#include <taut/model/state_view.hpp>
+#include <taut/network/state_view.hpp>
 
 #include "imex_on.hpp"
 

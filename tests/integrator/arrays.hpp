@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cmath>
-#include <taut/model/state_view.hpp>
+#include <taut/network/state_view.hpp>
 #include <utility>
 #include <vector>
 

@@ -7,9 +7,9 @@
 #include <taut/bdf2/bdf2.hpp>
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
-#include <taut/model/spring_system.hpp>
-#include <taut/model/buckling.hpp>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/spring_system.hpp>
+#include <taut/network/buckling.hpp>
+#include <taut/network/tension_only.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/laws.hpp"

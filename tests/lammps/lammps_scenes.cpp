@@ -6,7 +6,7 @@
 #include <taut/lattice/lattice.hpp>
 #include <taut/taut.hpp>
 #include <taut/wind/wind.hpp>
-#include <taut/stability/bracket.hpp>
+#include <taut/proof/bracket.hpp>
 
 #include "../support/scene_on.hpp"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <taut/lammps/lammps_dump.hpp>
 #include <taut/lammps/lammps_options.hpp>
-#include <taut/stability/stability.hpp>
-#include <taut/stability/bracket.hpp>
+#include <taut/proof/stability.hpp>
+#include <taut/proof/bracket.hpp>
 
 #include "../support/scene.hpp"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <string>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/tension_only.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/message.hpp"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "../stability/wild_system.hpp"
+#include "../proof/wild_system.hpp"
 #include "../support/catch.hpp"
 #include "../support/compiled_once.hpp"
 

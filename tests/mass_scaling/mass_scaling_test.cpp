@@ -110,7 +110,7 @@ TEST_CASE("mass_scaling: frequencies of a large cloth change as those of a dense
     }
     const auto state = deformed(cloth, 1.01, 0, 3);
     const auto pencil = taut::Pencil::at_pose(cloth, state.x);
-    REQUIRE(pencil.size() > taut::stability_detail::dense_low_modes);
+    REQUIRE(pencil.size() > taut::proof_detail::dense_low_modes);
     const double h =
         3 * Stability<double>(cloth, state).max_step(Method::symplectic_euler).certified;
     const auto added = added_mass(cloth, state, h);

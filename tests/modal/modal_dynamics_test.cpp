@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <taut/modal/modal_dynamics.hpp>
-#include <taut/model/spring_system.hpp>
+#include <taut/network/spring_system.hpp>
 #include <taut/lattice/chain.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
 

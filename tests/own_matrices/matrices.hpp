@@ -4,9 +4,9 @@
 
 #include <memory>
 #include <string>
-#include <taut/method/method.hpp>
-#include <taut/stability/pencil.hpp>
-#include <taut/stability/step_limit.hpp>
+#include <taut/conditions/method.hpp>
+#include <taut/proof/pencil.hpp>
+#include <taut/proof/step_limit.hpp>
 
 #include "../support/referee.hpp"
 #include "../support/scene.hpp"

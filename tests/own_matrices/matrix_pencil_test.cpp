@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include <taut/stability/bracket.hpp>
-#include <taut/stability/pencil_matrix.hpp>
+#include <taut/proof/bracket.hpp>
+#include <taut/proof/pencil_matrix.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/stability_scenes.hpp"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <filesystem>
 #include <string>
-#include <taut/integrator/sweep/force_plan.hpp>
+#include <taut/step/force_plan.hpp>
 #include <taut/scene/mesh.hpp>
 
 #include "../../examples/common/mesh_file.hpp"
@@ -12,7 +12,7 @@ namespace taut_test::garments_test {
 
 namespace {
 
-namespace sweep = taut::integrator_detail::sweep;
+namespace sweep = taut::step_detail;
 
 struct Path {
     double scattered = 0;  // share of the springs, in the order that the sweep takes
@@ -26,10 +26,10 @@ Path path_of(const std::string& name) {
     const auto mesh = example::read_obj((folder / name).string());
     const auto springs = taut::springs_from_mesh<Scalar>(
         taut::Points<Scalar, 3>(mesh.vertices.cast<Scalar>()), mesh.faces);
-    taut::Buffer<sweep::SpringEnds> ends;
+    taut::Buffer<step_detail::SpringEnds> ends;
     springs.system.for_each_set([&](const auto& set) { ends.push_back({set.a, set.b}); });
     const auto order =
-        sweep::Planner<Scalar>::order(ends, sweep::Blocks(springs.system.size()), true);
+        step_detail::Planner<Scalar>::order(ends, step_detail::Blocks(springs.system.size()), true);
     std::size_t scattered = 0;
     for (std::size_t law = 0; law < ends.size(); ++law) {
         scattered += order.laws[law].scattered().size();

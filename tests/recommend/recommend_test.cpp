@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include <string>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/tension_only.hpp>
 #include <taut/lattice/chain.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/scene/with_law.hpp>

@@ -5,7 +5,7 @@
 #include <taut/resolution/resolution.hpp>
 #include <taut/scene/with_law.hpp>
 #include <taut/wind/wind.hpp>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/tension_only.hpp>
 
 #include "../support/scene_of.hpp"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <Eigen/SparseCholesky>
 #include <algorithm>
-#include <taut/model/tangent_matrix.hpp>
+#include <taut/network/tangent_matrix.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/solver/block_ordering.hpp>
 

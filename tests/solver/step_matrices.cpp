@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "step_matrices.hpp"
 
-#include <taut/model/tangent_matrix.hpp>
+#include <taut/network/tangent_matrix.hpp>
 
 #include "../support/random_system.hpp"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <limits>
 #include <taut/integrator/implicit_euler.hpp>
-#include <taut/model/tangent_matrix.hpp>
+#include <taut/network/tangent_matrix.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/solver/conjugate_gradient.hpp>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <variant>
-#include <taut/stability/bracket.hpp>
+#include <taut/proof/bracket.hpp>
 
 #include "compiled_once.hpp"
 #include "referee.hpp"

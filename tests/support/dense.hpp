@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <taut/model/spring_system.hpp>
+#include <taut/network/spring_system.hpp>
 #include <vector>
 
 #include "scene_dense.hpp"

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <taut/integrator/energy_stable_euler.hpp>
-#include <taut/model/buckling.hpp>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/buckling.hpp>
+#include <taut/network/tension_only.hpp>
 
 #include "energy_networks.hpp"
 

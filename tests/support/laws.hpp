@@ -3,10 +3,10 @@
 #pragma once
 
 #include <cmath>
-#include <taut/model/buckling.hpp>
-#include <taut/model/hookean.hpp>
-#include <taut/model/spring_system.hpp>
-#include <taut/model/tension_only.hpp>
+#include <taut/network/buckling.hpp>
+#include <taut/network/hookean.hpp>
+#include <taut/network/spring_system.hpp>
+#include <taut/network/tension_only.hpp>
 #include <type_traits>
 
 #include "random.hpp"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <taut/method/visit.hpp>
+#include <taut/conditions/visit.hpp>
 #include <vector>
 
 namespace taut_test {

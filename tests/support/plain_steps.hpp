@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <taut/method/method.hpp>
-#include <taut/model/spring_system.hpp>
+#include <taut/conditions/method.hpp>
+#include <taut/network/spring_system.hpp>
 
 namespace taut_test {
 

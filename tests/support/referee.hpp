@@ -4,7 +4,7 @@
 
 #include <cmath>
 #include <limits>
-#include <taut/method/method.hpp>
+#include <taut/conditions/method.hpp>
 #include <taut/own_matrices/linear_system.hpp>
 #include <vector>
 

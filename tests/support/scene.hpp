@@ -9,8 +9,8 @@
 #include <memory>
 #include <string>
 #include <taut/core/status.hpp>
-#include <taut/method/method.hpp>
-#include <taut/stability/step_limit.hpp>
+#include <taut/conditions/method.hpp>
+#include <taut/proof/step_limit.hpp>
 #include <vector>
 
 #include "random.hpp"

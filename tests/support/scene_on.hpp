@@ -6,9 +6,9 @@
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/taut.hpp>
-#include <taut/model/buckling.hpp>
-#include <taut/model/tension_only.hpp>
-#include <taut/stability/bracket.hpp>
+#include <taut/network/buckling.hpp>
+#include <taut/network/tension_only.hpp>
+#include <taut/proof/bracket.hpp>
 
 #include "laws.hpp"
 #include "scene.hpp"

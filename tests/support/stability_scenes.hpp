@@ -4,7 +4,7 @@
 
 #include <string>
 #include <taut/lattice/chain.hpp>
-#include <taut/model/combination.hpp>
+#include <taut/network/combination.hpp>
 #include <taut/scene/cloth.hpp>
 
 #include "analysis.hpp"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cmath>
-#include <taut/model/spring_system.hpp>
+#include <taut/network/spring_system.hpp>
 
 namespace taut_test {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <numeric>
-#include <taut/model/spring_system.hpp>
+#include <taut/network/spring_system.hpp>
 #include <utility>
 #include <vector>
 

@@ -261,7 +261,7 @@ TEST_CASE("certificate: its allowance for rounding is that of the theory, and li
     };
     for (const Index q : {1, 2, 3, 7, 30, 1000, 30000, 1000000, 100000000}) {
         INFO(q << " in the widest row");
-        const Real computed = taut::stability_detail::cholesky_rounding(q);
+        const Real computed = taut::proof_detail::cholesky_rounding(q);
         CHECK(computed >= share(q));
         CHECK(computed <= share(q + 1) * (1 + 2 * static_cast<Real>(q + 2) * u));
     }

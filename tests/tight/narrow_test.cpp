@@ -3,7 +3,7 @@
 #include "../support/catch.hpp"
 #include "../support/stability_scenes.hpp"
 
-// Brackets narrowed by factorisations, where the truth has a closed form. See stability/limit_test.
+// Brackets narrowed by factorisations, where the truth has a closed form. See proof/limit_test.
 
 namespace taut_test::narrow_test {
 
@@ -175,7 +175,7 @@ TEST_CASE("narrow: with an indefinite K and dampers across it nothing above the 
 // Along x a spring far compressed, which pushes across, and along each other axis one at its
 // length: K = k − t there, K⁺ = k, and the certificate of explicit Euler is that of K⁺ [T17].
 TEST_CASE("narrow: what compression takes from the stiffness across certifies no explicit step",
-          "[stability]") {
+          "[proof]") {
     for (const Kind& kind : kinds_of(Laws::hookean)) {
         if (kind.dim == 1) continue;
         Random random(1312);

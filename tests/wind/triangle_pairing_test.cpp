@@ -14,8 +14,8 @@ namespace taut_test::triangle_pairing_test {
 
 namespace {
 
-namespace sweep = taut::integrator_detail::sweep;
-using Triangles = std::vector<sweep::PlacedTriangle>;
+namespace sweep = taut::step_detail;
+using Triangles = std::vector<step_detail::PlacedTriangle>;
 
 Triangles grid(int rows, int columns) {
     taut::ClothOptions options;
@@ -45,7 +45,7 @@ Triangles sorted(Triangles triangles) {
 }
 
 /// The triangles of pairs that have an area, and how many are alone.
-std::pair<Triangles, int> opened(const std::vector<sweep::TrianglePair>& pairs) {
+std::pair<Triangles, int> opened(const std::vector<step_detail::TrianglePair>& pairs) {
     Triangles triangles;
     int alone = 0;
     for (const auto& [corner] : pairs) {
@@ -70,7 +70,7 @@ TEST_CASE("pairs of triangles hold each triangle once, whatever the mesh", "[int
         Triangles triangles;
         const Index particles = 3 + random.below(40);
         for (Index t = random.below(120); t > 0; --t) {  // edges of many triangles, copies too
-            sweep::PlacedTriangle triangle;
+            step_detail::PlacedTriangle triangle;
             for (int& corner : triangle) corner = static_cast<int>(random.below(particles));
             if (triangle[0] == triangle[1] || triangle[1] == triangle[2] ||
                 triangle[2] == triangle[0]) {
@@ -79,8 +79,9 @@ TEST_CASE("pairs of triangles hold each triangle once, whatever the mesh", "[int
             triangles.push_back(triangle);
             if (random.below(5) == 0) triangles.push_back(triangle);
         }
-        CHECK(sorted(opened(sweep::pair_triangles(triangles)).first) == sorted(triangles));
-        CHECK(sorted(opened(sweep::TrianglePairing(triangles).pairs()).first) == sorted(triangles));
+        CHECK(sorted(opened(step_detail::pair_triangles(triangles)).first) == sorted(triangles));
+        CHECK(sorted(opened(step_detail::TrianglePairing(triangles).pairs()).first) ==
+              sorted(triangles));
     }
 }
 
@@ -88,9 +89,9 @@ TEST_CASE("few triangles of a mesh stay alone, in order or not", "[integrator]")
     Random random(82);
     for (const int rows : {2, 9, 60}) {
         auto triangles = grid(rows, 41);
-        CHECK(opened(sweep::pair_triangles(triangles)).second == 0);
+        CHECK(opened(step_detail::pair_triangles(triangles)).second == 0);
         shuffle(random, triangles);
-        const auto [all, alone] = opened(sweep::pair_triangles(triangles));
+        const auto [all, alone] = opened(step_detail::pair_triangles(triangles));
         CHECK(sorted(all) == sorted(triangles));
         CHECK(alone <= static_cast<int>(triangles.size()) / 20);
     }

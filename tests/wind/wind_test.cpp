@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include <taut/integrator/symplectic_euler.hpp>
-#include <taut/model/spring_system.hpp>
+#include <taut/network/spring_system.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/wind/wind.hpp>
 
@@ -53,7 +53,7 @@ struct Plate {
 
 }  // namespace
 
-TEST_CASE("wind: the force is the formula's, a third on each corner", "[model]") {
+TEST_CASE("wind: the force is the formula's, a third on each corner", "[network]") {
     Random random(61);
     for (int scene = 0; scene < 200; ++scene) {
         Plate plate(random, random.uniform(0, 2), random.uniform(0, 2));
@@ -71,7 +71,7 @@ TEST_CASE("wind: the force is the formula's, a third on each corner", "[model]")
     }
 }
 
-TEST_CASE("wind: drag goes with the flow, and lift takes no power from it", "[model]") {
+TEST_CASE("wind: drag goes with the flow, and lift takes no power from it", "[network]") {
     Random random(62);
     for (int scene = 0; scene < 200; ++scene) {
         Plate drag(random, 1, 0);
@@ -82,7 +82,7 @@ TEST_CASE("wind: drag goes with the flow, and lift takes no power from it", "[mo
     }
 }
 
-TEST_CASE("wind: neither the way round nor the frame of reference matters", "[model]") {
+TEST_CASE("wind: neither the way round nor the frame of reference matters", "[network]") {
     Random random(63);
     for (int scene = 0; scene < 100; ++scene) {
         Plate plate(random, 1.2, 0.7);
@@ -104,7 +104,7 @@ TEST_CASE("wind: neither the way round nor the frame of reference matters", "[mo
     }
 }
 
-TEST_CASE("wind: without area, flow or density there is no force, and no NaN", "[model]") {
+TEST_CASE("wind: without area, flow or density there is no force, and no NaN", "[network]") {
     Random random(64);
     Plate flat(random, 1, 1);
     flat.state.x.col(2) = flat.state.x.col(0);
@@ -122,7 +122,7 @@ TEST_CASE("wind: without area, flow or density there is no force, and no NaN", "
     CHECK_FALSE(calm.system.has_external_force());
 }
 
-TEST_CASE("wind: bad values are refused by name", "[model]") {
+TEST_CASE("wind: bad values are refused by name", "[network]") {
     using Catch::Contains;
     Random random(65);
     Plate plate(random, 1, 1);
@@ -144,7 +144,7 @@ TEST_CASE("wind: bad values are refused by name", "[model]") {
                       Contains("set_wind_velocity"));
 }
 
-TEST_CASE("external forces add up, and each change is one of the force alone", "[model]") {
+TEST_CASE("external forces add up, and each change is one of the force alone", "[network]") {
     Random random(66);
     Plate plate(random, 1, 1);
     auto& system = plate.system;

@@ -9,7 +9,7 @@
 
 #include "../core/detail/bisection.hpp"
 #include "../core/error.hpp"
-#include "../method/visit.hpp"
+#include "../conditions/visit.hpp"
 #include "detail/multiplier.hpp"
 
 // How well each integrator follows one mode ẍ + 2ζω ẋ + ω² x = 0, from its exact multiplier [T25].

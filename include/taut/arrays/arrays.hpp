@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "../core/types.hpp"
-#include "../method/method.hpp"
-#include "../model/damping.hpp"
-#include "../stability/pencil.hpp"
+#include "../conditions/method.hpp"
+#include "../network/damping.hpp"
+#include "../proof/pencil.hpp"
 #include "array_view.hpp"
 
 // Limits of a scene that a program keeps in arrays of its own: no SpringSystem is built.

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "../method/bdf2.hpp"
+#include "../conditions/bdf2.hpp"
 #include "../integrator/detail/last_state.hpp"
 #include "../integrator/detail/linear_solve.hpp"
 #include "../integrator/detail/spring_equation.hpp"

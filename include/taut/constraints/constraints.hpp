@@ -4,7 +4,7 @@
 
 #include "../integrator/detail/linearised_step.hpp"
 #include "../integrator/detail/step_loop.hpp"
-#include "../method/implicit_euler.hpp"
+#include "../conditions/implicit_euler.hpp"
 #include "detail/held_particles.hpp"
 
 namespace taut {

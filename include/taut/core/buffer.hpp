@@ -16,7 +16,7 @@ namespace detail {
 
 /// Memory for `bytes`, as Eigen aligns it, that begins with what `old` held, and which takes the
 /// place of `old`. Plain: all element types share it.
-TAUT_COLD inline void* regrow(void* old, std::size_t used, std::size_t bytes) {
+TAUT_COLD TAUT_NOINLINE inline void* regrow(void* old, std::size_t used, std::size_t bytes) {
     void* grown = bytes > 0 ? Eigen::internal::aligned_malloc(bytes) : nullptr;
     if (used > 0) std::memcpy(grown, old, used);
     Eigen::internal::aligned_free(old);
@@ -168,7 +168,7 @@ private:
         if (i >= size_) detail::bad_index();
 #endif
     }
-    TAUT_COLD TAUT_NOINLINE void set_capacity(std::size_t capacity) {
+    void set_capacity(std::size_t capacity) {
         data_ = static_cast<T*>(detail::regrow(data_, size_ * sizeof(T), capacity * sizeof(T)));
         capacity_ = capacity;
     }

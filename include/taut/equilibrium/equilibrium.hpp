@@ -9,8 +9,8 @@
 
 #include "../core/detail/fits.hpp"
 #include "../core/status.hpp"
-#include "../model/spring_system.hpp"
-#include "../model/tangent_matrix.hpp"
+#include "../network/spring_system.hpp"
+#include "../network/tangent_matrix.hpp"
 
 namespace taut {
 

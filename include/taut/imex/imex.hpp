@@ -11,8 +11,8 @@
 #include "../core/buffer.hpp"
 #include "../integrator/detail/explicit_steps.hpp"
 #include "../solver/interleaved_llt.hpp"
-#include "../stability/detail/symplectic_limit.hpp"
-#include "../stability/pencil.hpp"
+#include "../proof/detail/symplectic_limit.hpp"
+#include "../proof/pencil.hpp"
 #include "detail/spring_shares.hpp"
 
 namespace taut {
@@ -44,7 +44,7 @@ struct ImexOptions {
 template <class System>
 class ImexEuler {
     static_assert((require_system<System>(), true));
-    static_assert(model_detail::is_spring_system_v<System>,
+    static_assert(network_detail::is_spring_system_v<System>,
                   "taut::ImexEuler: needs the springs of a SpringSystem");
 
 public:
@@ -140,7 +140,7 @@ void ImexEuler<System>::find_shares() {
         const auto laplacian = Pencil::any_pose(*system_, Pencil::Damping::half);
         const auto rest = laplacian.explicit_part(parts);
         // Half of it: as energy_limit.
-        const double half = stability_detail::certified_symplectic(rest).h / 2;
+        const double half = proof_detail::certified_symplectic(rest).h / 2;
         certified = laplacian.lost().empty() ? (std::min)(certified, half) : 0;
     }
     links_ = shares.links();
@@ -148,7 +148,7 @@ void ImexEuler<System>::find_shares() {
     limit_.revision = system_->revision();
     limit_.refuted = std::numeric_limits<Scalar>::infinity();
     limit_.certified = certified == options_.step ? static_cast<Scalar>(certified)
-                                                  : stability_detail::round_down<Scalar>(certified);
+                                                  : proof_detail::round_down<Scalar>(certified);
 }
 
 template <class System>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "../method/energy_stable_euler.hpp"
+#include "../conditions/energy_stable_euler.hpp"
 #include "detail/explicit_steps.hpp"
 
 namespace taut {
@@ -21,7 +21,7 @@ namespace taut {
 template <class System>
 class EnergyStableEuler {
     static_assert((require_system<System>(), true));
-    static_assert(model_detail::is_spring_system_v<System>,
+    static_assert(network_detail::is_spring_system_v<System>,
                   "taut::EnergyStableEuler: needs the springs of a SpringSystem");
 
 public:
@@ -41,7 +41,7 @@ public:
     template <class AnyState>
     Report step(AnyState& state, Scalar h, Index count = 1);
     /// For the guard, which books the work of a SpringSystem's steps.
-    void watch(integrator_detail::sweep::StepWatch<Scalar, System::Dim>* by) { steps_.watch(by); }
+    void watch(step_detail::StepWatch<Scalar, System::Dim>* by) { steps_.watch(by); }
 
 private:
     const System* system_;

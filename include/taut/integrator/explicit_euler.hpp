@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "../method/explicit_euler.hpp"
+#include "../conditions/explicit_euler.hpp"
 #include "detail/explicit_steps.hpp"
 
 namespace taut {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "../method/implicit_euler.hpp"
+#include "../conditions/implicit_euler.hpp"
 #include "detail/linearised_step.hpp"
 #include "detail/step_loop.hpp"
 

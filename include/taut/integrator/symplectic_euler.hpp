@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "../method/symplectic_euler.hpp"
+#include "../conditions/symplectic_euler.hpp"
 #include "detail/explicit_steps.hpp"
 
 namespace taut {
@@ -32,7 +32,7 @@ public:
     template <class AnyState>
     Report step(AnyState& state, Scalar h, Index count = 1);
     /// For the guard, which books the work of a SpringSystem's steps.
-    void watch(integrator_detail::sweep::StepWatch<Scalar, System::Dim>* by) { steps_.watch(by); }
+    void watch(step_detail::StepWatch<Scalar, System::Dim>* by) { steps_.watch(by); }
 
 private:
     const System* system_;

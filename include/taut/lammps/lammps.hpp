@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "../core/detail/fits.hpp"
-#include "../stability/any_pose.hpp"
+#include "../proof/any_pose.hpp"
 #include "detail/lammps_data.hpp"
 #include "detail/lammps_script.hpp"
 #include "lammps_dump.hpp"

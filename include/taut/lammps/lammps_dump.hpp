@@ -9,7 +9,7 @@
 
 #include "../core/buffer.hpp"
 #include "../core/error.hpp"
-#include "../model/state.hpp"
+#include "../network/state.hpp"
 #include "detail/text_lines.hpp"
 
 namespace taut {

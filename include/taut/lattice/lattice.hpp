@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "../model/spring_system.hpp"
+#include "../network/spring_system.hpp"
 #include "chain.hpp"
 
 namespace taut {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "../core/buffer.hpp"
-#include "../model/free_particles.hpp"
-#include "../model/spring_system.hpp"
-#include "../stability/pencil.hpp"
+#include "../network/free_particles.hpp"
+#include "../network/spring_system.hpp"
+#include "../proof/pencil.hpp"
 #include "detail/low_modes.hpp"
 
 namespace taut {
@@ -89,7 +89,7 @@ AddedMass added_mass(const SpringSystem<Scalar, Dim, Laws...>& system,
     added.total = best;
     auto heavier = system;
     for (const Index i : free) heavier.set_mass(i, sum(i));
-    added.frequency_change = stability_detail::frequency_changes(
+    added.frequency_change = proof_detail::frequency_changes(
         pencil, Pencil::at_pose(heavier, state.x.template cast<TangentReal<Scalar>>()));
     return added;
 }

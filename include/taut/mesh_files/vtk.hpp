@@ -6,7 +6,7 @@
 
 #include "../core/detail/fits.hpp"
 #include "../core/error.hpp"
-#include "../model/spring_system.hpp"
+#include "../network/spring_system.hpp"
 #include "detail/number_text.hpp"
 #include "detail/output_file.hpp"
 

@@ -9,7 +9,7 @@
 #include "../core/status.hpp"
 #include "../own_matrices/linear_system.hpp"
 #include "modal_basis.hpp"
-#include "../model/state.hpp"
+#include "../network/state.hpp"
 #include "detail/mode_propagator.hpp"
 
 namespace taut {

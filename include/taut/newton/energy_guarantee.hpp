@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "../model/spring_system.hpp"
+#include "../network/spring_system.hpp"
 
 namespace taut {
 
@@ -17,7 +17,7 @@ inline constexpr bool energy_never_rises_v = false;
 
 template <class Scalar, int Dim, class... Laws>
 inline constexpr bool energy_never_rises_v<SpringSystem<Scalar, Dim, Laws...>> =
-    sizeof...(Laws) > 0 && (model_detail::usable_law<Laws, Scalar>::convex && ...);
+    sizeof...(Laws) > 0 && (network_detail::usable_law<Laws, Scalar>::convex && ...);
 
 template <class System>
 inline constexpr bool energy_never_rises_v<const System> = energy_never_rises_v<System>;

@@ -9,7 +9,7 @@
 #include "../constraints/detail/held_particles.hpp"
 #include "../integrator/detail/linearised_step.hpp"
 #include "../integrator/detail/step_loop.hpp"
-#include "../method/implicit_euler.hpp"
+#include "../conditions/implicit_euler.hpp"
 #include "../solver/sparse_cholesky.hpp"
 #include "detail/newton_method.hpp"
 
@@ -25,7 +25,7 @@ namespace taut {
 /// @tparam Solver  as for ImplicitEuler; a direct one lets the iterations converge quadratically
 template <class System, class Solver = SparseCholesky<typename System::Scalar>>
 class NewtonEuler {
-    static_assert(model_detail::is_spring_system_v<System>,
+    static_assert(network_detail::is_spring_system_v<System>,
                   "taut::NewtonEuler: needs a SpringSystem; for matrices one linear solve is "
                   "exact: taut::ImplicitEuler");
 

@@ -13,8 +13,8 @@
 #include "../core/error.hpp"
 #include "../core/revision.hpp"
 #include "../integrator/detail/step_equation.hpp"
-#include "../model/free_particles.hpp"
-#include "../model/state.hpp"
+#include "../network/free_particles.hpp"
+#include "../network/state.hpp"
 #include "../solver/sparse_cholesky.hpp"
 
 namespace taut {

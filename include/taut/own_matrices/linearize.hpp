@@ -4,8 +4,8 @@
 
 #include <utility>
 
-#include "../model/spring_system.hpp"
-#include "../model/tangent_matrix.hpp"
+#include "../network/spring_system.hpp"
+#include "../network/tangent_matrix.hpp"
 #include "linear_system.hpp"
 
 namespace taut {

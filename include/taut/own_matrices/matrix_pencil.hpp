@@ -8,7 +8,7 @@
 #include <memory>
 #include <optional>
 
-#include "../stability/pencil.hpp"
+#include "../proof/pencil.hpp"
 #include "../tight/certificate.hpp"
 #include "detail/unproved.hpp"
 #include "linear_system.hpp"
@@ -40,8 +40,8 @@ public:
     std::shared_ptr<const BareMatrices> scaled(double stiffness, double mass,
                                                bool rayleigh) const override;
     void amend(Method method, const Pencil& pencil,
-               stability_detail::UnroundedLimit& limit) const override {
-        stability_detail::amend_for_matrices(method, pencil, limit);
+               proof_detail::UnroundedLimit& limit) const override {
+        proof_detail::amend_for_matrices(method, pencil, limit);
     }
 
 private:
@@ -77,7 +77,7 @@ private:
 template <class Scalar>
 Pencil MatrixPencil<Scalar>::of(const LinearSystem<Scalar>& system) {
     std::shared_ptr<MatrixPencil> own(new MatrixPencil(system));
-    stability_detail::RangeCheck check;
+    proof_detail::RangeCheck check;
     for_each_entry(system.stiffness(),
                    [&](Scalar k, Index row) { check.in_range(k, "stiffness in row", row); });
     for_each_entry(system.damping(),

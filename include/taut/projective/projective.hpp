@@ -8,11 +8,11 @@
 
 #include "../integrator/detail/factor_cache.hpp"
 #include "../integrator/detail/step_loop.hpp"
-#include "../method/implicit_euler.hpp"
-#include "../model/free_particles.hpp"
+#include "../conditions/implicit_euler.hpp"
+#include "../network/free_particles.hpp"
 #include "../newton/detail/step_objective.hpp"
 #include "../solver/interleaved_llt.hpp"
-#include "../stability/pencil_matrix.hpp"
+#include "../proof/pencil_matrix.hpp"
 #include "detail/limited_memory.hpp"
 
 namespace taut {
@@ -36,7 +36,7 @@ namespace taut {
 template <class System, class Solver = InterleavedLLT<typename System::Scalar>>
 class ProjectiveDynamics {
     static_assert(
-        model_detail::is_spring_system_v<std::decay_t<System>>,
+        network_detail::is_spring_system_v<std::decay_t<System>>,
         "taut::ProjectiveDynamics: needs a SpringSystem; for matrices one linear solve is "
         "exact: taut::ImplicitEuler");
 

@@ -10,7 +10,7 @@
 #include "../integrator/implicit_euler.hpp"
 #include "../integrator/symplectic_euler.hpp"
 #include "../integrator/velocity_verlet.hpp"
-#include "../method/visit.hpp"
+#include "../conditions/visit.hpp"
 #include "../solver/conjugate_gradient.hpp"
 #include "../solver/sparse_cholesky.hpp"
 
@@ -87,7 +87,7 @@ void with_stepper(const System& system, const Candidate& candidate, Action&& act
     method::visit(candidate.method, [&](auto descriptor) {
         using Descriptor = decltype(descriptor);
         if constexpr (Descriptor::method == Method::energy_stable_euler &&
-                      !model_detail::is_spring_system_v<System>) {
+                      !network_detail::is_spring_system_v<System>) {
             fail("with_stepper: ", Descriptor::name, " needs the springs of a SpringSystem");
         } else {
             if constexpr (Descriptor::is_implicit) {

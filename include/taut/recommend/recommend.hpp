@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "../stability/any_pose.hpp"
-#include "../stability/energy_limit.hpp"
-#include "../stability/rayleigh.hpp"
+#include "../proof/any_pose.hpp"
+#include "../proof/energy_limit.hpp"
+#include "../proof/rayleigh.hpp"
 #include "choose.hpp"
 #include "cost.hpp"
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <type_traits>
 
-#include "../model/buckling.hpp"
-#include "../model/hookean.hpp"
+#include "../network/buckling.hpp"
+#include "../network/hookean.hpp"
 
 namespace taut {
 

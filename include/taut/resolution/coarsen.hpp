@@ -9,7 +9,7 @@
 #include "../core/buffer.hpp"
 #include "../core/detail/fits.hpp"
 #include "../core/error.hpp"
-#include "../model/spring_system.hpp"
+#include "../network/spring_system.hpp"
 #include "detail/coarse_springs.hpp"
 #include "detail/lift.hpp"
 #include "detail/spring_graph.hpp"

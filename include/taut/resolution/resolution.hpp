@@ -11,7 +11,7 @@
 
 #include "../core/clock.hpp"
 #include "../integrator/energy_stable_euler.hpp"
-#include "../stability/energy_limit.hpp"
+#include "../proof/energy_limit.hpp"
 #include "levels.hpp"
 
 namespace taut {

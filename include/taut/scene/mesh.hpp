@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "../core/buffer.hpp"
-#include "../model/spring_system.hpp"
+#include "../network/spring_system.hpp"
 
 namespace taut {
 

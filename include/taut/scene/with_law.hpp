@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "../model/spring_system.hpp"
+#include "../network/spring_system.hpp"
 
 namespace taut {
 

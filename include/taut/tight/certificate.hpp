@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "../stability/pencil_matrix.hpp"
+#include "../proof/pencil_matrix.hpp"
 #include "eigen_cholesky.hpp"
 
 namespace taut {
@@ -17,7 +17,7 @@ struct DefinitenessProof {
     double least_pivot = 0;  ///< squared, of the unit-diagonal matrix: 1 is far from singular
 };
 
-namespace stability_detail {
+namespace proof_detail {
 
 /// γ/(1 − γ) with γ = (q + 1)u/(1 − (q + 1)u), rounded up [T22]: u of rounding in any direction.
 inline double cholesky_rounding(Index q) {
@@ -26,7 +26,7 @@ inline double cholesky_rounding(Index q) {
     return gamma / (1 - 3 * gamma);
 }
 
-}  // namespace stability_detail
+}  // namespace proof_detail
 
 /// Proves symmetric matrices positive definite, rounding included: a floating-point Cholesky
 /// factorisation of A − cI that runs to completion, with c above all that rounding can hide
@@ -80,8 +80,8 @@ DefinitenessProof Prover::operator()(SparseMatrix<double>&& A, Error&& max_error
     // The last two terms: rounding of A − cI on a diagonal below 4, and underflow.
     const double underflow =
         static_cast<double>(N * (widest_ + 1)) * (std::numeric_limits<double>::min)();
-    proof.shift = (slack + stability_detail::cholesky_rounding(widest_) * trace) * (1 + 8 * u) +
-                  4 * u + underflow;
+    proof.shift = (slack + proof_detail::cholesky_rounding(widest_) * trace) * (1 + 8 * u) + 4 * u +
+                  underflow;
     if (!(proof.shift < 0.5)) return proof;
     A.diagonal().array() -= proof.shift;
     ++factorizations_;

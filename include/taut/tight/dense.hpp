@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <complex>
 
-#include "../stability/pencil_matrix.hpp"
+#include "../proof/pencil_matrix.hpp"
 #include "detail/step_matrix.hpp"
 
 namespace taut {

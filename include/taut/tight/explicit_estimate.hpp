@@ -8,9 +8,9 @@
 #include <complex>
 #include <limits>
 
-#include "../method/mode.hpp"
+#include "../conditions/mode.hpp"
 #include "detail/arnoldi.hpp"
-#include "../stability/pencil_matrix.hpp"
+#include "../proof/pencil_matrix.hpp"
 
 namespace taut {
 /// An estimate, s, of the largest stable step of explicit Euler under any damping, for systems too
@@ -54,8 +54,7 @@ Real explicit_estimate(const Pencil& pencil, Real k_max) {
         return solution;
     };
     double h = std::numeric_limits<double>::infinity();
-    const auto lower = [&](const stability_detail::ComplexRitzPairs<Real>& pairs,
-                           auto&& eigenvalue) {
+    const auto lower = [&](const proof_detail::ComplexRitzPairs<Real>& pairs, auto&& eigenvalue) {
         for (Index j = 0; j < pairs.value.size(); ++j) {
             const std::complex<Real> lambda = eigenvalue(pairs.value[j]);
             if (!((std::abs)(lambda) > zero * omega)) continue;
@@ -72,9 +71,9 @@ Real explicit_estimate(const Pencil& pencil, Real k_max) {
                                             form(matrices::D) / m));
         }
     };
-    lower(stability_detail::arnoldi<Real>(forwards, 2 * N, steps),
+    lower(proof_detail::arnoldi<Real>(forwards, 2 * N, steps),
           [](std::complex<Real> value) { return value; });
-    lower(stability_detail::arnoldi<Real>(backwards, 2 * N, steps),
+    lower(proof_detail::arnoldi<Real>(backwards, 2 * N, steps),
           [&](std::complex<Real> value) { return sigma + 1.0 / value; });
     return h;
 }

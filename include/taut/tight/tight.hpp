@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "../method/mode.hpp"
-#include "../stability/bracket.hpp"
+#include "../conditions/mode.hpp"
+#include "../proof/bracket.hpp"
 #include "certificate.hpp"
 #include "dense.hpp"
 #include "detail/factorisations.hpp"
@@ -28,8 +28,8 @@ template <class Scalar>
 StepLimit<Scalar> max_step(const Stability<Scalar>& stability, Method method, double tightness) {
     require_non_negative("max_step", "tightness", tightness);
     if (tightness == 0) return bracket(stability, method);
-    stability_detail::Factorisations<> effort(tightness);
-    return stability_detail::bracket(stability, method, effort);
+    proof_detail::Factorisations<> effort(tightness);
+    return proof_detail::bracket(stability, method, effort);
 }
 
 /// any_pose_limit(system), narrowed by factorisations of n × n matrices until refuted/certified ≤
@@ -39,9 +39,9 @@ StepLimit<Scalar> any_pose_limit(const SpringSystem<Scalar, Dim, Laws...>& syste
                                  double tightness) {
     require_non_negative("any_pose_limit", "tightness", tightness);
     if (tightness == 0) return any_pose_bracket(system);
-    stability_detail::Factorisations<> effort(tightness);
-    return stability_detail::bracket_of_laplacians<Scalar>(Pencil::any_pose(system), effort,
-                                                           system.revision());
+    proof_detail::Factorisations<> effort(tightness);
+    return proof_detail::bracket_of_laplacians<Scalar>(Pencil::any_pose(system), effort,
+                                                       system.revision());
 }
 
 /// energy_limit(system), narrowed as any_pose_limit's bracket is [T22].
@@ -50,8 +50,8 @@ template <class Scalar, int Dim, class... Laws>
 StepLimit<Scalar> energy_limit(const SpringSystem<Scalar, Dim, Laws...>& system, double tightness) {
     require_non_negative("energy_limit", "tightness", tightness);
     if (tightness == 0) return energy_bracket(system);
-    stability_detail::Factorisations<> effort(tightness);
-    return stability_detail::bracket_of_laplacians<Scalar>(
+    proof_detail::Factorisations<> effort(tightness);
+    return proof_detail::bracket_of_laplacians<Scalar>(
         Pencil::any_pose(system, Pencil::Damping::half), effort, system.revision(), 0.5);
 }
 
@@ -72,13 +72,13 @@ Certificate certify(const Stability<Scalar>& stability, Method method, double h)
     const StepLimit<Scalar> bound = bracket(stability, method);
     if (!(h < static_cast<double>(bound.refuted))) return certificate;
     const Pencil& pencil = stability.pencil();
-    const double wide = h * (1 + stability_detail::step_rounding<Scalar>);
+    const double wide = h * (1 + proof_detail::step_rounding<Scalar>);
     // An h² that underflows would leave the stiffness out.
     if (method::is_limited_by<method::LimitedByStiffness>(method) &&
         h * h >= (std::numeric_limits<double>::min)() && pencil.damping_semidefinite() &&
         pencil.projected_semidefinite()) {
         Prover prover;
-        certificate.proved = stability_detail::proves_symplectic(pencil, prover, wide);
+        certificate.proved = proof_detail::proves_symplectic(pencil, prover, wide);
         return certificate;
     }
     // A bracket narrowed to its distance from h may still contain h: the refuting end moves too.
@@ -97,8 +97,8 @@ Certificate certify(const Stability<Scalar>& stability, Method method, double h)
 template <class Scalar>
 Index count_zero_modes(const Stability<Scalar>& stability) {
     if (stability.size() == 0) return 0;
-    return stability_detail::count_zero_modes(stability.pencil(),
-                                              stiffness_spectrum(stability).k_max.upper);
+    return proof_detail::count_zero_modes(stability.pencil(),
+                                          stiffness_spectrum(stability).k_max.upper);
 }
 
 /// Largest |μ| of one step of size h, s, apart from zero modes; of BDF2 too. Exact to rounding up
@@ -117,7 +117,7 @@ double spectral_radius(const Stability<Scalar>& stability, Method method, double
     double radius = 0;
     for (const double sign : {1.0, -1.0}) {
         const RitzPair end = largest_ritz_pair(pencil, sign * matrices::K_plus);
-        const auto [k, d] = stability_detail::quotients(pencil, end.vector, matrices::K_plus);
+        const auto [k, d] = proof_detail::quotients(pencil, end.vector, matrices::K_plus);
         if ((std::abs)(k.value) <= k.error && (std::abs)(d.value) <= d.error)
             continue;  // a zero mode
         radius = (std::max)(radius, spectral_radius(method, k.value, d.value, h));

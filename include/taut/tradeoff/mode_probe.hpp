@@ -12,8 +12,8 @@
 
 #include "../mass_scaling/detail/low_modes.hpp"
 #include "../own_matrices/linear_system.hpp"
-#include "../stability/mode.hpp"
-#include "../stability/pencil.hpp"
+#include "../proof/mode.hpp"
+#include "../proof/pencil.hpp"
 #include "../accuracy/accuracy.hpp"
 #include "../recommend/candidate.hpp"
 
@@ -56,7 +56,7 @@ std::vector<Mode> lowest_modes(const SpringSystem<Scalar, Dim, Laws...>& system,
                                const State<Scalar, Dim>& state, Index count) {
     const auto pencil = Pencil::at_pose(system, state.x.template cast<TangentReal<Scalar>>());
     std::vector<Mode> modes;
-    const Eigen::MatrixXd shapes = stability_detail::low_modes(pencil);
+    const Eigen::MatrixXd shapes = proof_detail::low_modes(pencil);
     Eigen::VectorXd y;
     for (Index j = 0; j < std::min<Index>(count, shapes.cols()); ++j) {
         Mode mode;

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "../own_matrices/linearize.hpp"
-#include "../stability/any_pose.hpp"
+#include "../proof/any_pose.hpp"
 #include "../core/clock.hpp"
 #include "extrapolation.hpp"
 #include "mode_probe.hpp"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "../model/spring_system.hpp"
+#include "../network/spring_system.hpp"
 
 namespace taut {
 

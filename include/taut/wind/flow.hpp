@@ -32,7 +32,7 @@ struct Wind {
     bool blows() const { return !triangles.empty() && density > 0 && (drag > 0 || lift > 0); }
 };
 
-namespace model_detail {
+namespace network_detail {
 
 /// The larger of two numbers; registers have their own.
 template <class Real>
@@ -124,5 +124,5 @@ void add_wind(const Air<Scalar>& air, const std::vector<Triangle>& triangles,
     }
 }
 
-}  // namespace model_detail
+}  // namespace network_detail
 }  // namespace taut

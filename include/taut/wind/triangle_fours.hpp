@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "../integrator/sweep/quad.hpp"
-#include "../integrator/sweep/tile.hpp"
+#include "../step/quad.hpp"
+#include "../step/tile.hpp"
 #include "triangles.hpp"
 
-namespace taut::integrator_detail::sweep {
+namespace taut::step_detail {
 
 /// Pairs of triangles four at a time, a lane each, on planes of points.
 template <class Scalar>
@@ -84,13 +84,13 @@ private:
         return v;
     }
     /// The lanes of one register in vectors that are transposed.
-    static EIGEN_ALWAYS_INLINE model_detail::Axes<Part> part(const Vectors& v, int n) {
+    static EIGEN_ALWAYS_INLINE network_detail::Axes<Part> part(const Vectors& v, int n) {
         return {v[0].part[n], v[1].part[n], v[2].part[n]};
     }
     /// Back to points: parts of all x, of all y, of all z.
     template <int... n>
     static EIGEN_ALWAYS_INLINE Vectors
-    points(const std::array<model_detail::Axes<Part>, Point::parts>& axes, Numbers<n...>) {
+    points(const std::array<network_detail::Axes<Part>, Point::parts>& axes, Numbers<n...>) {
         const Part zero(Scalar(0));
         return transposed({Point{{axes[n][0]...}}, Point{{axes[n][1]...}}, Point{{axes[n][2]...}},
                            Point{{(static_cast<void>(n), zero)...}}});
@@ -180,4 +180,4 @@ EIGEN_ALWAYS_INLINE void TriangleFours<Scalar>::add_four(const WindView<Scalar>&
     add(forces, four[3], on_d, all);
 }
 
-}  // namespace taut::integrator_detail::sweep
+}  // namespace taut::step_detail

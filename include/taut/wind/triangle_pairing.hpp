@@ -11,7 +11,7 @@
 
 #include "triangles.hpp"
 
-namespace taut::integrator_detail::sweep {
+namespace taut::step_detail {
 
 /// Pairs the triangles of an irregular mesh, so that few are left alone: next comes always one with
 /// the fewest neighbours that are left, and it takes that with the fewest.
@@ -121,4 +121,4 @@ inline std::vector<TrianglePair> pair_triangles(const std::vector<PlacedTriangle
     return pairs;
 }
 
-}  // namespace taut::integrator_detail::sweep
+}  // namespace taut::step_detail

@@ -7,11 +7,11 @@
 #include <tuple>
 #include <vector>
 
-#include "../integrator/sweep/register.hpp"
-#include "../integrator/sweep/tile.hpp"
+#include "../step/register.hpp"
+#include "../step/tile.hpp"
 #include "triangles.hpp"
 
-namespace taut::integrator_detail::sweep {
+namespace taut::step_detail {
 
 /// Pairs of triangles whose corners lie side by side in planes, as many as a register has lanes: a
 /// row, as in a grid. A pair without neighbours is a row of its own.
@@ -42,7 +42,7 @@ private:
         std::array<int, 4> first;  // corners of the first lane
         int lanes;                 // where lanes_ says which lanes have a pair; −1: all
     };
-    using Vector = model_detail::Axes<Register>;
+    using Vector = network_detail::Axes<Register>;
 
     static EIGEN_ALWAYS_INLINE Vector load(const Planes<const Scalar>& planes, int place) {
         const auto at = planes.at(place);
@@ -140,4 +140,4 @@ EIGEN_ALWAYS_INLINE void TriangleRows<Scalar>::add_row(const WindView<Scalar>& v
     add(view, view.force_b, d, on_d);
 }
 
-}  // namespace taut::integrator_detail::sweep
+}  // namespace taut::step_detail

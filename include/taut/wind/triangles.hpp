@@ -8,20 +8,20 @@
 #include <utility>
 #include <vector>
 
-#include "../integrator/sweep/tile.hpp"
+#include "../step/tile.hpp"
 #include "flow.hpp"
 
 // The wind in a sweep. Triangles are computed in pairs with an edge in common, a register of pairs
 // at a time; a pair between two blocks in both, like a spring. Words beside those of
-// integrator/sweep/sweep.hpp:
+// step/sweep.hpp:
 //
 //   pair          two triangles with an edge in common
 //   row           pairs side by side in planes: a register of them             triangle_rows.hpp
 //   four          four pairs on planes of points                              triangle_fours.hpp
 
-namespace taut::integrator_detail::sweep {
+namespace taut::step_detail {
 
-using model_detail::Air;
+using network_detail::Air;
 
 /// What the triangles of one tile read and write.
 template <class Scalar>
@@ -89,22 +89,22 @@ inline std::vector<int> first_of_blocks(std::vector<int> tiles, const Blocks& bl
 /// lane. Apart, so that one pair's flow is computed while another's forces wait for a division.
 template <class Real>
 struct PairFlow {
-    model_detail::Flow<Real> at_a, at_d;
+    network_detail::Flow<Real> at_a, at_d;
 };
 /// @param x_ab  x_b − x_a, m, and so on   @param v_bc  v_b + v_c, m/s
 template <class Real, class Scalar>
 EIGEN_ALWAYS_INLINE PairFlow<Real> flow_past_pair(const Air<Scalar>& air,
-                                                  const model_detail::Axes<Real>& x_ab,
-                                                  const model_detail::Axes<Real>& x_bc,
-                                                  const model_detail::Axes<Real>& x_bd,
-                                                  const model_detail::Axes<Real>& v_a,
-                                                  const model_detail::Axes<Real>& v_bc,
-                                                  const model_detail::Axes<Real>& v_d) {
-    const model_detail::Axes<Real> past_bc{Real(air.three_velocities[0]) - v_bc[0],
-                                           Real(air.three_velocities[1]) - v_bc[1],
-                                           Real(air.three_velocities[2]) - v_bc[2]};
+                                                  const network_detail::Axes<Real>& x_ab,
+                                                  const network_detail::Axes<Real>& x_bc,
+                                                  const network_detail::Axes<Real>& x_bd,
+                                                  const network_detail::Axes<Real>& v_a,
+                                                  const network_detail::Axes<Real>& v_bc,
+                                                  const network_detail::Axes<Real>& v_d) {
+    const network_detail::Axes<Real> past_bc{Real(air.three_velocities[0]) - v_bc[0],
+                                             Real(air.three_velocities[1]) - v_bc[1],
+                                             Real(air.three_velocities[2]) - v_bc[2]};
     return {{x_ab, x_bc, {past_bc[0] - v_a[0], past_bc[1] - v_a[1], past_bc[2] - v_a[2]}},
             {x_bd, x_bc, {past_bc[0] - v_d[0], past_bc[1] - v_d[1], past_bc[2] - v_d[2]}}};
 }
 
-}  // namespace taut::integrator_detail::sweep
+}  // namespace taut::step_detail

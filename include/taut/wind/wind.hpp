@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "../core/error.hpp"
-#include "../model/spring_system.hpp"
+#include "../network/spring_system.hpp"
 #include "wind_force.hpp"
 
 namespace taut {
@@ -32,7 +32,7 @@ void set_wind(SpringSystem<Scalar, 3, Laws...>& system, Wind<Scalar> wind) {
     if (!wind.blows()) return system.set_outside_force(nullptr);
     auto triangles = std::make_shared<const std::vector<Triangle>>(std::move(wind.triangles));
     system.set_outside_force(
-        std::make_shared<model_detail::WindForce<Scalar>>(wind, std::move(triangles)));
+        std::make_shared<network_detail::WindForce<Scalar>>(wind, std::move(triangles)));
 }
 
 /// Changes the velocity of the wind that there is, as in a gust; no plan is made anew.
@@ -42,7 +42,7 @@ void set_wind_velocity(SpringSystem<Scalar, 3, Laws...>& system,
                        const typename SpringSystem<Scalar, 3, Laws...>::Vector& velocity) {
     if (!detail::all_finite(velocity.data(), velocity.size()))
         fail("set_wind_velocity: velocity is not finite");
-    using Force = model_detail::WindForce<Scalar>;
+    using Force = network_detail::WindForce<Scalar>;
     const Force* const wind = Force::of(system.external_forces().outside.get());
     if (wind) system.set_outside_force(std::make_shared<Force>(*wind, velocity));
 }

@@ -7,13 +7,13 @@
 #include <utility>
 #include <vector>
 
-#include "../model/detail/outside_force.hpp"
+#include "../network/detail/outside_force.hpp"
 #include "triangle_fours.hpp"
 #include "triangle_pairing.hpp"
 #include "triangle_rows.hpp"
 
 namespace taut {
-namespace integrator_detail::sweep {
+namespace step_detail {
 
 /// The triangles of a wind, in rows or in fours.
 template <class Scalar>
@@ -40,9 +40,9 @@ struct WindPlan final : TilePlan<Scalar> {
     }
 };
 
-}  // namespace integrator_detail::sweep
+}  // namespace step_detail
 
-namespace model_detail {
+namespace network_detail {
 
 inline constexpr char set_wind_name[] = "set_wind";
 
@@ -76,23 +76,21 @@ public:
         const WindForce* wind = of(&other);
         return wind && wind->triangles_ == triangles_;
     }
-    std::shared_ptr<const Plan> plan(
-        const integrator_detail::sweep::PlacedParticles& particles) const override {
+    std::shared_ptr<const Plan> plan(const step_detail::PlacedParticles& particles) const override {
         return std::make_shared<WindPlan>(*triangles_, particles);
     }
-    void add(const Plan& plan,
-             const integrator_detail::sweep::TileView<Scalar>& view) const override {
+    void add(const Plan& plan, const step_detail::TileView<Scalar>& view) const override {
         const auto& own = static_cast<const WindPlan&>(plan);
-        const integrator_detail::sweep::WindView<Scalar> tile{view, air_};
+        const step_detail::WindView<Scalar> tile{view, air_};
         own.points ? own.fours.add_forces(tile) : own.rows.add_forces(tile);
     }
 
 private:
-    using WindPlan = integrator_detail::sweep::WindPlan<Scalar>;
+    using WindPlan = step_detail::WindPlan<Scalar>;
 
     Air<Scalar> air_;
     Triangles triangles_;
 };
 
-}  // namespace model_detail
+}  // namespace network_detail
 }  // namespace taut

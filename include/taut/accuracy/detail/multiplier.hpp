@@ -5,7 +5,7 @@
 #include <cmath>
 #include <complex>
 
-#include "../../method/visit.hpp"
+#include "../../conditions/visit.hpp"
 
 // multiplier_less_one(descriptor, z, zeta): μ − 1 of the multiplier μ that stands for e^(hλ),
 // λ = ω(−ζ + i√(1 − ζ²)), without cancellation at small z = hω [T25]. Where a step too large has

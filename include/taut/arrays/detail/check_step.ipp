@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <memory>
 
-#include "../../model/hookean.hpp"
-#include "../../model/spring_set.hpp"
-#include "../../stability/bracket.hpp"
+#include "../../network/hookean.hpp"
+#include "../../network/spring_set.hpp"
+#include "../../proof/bracket.hpp"
 
 namespace taut {
 namespace arrays_detail {
@@ -132,7 +132,7 @@ void System<Scalar, Dim>::add_particles(const SpringArrays<Scalar, Dim, Int>& fr
 template <class Scalar, int Dim>
 template <class Int>
 void System<Scalar, Dim>::add_springs(const SpringArrays<Scalar, Dim, Int>& from) {
-    stability_detail::RangeCheck range;  // Pencil has its own for all else
+    proof_detail::RangeCheck range;  // Pencil has its own for all else
     for (Index s = 0; s < from.springs; ++s) {
         const Index ends[] = {static_cast<Index>(from.ends(s, 0)),
                               static_cast<Index>(from.ends(s, 1))};
@@ -184,8 +184,8 @@ std::vector<SpringShare> to_blame(const Stability<Scalar>& stability,
         using namespace matrices;
         const double h = static_cast<double>(limit.certified);
         const Combination force = 2 * h * D + h * h * K_plus;
-        const RitzPair mode = stability_detail::largest_mode(pencil, force);
-        shares = stability_detail::largest_shares(pencil.spring_shares(mode.vector, force), count);
+        const RitzPair mode = proof_detail::largest_mode(pencil, force);
+        shares = proof_detail::largest_shares(pencil.spring_shares(mode.vector, force), count);
     } else {
         shares = limiting_springs(stability, count);
     }
@@ -240,13 +240,13 @@ StepCheck<Scalar> check_step(const SpringArrays<Scalar, Dim, Int>& arrays, Metho
                                counted == Damping::half ? 0.5 : 1);
     };
     const auto moving = arrays_detail::stability_of<Scalar>(laplacians(Damping::all));
-    const Damping counted = stability_detail::counted_at_any_pose(method);
+    const Damping counted = proof_detail::counted_at_any_pose(method);
     const auto limit = counted == Damping::all
-                           ? stability_detail::at_any_pose(method, moving.pencil())
-                           : stability_detail::at_any_pose(method, laplacians(counted));
+                           ? proof_detail::at_any_pose(method, moving.pencil())
+                           : proof_detail::at_any_pose(method, laplacians(counted));
     StepCheck<Scalar> check;
     static_cast<StepAnswer<Scalar>&>(check) =
-        arrays_detail::answer(moving, stability_detail::rounded<Scalar>(limit, 0), h, options);
+        arrays_detail::answer(moving, proof_detail::rounded<Scalar>(limit, 0), h, options);
     if (arrays.position && method != Method::energy_stable_euler) {
         const auto here = arrays_detail::stability_of<Scalar>(
             system.complete(Pencil::at_pose(system, arrays_detail::pose(arrays))));

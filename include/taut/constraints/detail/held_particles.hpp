@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "../../core/status.hpp"
-#include "../../model/free_particles.hpp"
+#include "../../network/free_particles.hpp"
 #include "../particle_constraints.hpp"
 
 namespace taut::integrator_detail {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "../../core/types.hpp"
-#include "../../model/spring_mechanics.hpp"
+#include "../../network/spring_mechanics.hpp"
 
 namespace taut::guard_detail {
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "../../core/concepts.hpp"
-#include "../../method/visit.hpp"
-#include "../../model/state_view.hpp"
+#include "../../conditions/visit.hpp"
+#include "../../network/state_view.hpp"
 
 namespace taut::guard_detail {
 
@@ -75,7 +75,7 @@ public:
     /// hold what the last call left there are not read: they may be less precise.
     template <class View, class Advance>
     auto advance(View& view, Advance&& advance) {
-        model_detail::require_state<State, View>();
+        network_detail::require_state<State, View>();
         if (!is_in(view)) view.copy_to(state_);
         const auto report = advance(state_);
         if (report.advanced > 0) view.copy_from(state_);

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "../../integrator/sweep/sweep.hpp"
+#include "../../step/sweep.hpp"
 #include "parts.hpp"
 
 namespace taut::guard_detail {
@@ -22,14 +22,13 @@ struct Work {
 
 /// Books the work on every part, step by step where that is needed [T43].
 template <class System>
-class WorkMeter final
-    : public integrator_detail::sweep::StepWatch<typename System::Scalar, System::Dim> {
+class WorkMeter final : public step_detail::StepWatch<typename System::Scalar, System::Dim> {
 public:
     using Scalar = typename System::Scalar;
     using State = typename System::State;
     using Force = typename System::Force;
     using Vector = typename System::Vector;
-    using Places = integrator_detail::sweep::PlaceVectors<Scalar, System::Dim>;
+    using Places = step_detail::PlaceVectors<Scalar, System::Dim>;
     /// How a step takes its forces: at both ends, at the new one, or one step ahead [T42].
     enum class Kind { at_both_ends, at_the_end, ahead };
 

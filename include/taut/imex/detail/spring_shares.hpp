@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "../../core/types.hpp"
-#include "../../stability/step_limit.hpp"
+#include "../../proof/step_limit.hpp"
 
 namespace taut::imex_detail {
 
@@ -25,7 +25,7 @@ public:
     template <class System>
     SpringShares(const System& system, double h) {
         // What steppers round must not end a proof.
-        h *= 1 + stability_detail::step_rounding<typename System::Scalar>;
+        h *= 1 + proof_detail::step_rounding<typename System::Scalar>;
         drag_ = h * system.rayleigh().mass_proportional / 2;
         const double alpha = system.rayleigh().stiffness_proportional;
         system.visit_springs([&](const auto& its) {

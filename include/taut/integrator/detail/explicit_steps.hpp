@@ -5,9 +5,9 @@
 #include <type_traits>
 #include <utility>
 
-#include "../../model/spring_system.hpp"
+#include "../../network/spring_system.hpp"
 #include "../explicit_options.hpp"
-#include "../sweep/sweep.hpp"
+#include "../../step/sweep.hpp"
 #include "step_loop.hpp"
 
 namespace taut {
@@ -86,7 +86,7 @@ private:
 
 /// Steps of a SpringSystem, by its sweep.
 template <class System>
-class ExplicitSteps<System, std::enable_if_t<model_detail::is_spring_system_v<System>>> {
+class ExplicitSteps<System, std::enable_if_t<network_detail::is_spring_system_v<System>>> {
 public:
     using Scalar = typename System::Scalar;
     using State = typename System::State;
@@ -94,7 +94,7 @@ public:
     explicit ExplicitSteps(const ExplicitOptions& options) : threads_(checked_threads(options)) {}
 
     /// Shows steps to that; null ends it.
-    void watch(sweep::StepWatch<Scalar, System::Dim>* by) { sweep_.watch(by); }
+    void watch(step_detail::StepWatch<Scalar, System::Dim>* by) { sweep_.watch(by); }
     /// As above.
     template <class AnyState, class Update>
     Report run(const System& system, AnyState& state, Scalar h, Index count, const Update& update) {
@@ -146,7 +146,7 @@ private:
     }
 
     int threads_;
-    sweep::Sweep<System> sweep_;
+    step_detail::Sweep<System> sweep_;
     StepLoop<State> loop_;
 };
 

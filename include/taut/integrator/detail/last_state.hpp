@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "../../model/state_view.hpp"
+#include "../../network/state_view.hpp"
 
 namespace taut::integrator_detail {
 
@@ -15,7 +15,7 @@ class LastState {
 public:
     template <class System, class AnyState>
     void keep(const System& system, const AnyState& state) {
-        if constexpr (model_detail::is_state_view_v<AnyState>) {
+        if constexpr (network_detail::is_state_view_v<AnyState>) {
             // As stored: else arrays of less precision would always seem touched.
             state.copy_to(state_);
         } else {

@@ -6,7 +6,7 @@
 
 #include "../../core/detail/finite.hpp"
 #include "../../core/status.hpp"
-#include "../../model/free_particles.hpp"
+#include "../../network/free_particles.hpp"
 #include "factor_cache.hpp"
 
 namespace taut::integrator_detail {

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "../../model/spring_system.hpp"
-#include "../../model/tangent_matrix.hpp"
+#include "../../network/spring_system.hpp"
+#include "../../network/tangent_matrix.hpp"
 #include "../../solver/conjugate_gradient.hpp"
 #include "step_equation.hpp"
 

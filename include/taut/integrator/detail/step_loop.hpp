@@ -7,7 +7,7 @@
 
 #include "../../core/concepts.hpp"
 #include "../../core/detail/fits.hpp"
-#include "../../model/state_view.hpp"
+#include "../../network/state_view.hpp"
 
 namespace taut::integrator_detail {
 
@@ -21,7 +21,7 @@ public:
     /// What every call refuses: a bad h, a state of the wrong size or with NaN or infinity.
     template <class System, class AnyState>
     static Report examine(const System& system, const AnyState& state, Scalar h) {
-        static_assert((model_detail::require_state<State, AnyState>(), true));
+        static_assert((network_detail::require_state<State, AnyState>(), true));
         return check_state(system.size(), state, h);
     }
     /// @param size  the number of particles
@@ -37,7 +37,7 @@ public:
         const Step step{&advance, [](void* by, State& own) -> Report {
                             return (*static_cast<std::remove_reference_t<Advance>*>(by))(own);
                         }};
-        if constexpr (model_detail::is_state_view_v<AnyState>) {
+        if constexpr (network_detail::is_state_view_v<AnyState>) {
             state.copy_to(copy_);
             report = examine(system, copy_, h);  // a double may be too large for a float
             if (report) report = take(copy_, h, count, step);

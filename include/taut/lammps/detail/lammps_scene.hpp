@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "../../core/error.hpp"
-#include "../../model/spring_system.hpp"
-#include "../../model/tension_only.hpp"
+#include "../../network/spring_system.hpp"
+#include "../../network/tension_only.hpp"
 #include "lammps_types.hpp"
 
 namespace taut::io_detail {

@@ -9,11 +9,11 @@
 #include <cmath>
 #include <vector>
 
-#include "../../stability/pencil_matrix.hpp"
+#include "../../proof/pencil_matrix.hpp"
 #include "../../tight/dense.hpp"
 #include "../../tight/detail/arnoldi.hpp"
 
-namespace taut::stability_detail {
+namespace taut::proof_detail {
 
 // Templates, though of one type: only their callers compile the eigensolvers and the expressions.
 
@@ -119,4 +119,4 @@ std::vector<double> frequency_changes(const Pencil& before, const Pencil& after)
     return change;
 }
 
-}  // namespace taut::stability_detail
+}  // namespace taut::proof_detail

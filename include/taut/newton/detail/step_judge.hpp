@@ -9,7 +9,7 @@
 
 #include "../energy_guarantee.hpp"
 #include "../../core/buffer.hpp"
-#include "../../model/spring_system.hpp"
+#include "../../network/spring_system.hpp"
 #include "step_objective.hpp"
 
 namespace taut::integrator_detail {

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../../method/mode.hpp"
-#include "../../stability/detail/growth.hpp"
+#include "../../conditions/mode.hpp"
+#include "../../proof/detail/growth.hpp"
 
 // What a limit still claims where K or D could not be shown to be positive semi-definite.
 
-namespace taut::stability_detail {
+namespace taut::proof_detail {
 
 /// The bracket of the largest stable step of implicit Euler. With D ⪰ −δM and K ⪰ −κM, steps are
 /// safe while 1 − hδ − h²κ > 0, and the step matrix turns singular where a vector says so [T21].
@@ -78,4 +78,4 @@ void amend_for_matrices(Method method, const Pencil& pencil, UnroundedLimit& lim
     admit(method, std::sqrt(pencil.deficit(K)), limit);
 }
 
-}  // namespace taut::stability_detail
+}  // namespace taut::proof_detail

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "../../model/spring_system.hpp"
+#include "../../network/spring_system.hpp"
 #include "../coarse_law.hpp"
 #include "spring_graph.hpp"
 

@@ -8,9 +8,9 @@
 #include <complex>
 #include <utility>
 
-#include "../../stability/lanczos.hpp"
+#include "../../proof/lanczos.hpp"
 
-namespace taut::stability_detail {
+namespace taut::proof_detail {
 
 /// Approximate eigenpairs of a real n × n matrix A.
 template <class Real>
@@ -61,4 +61,4 @@ ComplexRitzPairs<Real> arnoldi(Apply&& apply, Index n, Index steps) {
     return pairs;
 }
 
-}  // namespace taut::stability_detail
+}  // namespace taut::proof_detail

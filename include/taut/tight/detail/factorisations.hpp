@@ -7,15 +7,15 @@
 #include <utility>
 
 #include "../../core/detail/bisection.hpp"
-#include "../../stability/detail/explicit_bracket.hpp"
-#include "../../stability/detail/symplectic_bracket.hpp"
+#include "../../proof/detail/explicit_bracket.hpp"
+#include "../../proof/detail/symplectic_bracket.hpp"
 #include "../certificate.hpp"
 #include "../dense.hpp"
 #include "../explicit_estimate.hpp"
 
 // How a bracket is narrowed: sharpen the vector that refutes, then prove below it.
 
-namespace taut::stability_detail {
+namespace taut::proof_detail {
 
 /// Whether refuted/certified ≤ 1 + tightness, of a Bracket or an UnroundedLimit.
 template <class Limit>
@@ -180,4 +180,4 @@ private:
     Prover prover_;
 };
 
-}  // namespace taut::stability_detail
+}  // namespace taut::proof_detail

@@ -4,7 +4,7 @@
 
 #include <Eigen/LU>
 
-#include "../../method/visit.hpp"
+#include "../../conditions/visit.hpp"
 
 // step_matrix(descriptor, C, h, positions): the matrix whose eigenvalues are the multipliers of a
 // whole system.

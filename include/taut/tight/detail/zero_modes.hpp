@@ -4,9 +4,9 @@
 
 #include <Eigen/SparseCholesky>
 
-#include "../../stability/pencil_matrix.hpp"
+#include "../../proof/pencil_matrix.hpp"
 
-namespace taut::stability_detail {
+namespace taut::proof_detail {
 
 /// Number of eigenvalues of M⁻¹K⁺ below 1e-10·k_max: the negative pivots of K⁺ − εM, by Sylvester's
 /// law of inertia. Numerical: the factorisation of an indefinite matrix has no error bound.
@@ -19,4 +19,4 @@ Index count_zero_modes(const Pencil& pencil, double k_max) {
     return (ldlt.vectorD().array() < 0).count();
 }
 
-}  // namespace taut::stability_detail
+}  // namespace taut::proof_detail

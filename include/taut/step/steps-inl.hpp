@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "steps.hpp"
+#include "waves.hpp"
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+namespace taut::step_detail {
+
+template <class Scalar, int Dim>
+Planes<Scalar> Outside<Scalar, Dim>::at_state(const Layout<Scalar>& layout,
+                                              const StatePlanes<Scalar>& planes) {
+    const auto& constant = forces_->constant;
+    if (!asks_for_state() && constant.cols() == 0) return {};
+    force_.resize(Dim, layout.size());
+    detail::set_zero(force_.data(), force_.size());
+    std::copy_n(constant.data(), constant.size(), force_.data());
+    if (asks_for_state()) {
+        state_.x.resize(Dim, layout.size());
+        state_.v.resize(Dim, layout.size());
+        layout.from_planes(planes.x, state_.x);
+        layout.from_planes(planes.v, state_.v);
+        forces_->whole(state_, force_);
+    }
+    const auto size = static_cast<std::size_t>(layout.planes() * layout.stride());
+    if (planes_.size() != size) planes_.assign(size, Scalar(0));  // padding is stepped, too
+    layout.to_planes(force_, {planes_.data(), layout.stride()});
+    return {planes_.data(), layout.stride()};
+}
+
+template <class Scalar, int Dim>
+Index Steps<Scalar, Dim>::first_not_finite(const Layout<Scalar>& layout) const {
+    const Buffer<int> places = layout.places();
+    for (Index i = 0; i < layout.size(); ++i) {
+        for (int d = 0; d < Dim; ++d) {
+            for (const Planes<Scalar>& of : {state_.planes().x, state_.planes().v}) {
+                if (!detail::is_finite(layout.at(of, d, places[i]))) return i;
+            }
+        }
+    }
+    return -1;
+}
+
+template <class Scalar, int Dim>
+bool Steps<Scalar, Dim>::steps(const Forces& forces, Scalar h, Index count, int threads,
+                               Move move) {
+    const bool asks = outside_.asks_for_state();
+    if (asks && !state_.finite()) return false;  // a finite double may be infinite as a float
+    for (Index done = 0; done < count;) {
+        const Index next = asks || watch_ ? 1 : (std::min)(steps_between_checks, count - done);
+        update_.set_external(outside_.at_state(forces.layout(), state_.planes()));
+        show(forces.layout(), outside_.state(), outside_.force());
+        some_steps(forces, h, next, threads, move);
+        done += next;
+        const bool check = asks || done == count || done % steps_between_checks == 0;
+        if (check && !state_.finite()) return false;
+        outside_.pass(h);
+    }
+    return true;
+}
+
+template <class Scalar, int Dim>
+void Steps<Scalar, Dim>::some_steps(const Forces& forces, Scalar h, Index count, int threads,
+                                    Move move) {
+    const Blocks& blocks = forces.layout().blocks();
+    threads = blocks.workers(threads);
+    constexpr Index scratch_size = 3 * Dim * scratch_stride;
+    const auto needed = static_cast<std::size_t>(threads * scratch_size);
+    if (scratch_.size() < needed) scratch_.assign(needed, Scalar(0));
+    const auto work = [&](int thread, int workers, const auto& wait) {
+        const Waves waves(blocks.count(), forces.reach(), workers);
+        waves.run(
+            thread, count,
+            [&](Index step, int block) {
+                StatePlanes<Scalar> planes = state_.planes();
+                if (step % 2 == 1) planes.swap();
+                step_block(forces, planes, block, h, scratch_.data() + thread * scratch_size, move);
+            },
+            wait);
+    };
+#ifdef _OPENMP
+    if (threads > 1) {
+#pragma omp parallel num_threads(threads)
+        work(omp_get_thread_num(), omp_get_num_threads(), [] {
+#pragma omp barrier
+        });
+    } else
+#endif
+    {
+        work(0, 1, [] {});
+    }
+    if (count % 2 == 1) state_.swap();
+}
+
+template <class Scalar, int Dim>
+void Steps<Scalar, Dim>::step_block(const Forces& forces, const StatePlanes<Scalar>& planes,
+                                    int block, Scalar h, Scalar* scratch, Move move) const {
+    const auto vector = [&](int number) {
+        return Planes<Scalar>{scratch + number * Dim * scratch_stride + max_width, scratch_stride};
+    };
+    const Layout<Scalar>& layout = forces.layout();
+    TileView<Scalar> view{{planes.spring_x.first, planes.spring_x.stride},
+                          {planes.v.first, planes.v.stride},
+                          {planes.x.first, planes.x.stride},
+                          alpha_,
+                          layout.blocks().begin(block),
+                          layout.blocks().size(),
+                          0,
+                          vector(0),
+                          vector(1),
+                          vector(2)};
+    const Index begin = view.begin;
+    const Index count = std::min<Index>(view.size, layout.size() - begin);
+    const Index grain = layout.grain();
+    for (Index i = 0; i < count; i += tile_size) {
+        view.tile = static_cast<int>((begin + i) / tile_size);
+        forces.add(view);
+        (update_.*move)(layout,
+                        {planes, (begin + i) * grain, std::min<Index>(tile_size, count - i) * grain,
+                         view.force_a.at(i * grain), view.force_b.at(i * grain)},
+                        h);
+    }
+}
+
+}  // namespace taut::step_detail

@@ -1,0 +1,264 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "force_plan.hpp"
+#include "place_update.hpp"
+
+namespace taut::step_detail {
+
+/// The external forces of a SpringSystem but a module's, which goes with the springs.
+template <class Scalar, int Dim>
+class Outside {
+public:
+    /// @param forces  the system's   @param time  at which steps begin, s
+    void begin(const ExternalForces<Scalar, Dim>& forces, Scalar time) {
+        forces_ = &forces;
+        state_.time = time;
+    }
+    /// Lets h, s, pass between two steps.
+    void pass(Scalar h) { state_.time += h; }
+
+    /// s.
+    Scalar time() const { return state_.time; }
+
+    /// Whether a force asks for the whole state before every step.
+    bool asks_for_state() const { return static_cast<bool>(forces_->whole); }
+    /// What that force and the constant ones are at a state, N; empty planes for none.
+    Planes<Scalar> at_state(const Layout<Scalar>& layout, const StatePlanes<Scalar>& planes);
+
+    /// What the force of the whole state was last asked at; null without one.
+    const State<Scalar, Dim>* state() const { return asks_for_state() ? &state_ : nullptr; }
+    /// All that at_state() last gave, N; null where a force is missing in it.
+    const Points<Scalar, Dim>* force() const {
+        return asks_for_state() && !forces_->outside ? &force_ : nullptr;
+    }
+
+private:
+    const ExternalForces<Scalar, Dim>* forces_ = nullptr;  // the system's
+    State<Scalar, Dim> state_;                             // what a force of the whole state sees
+    Points<Scalar, Dim> force_;                            // N
+    Buffer<Scalar> planes_;                                // N
+};
+
+/// Sees the states between the steps of a sweep, from the first to the last.
+template <class Scalar, int Dim>
+class StepWatch {
+public:
+    /// @param x, v   by particle; velocities are those that the forces there are taken at
+    /// @param time   s
+    /// @param state  the same, and @param force  all external forces there, N; each null if unknown
+    virtual void see(const PlaceVectors<Scalar, Dim>& x, const PlaceVectors<Scalar, Dim>& v,
+                     Scalar time, const State<Scalar, Dim>* state,
+                     const Points<Scalar, Dim>* force) = 0;
+
+protected:
+    ~StepWatch() = default;
+};
+
+/// Half kicks, v + ½h a: two where a step's end meets the next one's start, to the same bits as at
+/// the end of one call and the start of the next. Then x + h v, or at the end the acceleration in
+/// the place of x.
+template <int half_kicks, bool end>
+struct VerletUpdate {
+    template <class Real>
+    EIGEN_ALWAYS_INLINE void operator()(Real& x, Real& v, const Real& a, const Real& h) const {
+        if constexpr (half_kicks > 0) v += Real(0.5) * h * a;
+        if constexpr (half_kicks > 1) v += Real(0.5) * h * a;
+        x = end ? a : x + h * v;
+    }
+};
+
+/// What a step takes from a system beside its springs.
+template <class Scalar, int Dim>
+struct Surroundings {
+    const Eigen::Matrix<Scalar, Dim, 1>& gravity;  // m/s²
+    const RayleighDamping& rayleigh;
+    const Scalar* inverse_mass;  // 1/kg
+    std::uint64_t revision;      // of the masses
+    const ExternalForces<Scalar, Dim>& external;
+};
+
+/// Steps of places by forces of whatever springs: see Sweep.
+template <class Scalar, int Dim>
+class Steps {
+public:
+    using Forces = TileForces<Scalar>;
+    /// PlaceUpdate::move by some update.
+    using Move = void (PlaceUpdate<Scalar>::*)(const Layout<Scalar>&, const TilePlaces<Scalar>&,
+                                               Scalar) const;
+
+    void watch(StepWatch<Scalar, Dim>* by) { watch_ = by; }
+    /// Brings all members up to date: the first thing that a call does.
+    /// @param new_plan  whether the layout, or what springs are where, has changed
+    /// @param ahead     s, by which springs see x ahead
+    template <class AnyState>
+    void load(const Surroundings<Scalar, Dim>& surroundings, const Layout<Scalar>& layout,
+              bool new_plan, const AnyState& state, Scalar ahead, const ReadAnywhere& read);
+    /// As of Sweep.
+    Index first_not_finite(const Layout<Scalar>& layout) const;
+    template <class AnyState>
+    bool run(const Forces& forces, AnyState& state, Scalar h, Index count, int threads, Move move);
+    template <class AnyState>
+    bool run_verlet(const Forces& forces, AnyState& state, Scalar h, Index count, int threads,
+                    bool go_on);
+    template <bool Ahead, class AnyState, class Correct>
+    bool run_corrected(const Forces& forces, AnyState& state, Scalar h, Index count, int threads,
+                       const Correct& correct);
+
+private:
+    using Register = VectorRegister<Scalar>;
+    /// Not finite is noticed after so many steps; until then they cost as much as others.
+    static constexpr Index steps_between_checks = 64;
+    /// A register may begin before its block or end behind it.
+    static constexpr Index scratch_stride = most_of_block + most_of_block / 16;
+
+    /// Puts the state back after `count` steps. @param x  its positions, planes, m
+    template <class AnyState>
+    void store(const Layout<Scalar>& layout, const Planes<Scalar>& x, Scalar h, Index count,
+               AnyState& state) const {
+        layout.from_planes(x, state.x);
+        layout.from_planes(state_.planes().v, state.v);
+        for (Index i = 0; i < count; ++i) state.time += h;
+    }
+    void show(const Layout<Scalar>& layout, const State<Scalar, Dim>* state,
+              const Points<Scalar, Dim>* force) {
+        if (!watch_) return;
+        if (places_.empty()) places_ = layout.places();
+        watch_->see({layout, places_, state_.planes().x}, {layout, places_, state_.planes().v},
+                    outside_.time(), state, force);
+    }
+    void copy_whole(const Scalar* from, Buffer<Scalar>& to) const {
+        to.resize(static_cast<std::size_t>(state_.whole()));
+        std::copy_n(from, state_.whole(), to.data());
+    }
+    /// @returns whether all is finite
+    bool steps(const Forces& forces, Scalar h, Index count, int threads, Move move);
+    void some_steps(const Forces& forces, Scalar h, Index count, int threads, Move move);
+    void step_block(const Forces& forces, const StatePlanes<Scalar>& planes, int block, Scalar h,
+                    Scalar* scratch, Move move) const;
+
+    StateMemory<Scalar> state_;
+    PlaceUpdate<Scalar> update_;
+    Outside<Scalar, Dim> outside_;
+    Buffer<Scalar> scratch_;  // forces on one block for each thread, N; 0 between blocks
+    Buffer<Scalar> end_x_;    // of run_verlet, planes, m
+    Buffer<int> places_;      // of each particle, if known
+    StepWatch<Scalar, Dim>* watch_ = nullptr;
+    Buffer<Scalar> acceleration_;  // at the end of the last run_verlet, planes, m/s²
+    Scalar last_h_ = 0;            // its step, s
+    std::uint64_t masses_ = 0;     // the revision of those in update_
+    Scalar alpha_ = 0;             // of Rayleigh damping, s
+};
+
+template <class Scalar, int Dim>
+template <class AnyState>
+void Steps<Scalar, Dim>::load(const Surroundings<Scalar, Dim>& surroundings,
+                              const Layout<Scalar>& layout, bool new_plan, const AnyState& state,
+                              Scalar ahead, const ReadAnywhere& read) {
+    alpha_ = static_cast<Scalar>(surroundings.rayleigh.stiffness_proportional);
+    if (new_plan) places_.clear();
+    // A new plan may have other places for what is discarded.
+    if (new_plan) scratch_.assign(scratch_.size(), Scalar(0));
+    state_.resize(layout.planes(), layout.size() * layout.grain(), layout.stride(), ahead > 0,
+                  read);
+    update_.load(surroundings.gravity.data(), Dim,
+                 static_cast<Scalar>(surroundings.rayleigh.mass_proportional), ahead);
+    if (new_plan || masses_ != surroundings.revision) {
+        update_.load_masses(layout, surroundings.inverse_mass);
+        masses_ = surroundings.revision;
+    }
+    layout.to_planes(state.x, state_.planes().x);
+    layout.to_planes(state.v, state_.planes().v);
+    if (ahead > 0) state_.look_ahead(ahead);
+    outside_.begin(surroundings.external, static_cast<Scalar>(state.time));
+}
+
+template <class Scalar, int Dim>
+template <class AnyState>
+bool Steps<Scalar, Dim>::run(const Forces& forces, AnyState& state, Scalar h, Index count,
+                             int threads, Move move) {
+    if (!steps(forces, h, count, threads, move)) return false;
+    show(forces.layout(), nullptr, nullptr);
+    store(forces.layout(), state_.planes().x, h, count, state);
+    return true;
+}
+
+template <class Scalar, int Dim>
+template <class AnyState>
+bool Steps<Scalar, Dim>::run_verlet(const Forces& forces, AnyState& state, Scalar h, Index count,
+                                    int threads, bool go_on) {
+    using Update = PlaceUpdate<Scalar>;
+    if (go_on) {
+        Scalar *x = state_.planes().x.first, *v = state_.planes().v.first;
+        const auto kick = [&](Scalar by) {
+            const Register factor(by);
+            state_.for_each_register([&](Index i) {
+                const Register a = Register::load(acceleration_.data() + i);
+                (Register::load(v + i) + factor * a).store(v + i);
+            });
+        };
+        if (watch_) {  // the forces here were taken at the last step's v½
+            copy_whole(v, end_x_);
+            kick(-last_h_ / 2);
+            show(forces.layout(), nullptr, nullptr);
+            std::copy_n(end_x_.data(), state_.whole(), v);
+        }
+        kick(h / 2);
+        state_.for_each_register([&](Index i) {
+            (Register::load(x + i) + Register(h) * Register::load(v + i)).store(x + i);
+        });
+        outside_.pass(h);
+        if (!state_.finite()) return false;
+    } else if (!steps(forces, h, 1, threads, &Update::template move<VerletUpdate<1, false>>)) {
+        return false;
+    }
+    if (!steps(forces, h, count - 1, threads, &Update::template move<VerletUpdate<2, false>>)) {
+        return false;
+    }
+    copy_whole(state_.planes().x.first, end_x_);
+    if (!steps(forces, h, 1, threads, &Update::template move<VerletUpdate<1, true>>)) return false;
+    store(forces.layout(), {end_x_.data(), forces.layout().stride()}, h, count, state);
+    copy_whole(state_.planes().x.first, acceleration_);
+    last_h_ = h;
+    return true;
+}
+
+template <class Scalar, int Dim>
+template <bool Ahead, class AnyState, class Correct>
+bool Steps<Scalar, Dim>::run_corrected(const Forces& forces, AnyState& state, Scalar h, Index count,
+                                       int threads, const Correct& correct) {
+    const bool one_by_one = outside_.asks_for_state();
+    if (one_by_one && !state_.finite()) return false;
+    if (places_.empty()) places_ = forces.layout().places();
+    for (Index i = 1; i <= count; ++i) {
+        if (Ahead && i > 1) state_.look_ahead(h);
+        update_.set_external(outside_.at_state(forces.layout(), state_.planes()));
+        some_steps(forces, h, 1, threads,
+                   &PlaceUpdate<Scalar>::template move<VerletUpdate<0, true>>);
+        const StatePlanes<Scalar> planes = state_.planes();
+        correct(PlaceVectors<Scalar, Dim>(forces.layout(), places_, planes.x),
+                PlaceVectors<Scalar, Dim>(forces.layout(), places_, planes.v));
+        const Register step(h);
+        state_.for_each_register([&](Index k) {
+            const Register a = Register::load(planes.x.first + k);
+            const Register v = Register::load(planes.v.first + k) + step * a;
+            v.store(planes.v.first + k);
+            (Register::load(planes.new_x.first + k) + step * v).store(planes.x.first + k);
+        });
+        const bool check = one_by_one || i == count || i % steps_between_checks == 0;
+        if (check && !state_.finite()) return false;
+        outside_.pass(h);
+    }
+    store(forces.layout(), state_.planes().x, h, count, state);
+    return true;
+}
+
+}  // namespace taut::step_detail
+
+#if !defined(TAUT_COMPILED)
+#include "steps-inl.hpp"
+#endif
