@@ -87,7 +87,7 @@ template <class Scalar, int Dim>
 void ParticleConstraints<Scalar, Dim>::add(Held& at, Index particle, const Vector& direction,
                                            Scalar speed) {
     if (particle < 0) fail("ParticleConstraints: particle is ", particle, "; it must be >= 0");
-    if (!detail::all_finite(direction.data(), direction.size()) || !(direction.stableNorm() > 0) ||
+    if (!detail::all_finite(direction) || !(direction.stableNorm() > 0) ||
         !detail::is_finite(speed)) {
         fail("ParticleConstraints: particle ", particle,
              ": the direction must be finite and not zero, and the speed finite; it is ", speed);
@@ -119,7 +119,7 @@ void ParticleConstraints<Scalar, Dim>::add(Held& at, Index particle, const Vecto
 template <class Scalar, int Dim>
 void ParticleConstraints<Scalar, Dim>::hold_on_line(Index particle, const Vector& direction) {
     // All axes but the most aligned one, less their part along the line, span its complement.
-    if (!detail::all_finite(direction.data(), direction.size()) || !(direction.stableNorm() > 0)) {
+    if (!detail::all_finite(direction) || !(direction.stableNorm() > 0)) {
         fail("ParticleConstraints: particle ", particle,
              ": the direction of a line must be finite and not zero");
     }

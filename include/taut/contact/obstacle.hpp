@@ -30,9 +30,8 @@ public:
     /// @param normal  out of the half-space, of any length but 0
     HalfSpace(const Vector& point, const Vector& normal)
         : point_(point), normal_(normal.stableNormalized()) {
-        if (!detail::all_finite(point.data(), point.size())) fail("HalfSpace: point is not finite");
-        if (!detail::all_finite(normal.data(), normal.size()) ||
-            !(normal_.squaredNorm() > Scalar(0.5))) {
+        if (!detail::all_finite(point)) fail("HalfSpace: point is not finite");
+        if (!detail::all_finite(normal) || !(normal_.squaredNorm() > Scalar(0.5))) {
             fail("HalfSpace: normal must be finite and not zero");
         }
     }
@@ -55,7 +54,7 @@ public:
 
     /// @param centre  m, finite   @param radius  m, finite and > 0
     Sphere(const Vector& centre, Scalar radius) : centre_(centre), radius_(radius) {
-        if (!detail::all_finite(centre.data(), centre.size())) fail("Sphere: centre is not finite");
+        if (!detail::all_finite(centre)) fail("Sphere: centre is not finite");
         require_positive("Sphere", "radius", radius);
     }
     /// Above the last axis at the centre, where no way out is the shortest. @param x  m

@@ -144,7 +144,7 @@ Status EquilibriumSearch<System>::iterate() {
     if (relative_force() > 0.05 || !factorize(false)) factorize(true);
     const VectorX<Scalar> dx =
         llt_.info() == Eigen::Success ? VectorX<Scalar>(llt_.solve(residual_)) : VectorX<Scalar>();
-    if (dx.size() > 0 && detail::all_finite(dx.data(), dx.size()) && line_search(dx)) {
+    if (dx.size() > 0 && detail::all_finite(dx) && line_search(dx)) {
         update_forces();
         failures_ = 0;
     } else {

@@ -35,7 +35,7 @@ template <class Scalar, int Dim, class... Laws>
 AddedMass added_mass(const SpringSystem<Scalar, Dim, Laws...>& system,
                      const State<Scalar, Dim>& state, double h) {
     require_positive("added_mass", "h", h);
-    if (state.x.cols() != system.size() || !detail::all_finite(state.x.data(), state.x.size())) {
+    if (state.x.cols() != system.size() || !detail::all_finite(state.x)) {
         fail("added_mass: the state has ", state.x.cols(), " positions; the system has ",
              system.size(), " particles, and each position must be finite");
     }

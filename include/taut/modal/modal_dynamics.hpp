@@ -133,7 +133,7 @@ Report ModalDynamics<Shape, Dim>::step(double h, Index count) {
         v_ = a21_ * q_ + a22_ * v_ + b2_ * p_;
         q_.swap(next_);
     }
-    if (!detail::all_finite(q_.data(), q_.size()) || !detail::all_finite(v_.data(), v_.size())) {
+    if (!detail::all_finite(q_) || !detail::all_finite(v_)) {
         q_ = old_q_;
         v_ = old_v_;
         return {Status::diverged};
@@ -187,8 +187,7 @@ void ModalDynamics<Shape, Dim>::set_force(const Points<Shape, Dim>& force) {
         fail("ModalDynamics::set_force: ", force.cols(), " particles; the scene has ",
              pose_.cols());
     }
-    if (!detail::all_finite(force.data(), force.size()))
-        fail("ModalDynamics::set_force: a force is not finite");
+    if (!detail::all_finite(force)) fail("ModalDynamics::set_force: a force is not finite");
     p_ = load_ + project(force, false);
 }
 

@@ -34,9 +34,7 @@ struct State {
     /// Dim × n zeros.
     static Points<Scalar, Dim> zero(Index n) { return Points<Scalar, Dim>::Zero(Dim, n); }
     /// Whether every coordinate is, of x and v.
-    bool finite() const {
-        return detail::all_finite(x.data(), x.size()) && detail::all_finite(v.data(), v.size());
-    }
+    bool finite() const { return detail::all_finite(x) && detail::all_finite(v); }
     /// Index of the first particle with a coordinate that is not finite, or -1.
     Index first_not_finite() const { return network_detail::first_not_finite(x, v); }
 };

@@ -235,7 +235,7 @@ double MatrixPencil<Scalar>::upper_bound(const Combination& c) const {
         const Eigen::VectorXd weight = mass_.cwiseProduct(p);
         const Eigen::VectorXd quotient = (others + diagonal + error).cwiseQuotient(weight);
         // maxCoeff may pass over what is not a number: a weight that vanished, or overflow.
-        const bool finite = detail::all_finite(quotient.data(), quotient.size());
+        const bool finite = detail::all_finite(quotient);
         if (!(weight.minCoeff() > 0) || !finite) break;
         best = (std::min)(best, quotient.maxCoeff());
         const Eigen::VectorXd powered = (others + diagonal.cwiseAbs()).cwiseQuotient(mass_);

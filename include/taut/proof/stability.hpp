@@ -51,7 +51,7 @@ public:
         static_assert(std::is_same_v<Own, Scalar>,
                       "taut::Stability<Scalar>: needs a system of the same Scalar");
         detail::require_fits("Stability", state, system.size());
-        if (!detail::all_finite(state.x.data(), state.x.size())) {
+        if (!detail::all_finite(state.x)) {
             const State<Own, Dim> still{state.x, State<Own, Dim>::zero(system.size()), 0};
             fail("Stability: the position of particle ", still.first_not_finite(),
                  " is not finite");

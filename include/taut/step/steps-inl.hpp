@@ -37,15 +37,10 @@ Planes<Scalar> Outside<Scalar, Dim>::at_state(const Layout<Scalar>& layout,
 
 template <class Scalar, int Dim>
 Index Steps<Scalar, Dim>::first_not_finite(const Layout<Scalar>& layout) const {
-    const Buffer<int> places = layout.places();
-    for (Index i = 0; i < layout.size(); ++i) {
-        for (int d = 0; d < Dim; ++d) {
-            for (const Planes<Scalar>& of : {state_.planes().x, state_.planes().v}) {
-                if (!detail::is_finite(layout.at(of, d, places[i]))) return i;
-            }
-        }
-    }
-    return -1;
+    const auto zero = State<Scalar, Dim>::zero(layout.size());
+    State<Scalar, Dim> last{zero, zero, 0};
+    store(layout, state_.planes().x, 0, 0, last);
+    return last.first_not_finite();
 }
 
 template <class Scalar, int Dim>

@@ -28,7 +28,7 @@ namespace tradeoff_detail {
 template <class Real = double>  // a template: only its callers compile the expressions
 std::optional<std::complex<double>> fitted_multiplier(const VectorX<Real>& samples) {
     const Index rows = samples.size() - 2;
-    if (rows < 2 || !detail::all_finite(samples.data(), samples.size())) return std::nullopt;
+    if (rows < 2 || !detail::all_finite(samples)) return std::nullopt;
     // In ε = μ − 1, from second and first differences, so that slow swings lose no digits.
     const VectorX<Real> value = samples.segment(1, rows);
     const VectorX<Real> first = value - samples.head(rows);

@@ -16,8 +16,7 @@ namespace taut {
 /// range go to fail(), by name.
 template <class Scalar, class... Laws>
 void set_wind(SpringSystem<Scalar, 3, Laws...>& system, Wind<Scalar> wind) {
-    if (!detail::all_finite(wind.velocity.data(), wind.velocity.size()))
-        fail("set_wind: velocity is not finite");
+    if (!detail::all_finite(wind.velocity)) fail("set_wind: velocity is not finite");
     require_held<Scalar>("set_wind", "density", wind.density);
     require_held<Scalar>("set_wind", "drag", wind.drag);
     require_held<Scalar>("set_wind", "lift", wind.lift);
@@ -40,8 +39,7 @@ void set_wind(SpringSystem<Scalar, 3, Laws...>& system, Wind<Scalar> wind) {
 template <class Scalar, class... Laws>
 void set_wind_velocity(SpringSystem<Scalar, 3, Laws...>& system,
                        const typename SpringSystem<Scalar, 3, Laws...>::Vector& velocity) {
-    if (!detail::all_finite(velocity.data(), velocity.size()))
-        fail("set_wind_velocity: velocity is not finite");
+    if (!detail::all_finite(velocity)) fail("set_wind_velocity: velocity is not finite");
     using Force = network_detail::WindForce<Scalar>;
     const Force* const wind = Force::of(system.external_forces().outside.get());
     if (wind) system.set_outside_force(std::make_shared<Force>(*wind, velocity));

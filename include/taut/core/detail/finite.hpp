@@ -52,17 +52,19 @@ bool all_finite(const Scalar* numbers, Index count) {
     return finite_one_by_one(numbers, count);
 }
 
+/// The same of a matrix.
+template <class Derived>
+bool all_finite(const Eigen::PlainObjectBase<Derived>& numbers) {
+    return all_finite(numbers.data(), numbers.size());
+}
+
 /// Whether a number is that was computed just now.
-TAUT_NOINLINE inline bool is_finite(double number) {
-    const volatile double held = number;  // and not what it was computed from
-    const double seen = held;
+template <class Scalar>
+TAUT_NOINLINE bool is_finite(Scalar number) {
+    const volatile Scalar held = number;  // and not what it was computed from
+    const Scalar seen = held;
     return finite_one_by_one(&seen, 1);
 }
-inline bool is_finite(float number) { return is_finite(static_cast<double>(number)); }
-inline bool is_finite(long double number) {
-    const volatile long double held = number;
-    const long double seen = held;
-    return finite_one_by_one(&seen, 1);
-}
+inline bool is_finite(float number) { return is_finite<double>(number); }
 
 }  // namespace taut::detail

@@ -242,7 +242,7 @@ template <class Stepper, class System>
 bool Guarded<Stepper, System>::stiff_by_code() {
     if (!work_.code()) return false;
     system_->external_force(start_, touched_.v);
-    return detail::all_finite(touched_.v.data(), touched_.v.size());
+    return detail::all_finite(touched_.v);
 }
 
 /// A part that was taken again for the last time in this frame.

@@ -102,8 +102,7 @@ Status LinearSolve<Solver, Scalar>::solve_factorized(const StepMatrix<Scalar>& m
     const Solver& solver = factors_.solver();
     x = solver.solve(b);
     switch (solver.info()) {
-        case Eigen::Success:
-            return detail::all_finite(x.data(), x.size()) ? Status::ok : Status::solver_failed;
+        case Eigen::Success: return detail::all_finite(x) ? Status::ok : Status::solver_failed;
         case Eigen::NoConvergence: return Status::not_converged;
         default: return matrix.refused;
     }
