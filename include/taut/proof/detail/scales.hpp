@@ -7,29 +7,11 @@
 #include <limits>
 
 #include "../../core/detail/bisection.hpp"
-#include "../../conditions/visit.hpp"
-#include "explicit_limit.hpp"
-#include "symplectic_limit.hpp"
+#include "limit_of.hpp"
 
 // What would make a step safe, by the bound alone.
 
 namespace taut::proof_detail {
-
-/// The step that the bound certifies by what limits the method, s.
-inline double certified_by(method::LimitedByDamping, const Pencil& pencil) {
-    const double k = (std::max)(0.0, pencil.upper_bound(K_plus));
-    const double d = (std::max)(0.0, pencil.upper_bound(D));
-    return k > 0 || d > 0 ? certified_explicit(pencil, k, d) : infinity;
-}
-
-inline double certified_by(method::LimitedByStiffness, const Pencil& pencil) {
-    return certified_symplectic(pencil).h;
-}
-
-inline double certified_by(method::LimitedByIndefiniteness, const Pencil& pencil) {
-    const double kappa = (std::max)(0.0, pencil.upper_bound(-K_plus));
-    return kappa == 0 || pencil.stiffness_semidefinite() ? infinity : 1 / std::sqrt(kappa);
-}
 
 /// How well the two scales below are found, relative.
 inline constexpr double scale_tolerance = 1e-9;
@@ -37,9 +19,13 @@ inline constexpr double scale_tolerance = 1e-9;
 /// The step that the bound certifies after scaling, s.
 inline double certified_when_scaled(Method method, const Pencil& pencil, double stiffness,
                                     double mass) {
+    const Pencil scaled = pencil.scaled(stiffness, mass);
+    if (method::is_limited_by<method::LimitedByIndefiniteness>(method)) {  // of bare matrices, too
+        const double kappa = (std::max)(0.0, scaled.upper_bound(-K_plus));
+        return kappa == 0 || scaled.stiffness_semidefinite() ? infinity : 1 / std::sqrt(kappa);
+    }
     return method::visit_limited("Stability", method, [&](auto descriptor) {
-        using Limit = typename decltype(descriptor)::Limit;
-        return certified_by(Limit{}, pencil.scaled(stiffness, mass));
+        return ByBounds{scaled}(typename decltype(descriptor)::Limit{}).certified;
     });
 }
 
