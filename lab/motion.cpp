@@ -2,15 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include <optional>
-#include <taut/bdf2/bdf2.hpp>
-#include <taut/integrator/energy_stable_euler.hpp>
-#include <taut/integrator/explicit_euler.hpp>
-#include <taut/integrator/implicit_euler.hpp>
-#include <taut/integrator/symplectic_euler.hpp>
-#include <taut/integrator/velocity_verlet.hpp>
-#include <taut/conditions/visit.hpp>
 #include <taut/recommend/candidate.hpp>
-#include <taut/solver/conjugate_gradient.hpp>
 #include <variant>
 
 #include "lab.hpp"
@@ -20,9 +12,7 @@ namespace {
 
 using lab::Cloth;
 using Gradients = taut::ConjugateGradient<double, 3>;
-using Stepper = std::variant<taut::ExplicitEuler<Cloth>, taut::SymplecticEuler<Cloth>,
-                             taut::VelocityVerlet<Cloth>, taut::ImplicitEuler<Cloth, Gradients>,
-                             taut::Bdf2<Cloth, Gradients>, taut::EnergyStableEuler<Cloth>>;
+using Stepper = taut::Steppers<std::variant, Cloth, Gradients>;
 
 struct Motion {
     Cloth::State state;
@@ -39,7 +29,6 @@ void take_stepper(taut::Method method) {
     taut::method::visit(method, [&](auto descriptor) {
         using Descriptor = decltype(descriptor);
         constexpr auto index = static_cast<std::size_t>(Descriptor::method);
-        static_assert(std::variant_alternative_t<index, Stepper>::method == Descriptor::method);
         auto& taken = stepper.emplace(std::in_place_index<index>, lab::scene().cloth);
         if constexpr (Descriptor::is_implicit) {
             // As exact as what is timed for the recommendation.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <tuple>
 
 #include "../bdf2/bdf2.hpp"
 #include "../integrator/energy_stable_euler.hpp"
@@ -39,67 +40,38 @@ inline std::string name(const Candidate& candidate) {
     return text + " by sparse Cholesky";
 }
 
-namespace tradeoff_detail {
-
-/// The stepper of each method; Solver is that of an implicit one.
-template <class Descriptor, class System, class Solver>
-struct StepperOf;
-template <class System, class Solver>
-struct StepperOf<method::ExplicitEuler, System, Solver> {
-    using type = ExplicitEuler<System>;
-};
-template <class System, class Solver>
-struct StepperOf<method::SymplecticEuler, System, Solver> {
-    using type = SymplecticEuler<System>;
-};
-template <class System, class Solver>
-struct StepperOf<method::VelocityVerlet, System, Solver> {
-    using type = VelocityVerlet<System>;
-};
-template <class System, class Solver>
-struct StepperOf<method::ImplicitEuler, System, Solver> {
-    using type = ImplicitEuler<System, Solver>;
-};
-template <class System, class Solver>
-struct StepperOf<method::Bdf2, System, Solver> {
-    using type = Bdf2<System, Solver>;
-};
-template <class System, class Solver>
-struct StepperOf<method::EnergyStableEuler, System, Solver> {
-    using type = EnergyStableEuler<System>;
-};
-
-/// The stepper with this descriptor and this solver.
-template <class Descriptor, class Solver, class System>
-auto make_stepper(const System& system) {
-    using Stepper = typename StepperOf<Descriptor, System, Solver>::type;
-    return Stepper(system);
-}
-
-}  // namespace tradeoff_detail
+/// The steppers of all methods, in the order of the enum, as a std::tuple or std::variant.
+/// @tparam Solver  of the implicit ones
+template <template <class...> class List, class System, class Solver>
+using Steppers =
+    List<ExplicitEuler<System>, SymplecticEuler<System>, VelocityVerlet<System>,
+         ImplicitEuler<System, Solver>, Bdf2<System, Solver>, EnergyStableEuler<System>>;
 
 /// action(stepper) with the stepper of `candidate` on `system`, as fresh from its constructor.
 template <class System, class Action>
 void with_stepper(const System& system, const Candidate& candidate, Action&& action) {
     using Scalar = typename System::Scalar;
-    using Direct = SparseCholesky<Scalar>;
     using Gradients = ConjugateGradient<Scalar, System::Dim>;
     method::visit(candidate.method, [&](auto descriptor) {
         using Descriptor = decltype(descriptor);
+        constexpr auto place = static_cast<std::size_t>(Descriptor::method);
         if constexpr (Descriptor::method == Method::energy_stable_euler &&
                       !network_detail::is_spring_system_v<System>) {
             fail("with_stepper: ", Descriptor::name, " needs the springs of a SpringSystem");
         } else {
             if constexpr (Descriptor::is_implicit) {
                 if (candidate.solver == LinearSolver::conjugate_gradient) {
-                    auto stepper = tradeoff_detail::make_stepper<Descriptor, Gradients>(system);
+                    std::tuple_element_t<place, Steppers<std::tuple, System, Gradients>> stepper(
+                        system);
                     stepper.configure([&](Gradients& solver) {
                         solver.setTolerance(static_cast<Scalar>(candidate.solver_tolerance));
                     });
                     return action(stepper);
                 }
             }
-            auto stepper = tradeoff_detail::make_stepper<Descriptor, Direct>(system);
+            std::tuple_element_t<place, Steppers<std::tuple, System, SparseCholesky<Scalar>>>
+                stepper(system);
+            static_assert(decltype(stepper)::method == Descriptor::method);
             return action(stepper);
         }
     });
