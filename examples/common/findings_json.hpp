@@ -100,6 +100,7 @@ inline Json to_json(const Findings& found, double d0) {
         auto& want = json["want_step"];
         want["safe"] = found.is_safe(verdict);
         want["cures_hold"] = found.any_pose ? "any_pose" : "this_pose";
+        want["cures_are_near"] = cures.are_near();
         want["stiffness_scale"] = cures.stiffness_scale;
         want["mass_scale"] = cures.mass_scale;
         want["added_mass"] = cures.added_mass && cures.added_mass->reached

@@ -19,6 +19,9 @@ struct Cures {
     double stiffness_scale = 0;  ///< on all stiffness, αK⁺ included; 0: none is proved to do
     double mass_scale = 0;       ///< on all masses, d0·M included; infinity: none is
     std::optional<taut::AddedMass> added_mass;
+
+    /// Nobody makes a shirt so much heavier.
+    bool are_near() const { return mass_scale <= 30; }
 };
 
 /// Of one pose, by its bound and without a margin.
@@ -64,8 +67,8 @@ Cures cures_at_any_pose(const taut::SpringSystem<double, Dim>& system,
         if (system.is_pinned(i)) continue;
         heavier.set_mass(i, system.mass(i) + added.mass[static_cast<std::size_t>(i)]);
     }
-    added.frequency_change = taut::proof_detail::frequency_changes(
-        taut::Pencil::at_pose(system, state.x), taut::Pencil::at_pose(heavier, state.x));
+    added.frequency_change = taut::frequency_changes(taut::Pencil::at_pose(system, state.x),
+                                                     taut::Pencil::at_pose(heavier, state.x));
     return found;
 }
 

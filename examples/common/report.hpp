@@ -153,7 +153,6 @@ inline void print_verdict(const Findings& found, const char* step, const Verdict
 }
 
 inline void print_remedies(const Findings& found) {
-    constexpr double far = 30;  // nobody makes a shirt so much heavier
     const auto& [verdict, cures] = *found.remedies;
     print_verdict(found, "The wanted step of symplectic Euler,", verdict);
     if (found.is_safe(verdict)) return;
@@ -166,7 +165,7 @@ inline void print_remedies(const Findings& found) {
         std::printf("  no scale of stiffness or masses is proved to make it safe\n");
         return;
     }
-    if (cures.mass_scale > far) {
+    if (!cures.are_near()) {
         std::printf("  no other cure is near: stiffness or masses would have to change %s-fold\n",
                     rounded_up(cures.mass_scale, 3, 'g').c_str());
         return;

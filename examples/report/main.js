@@ -76,7 +76,7 @@ function remedy(want) {
 /// Without the last full stop.
 function cures(want) {
   if (!(want.stiffness_scale > 0) || want.mass_scale === null) return " No scale of stiffness or masses is proved to make it safe";
-  if (want.mass_scale > 30) return ` No other cure is near: stiffness or masses would have to change ${significant(atLeast(want.mass_scale))}-fold`;
+  if (!want.cures_are_near) return ` No other cure is near: stiffness or masses would have to change ${significant(atLeast(want.mass_scale))}-fold`;
   const where = want.cures_hold === "any_pose" ? "any pose, at 0.95 of the limit," : "this pose";
   const added = want.added_mass === null ? "" : `, or ${significant(atLeast(want.added_mass))} kg more on the particles that need it`;
   return ` It is certified at ${where} with all stiffness times ${significant(atMost(want.stiffness_scale))}, or all masses times ${significant(atLeast(want.mass_scale))}${added}`;

@@ -16,6 +16,8 @@
 
 namespace taut {
 
+using proof_detail::frequency_changes;
+
 /// Answer of added_mass.
 struct AddedMass {
     bool reached =
