@@ -33,11 +33,7 @@ namespace solver_detail {
 template <class Real>
 Real gershgorin_bound(const SparseMatrix<Real>& A) {
     VectorX<Real> row = VectorX<Real>::Zero(A.rows());
-    for (Index j = 0; j < A.outerSize(); ++j) {
-        for (typename SparseMatrix<Real>::InnerIterator entry(A, j); entry; ++entry) {
-            row[entry.row()] += (std::abs)(entry.value());
-        }
-    }
+    for_each_entry(A, [&](Index i, Index, Real value) { row[i] += (std::abs)(value); });
     return (std::max)(row.maxCoeff(), (std::numeric_limits<Real>::min)() * Real(1e20));
 }
 

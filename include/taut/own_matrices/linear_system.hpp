@@ -19,6 +19,20 @@
 
 namespace taut {
 
+namespace solver_detail {
+
+/// visit(row, column, value) of the entries that are stored.
+template <class Scalar, class Visit>
+void for_each_entry(const SparseMatrix<Scalar>& A, Visit&& visit) {
+    for (Index j = 0; j < A.outerSize(); ++j) {
+        for (typename SparseMatrix<Scalar>::InnerIterator entry(A, j); entry; ++entry) {
+            visit(entry.row(), j, entry.value());
+        }
+    }
+}
+
+}  // namespace solver_detail
+
 /// Where a linearised system's degrees of freedom come from: those of the free particles of a
 /// spring system. Empty for a system of the user's own matrices.
 template <class Scalar>
@@ -123,16 +137,13 @@ VectorX<Scalar> diagonal_mass(const SparseMatrix<Scalar>& M) {
         fail("diagonal_mass: M is ", M.rows(), " by ", M.cols(), "; it must be square");
     }
     VectorX<Scalar> mass = VectorX<Scalar>::Zero(M.rows());
-    for (Index j = 0; j < M.outerSize(); ++j) {
-        for (typename SparseMatrix<Scalar>::InnerIterator entry(M, j); entry; ++entry) {
-            if (entry.row() == j) {
-                mass[j] = entry.value();
-            } else if (entry.value() != Scalar(0)) {
-                fail("diagonal_mass: M(", entry.row(), ", ", j, ") is ", entry.value(),
-                     "; M must be diagonal");
-            }
+    solver_detail::for_each_entry(M, [&](Index i, Index j, Scalar m) {
+        if (i == j) {
+            mass[j] = m;
+        } else if (m != Scalar(0)) {
+            fail("diagonal_mass: M(", i, ", ", j, ") is ", m, "; M must be diagonal");
         }
-    }
+    });
     return mass;
 }
 
@@ -162,14 +173,11 @@ GeneralLinearSystem<Scalar>::GeneralLinearSystem(Vector mass, Matrix damping, Ma
                  "; mass asks for ", N, " by ", N);
         }
         matrix.makeCompressed();
-        for (Index j = 0; j < N; ++j) {
-            for (typename Matrix::InnerIterator entry(matrix, j); entry; ++entry) {
-                if (!detail::is_finite(entry.value())) {
-                    fail("LinearSystem: ", argument, "(", entry.row(), ", ", j, ") is ",
-                         entry.value(), "; it must be finite");
-                }
-            }
-        }
+        solver_detail::for_each_entry(matrix, [&](Index i, Index j, Scalar value) {
+            if (detail::is_finite(value)) return;
+            fail("LinearSystem: ", argument, "(", i, ", ", j, ") is ", value,
+                 "; it must be finite");
+        });
     };
     require_fit("damping", damping_);
     require_fit("stiffness", stiffness_);
@@ -247,29 +255,22 @@ auto LinearSystem<Scalar>::symmetric(const char* argument, Matrix matrix) -> Mat
     const Matrix transposed = matrix.transpose();
     const Matrix difference = matrix - transposed;
     Vector largest = Vector::Zero(matrix.rows());  // of each row and its column
-    for (Index j = 0; j < matrix.outerSize(); ++j) {
-        for (typename Matrix::InnerIterator entry(matrix, j); entry; ++entry) {
-            const Scalar size = (std::abs)(entry.value());
-            largest[j] = (std::max)(largest[j], size);
-            largest[entry.row()] = (std::max)(largest[entry.row()], size);
-        }
-    }
+    solver_detail::for_each_entry(matrix, [&](Index i, Index j, Scalar value) {
+        for (const Index of : {i, j}) largest[of] = (std::max)(largest[of], (std::abs)(value));
+    });
     // What a stiff row rounds is no excuse for a soft one.
     const auto rounding = [&](Index i, Index j) {
         return 16 * std::numeric_limits<Scalar>::epsilon() * (std::min)(largest[i], largest[j]);
     };
     bool exact = true;
-    for (Index j = 0; j < difference.outerSize(); ++j) {
-        for (typename Matrix::InnerIterator entry(difference, j); entry; ++entry) {
-            if ((std::abs)(entry.value()) > rounding(entry.row(), j)) {
-                fail("LinearSystem: ", argument, "(", entry.row(), ", ", j, ") is ",
-                     matrix.coeff(entry.row(), j), " but (", j, ", ", entry.row(), ") is ",
-                     matrix.coeff(j, entry.row()),
-                     "; it must be symmetric (GeneralLinearSystem admits others)");
-            }
-            exact = exact && entry.value() == Scalar(0);
+    solver_detail::for_each_entry(difference, [&](Index i, Index j, Scalar value) {
+        if ((std::abs)(value) > rounding(i, j)) {
+            fail("LinearSystem: ", argument, "(", i, ", ", j, ") is ", matrix.coeff(i, j), " but (",
+                 j, ", ", i, ") is ", matrix.coeff(j, i),
+                 "; it must be symmetric (GeneralLinearSystem admits others)");
         }
-    }
+        exact = exact && value == Scalar(0);
+    });
     return exact ? matrix : Matrix(Scalar(0.5) * (matrix + transposed));
 }
 

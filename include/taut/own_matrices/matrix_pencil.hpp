@@ -63,9 +63,6 @@ private:
     Index size() const { return mass_.size(); }
     /// The Rayleigh form of D, if it has one.
     std::optional<double> mass_proportional() const;
-    /// @param check  takes each entry and its row
-    template <class Visit>
-    static void for_each_entry(const SparseMatrix<Scalar>& A, Visit&& visit);
     static bool diagonally_dominant(const SparseMatrix<Real>& A);
     static bool proves_semidefinite(const SparseMatrix<Scalar>& A);
 
@@ -78,10 +75,12 @@ template <class Scalar>
 Pencil MatrixPencil<Scalar>::of(const LinearSystem<Scalar>& system) {
     std::shared_ptr<MatrixPencil> own(new MatrixPencil(system));
     proof_detail::RangeCheck check;
-    for_each_entry(system.stiffness(),
-                   [&](Scalar k, Index row) { check.in_range(k, "stiffness in row", row); });
-    for_each_entry(system.damping(),
-                   [&](Scalar d, Index row) { check.in_range(d, "damping in row", row); });
+    const auto check_entries = [&](const SparseMatrix<Scalar>& A, const char* what) {
+        solver_detail::for_each_entry(
+            A, [&](Index row, Index, Scalar value) { check.in_range(value, what, row); });
+    };
+    check_entries(system.stiffness(), "stiffness in row");
+    check_entries(system.damping(), "damping in row");
     for (Index i = 0; i < system.size(); ++i) check.in_range(system.mass()[i], "mass in row", i);
     Pencil::Facts facts;
     RayleighDamping rayleigh;
@@ -94,16 +93,6 @@ Pencil MatrixPencil<Scalar>::of(const LinearSystem<Scalar>& system) {
         facts.damping_semidefinite = facts.is_rayleigh || proves_semidefinite(system.damping());
     }
     return {own->mass_, rayleigh, facts, check.lost(), own};
-}
-
-template <class Scalar>
-template <class Visit>
-void MatrixPencil<Scalar>::for_each_entry(const SparseMatrix<Scalar>& A, Visit&& visit) {
-    for (Index j = 0; j < A.outerSize(); ++j) {
-        for (typename SparseMatrix<Scalar>::InnerIterator entry(A, j); entry; ++entry) {
-            visit(entry.value(), entry.row());
-        }
-    }
 }
 
 /// D = d0·M is the one Rayleigh form that bare matrices show; α·K is not looked for, since rounding
@@ -184,13 +173,11 @@ Enclosed MatrixPencil<Scalar>::quadratic(const Combination& c, const Eigen::Vect
     }
     const auto add = [&](const Matrix& A, double factor) {
         if (factor == 0) return;
-        for (Index j = 0; j < A.outerSize(); ++j) {
-            for (Matrix::InnerIterator entry(A, j); entry; ++entry) {
-                const double term = factor * entry.value() * u[entry.row()] * u[j];
-                sum.value += term;
-                sum.error += (std::abs)(term);
-            }
-        }
+        solver_detail::for_each_entry(A, [&](Index i, Index j, double value) {
+            const double term = factor * value * u[i] * u[j];
+            sum.value += term;
+            sum.error += (std::abs)(term);
+        });
     };
     add(K_, on_K(c));
     add(D_, c.damping());
@@ -224,11 +211,9 @@ double MatrixPencil<Scalar>::upper_bound(const Combination& c) const {
     double best = std::numeric_limits<double>::infinity();
     for (int repeat = 0; repeat < most_repeats && best > 0; ++repeat) {
         others.setZero();
-        for (Index j = 0; j < size(); ++j) {
-            for (Matrix::InnerIterator entry(S, j); entry; ++entry) {
-                if (entry.row() != j) others[entry.row()] += (std::abs)(entry.value()) * p[j];
-            }
-        }
+        solver_detail::for_each_entry(S, [&](Index i, Index j, double value) {
+            if (i != j) others[i] += (std::abs)(value)*p[j];
+        });
         const Eigen::VectorXd diagonal = S.diagonal().cwiseProduct(p);
         const Eigen::VectorXd error =
             rounding * (sizes * p + (std::abs)(c.mass()) * mass_.cwiseProduct(p)) + underflow;
