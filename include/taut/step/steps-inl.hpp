@@ -37,8 +37,8 @@ Planes<Scalar> Outside<Scalar, Dim>::at_state(const Layout<Scalar>& layout,
 
 template <class Scalar, int Dim>
 Index Steps<Scalar, Dim>::first_not_finite(const Layout<Scalar>& layout) const {
-    const auto zero = State<Scalar, Dim>::zero(layout.size());
-    State<Scalar, Dim> last{zero, zero, 0};
+    State<Scalar, Dim> last;
+    last.x = last.v = last.zero(layout.size());
     store(layout, state_.planes().x, 0, 0, last);
     return last.first_not_finite();
 }
