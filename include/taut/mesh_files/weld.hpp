@@ -118,7 +118,7 @@ WeldedMesh weld_vertices(const Points<Scalar, 3>& vertices,
     WeldedMesh mesh;
     scene_detail::VertexGrid<Scalar> stayed(vertices, distance);
     for (Index v = 0; v < vertices.cols(); ++v) {
-        if (!detail::all_finite(vertices.col(v).data(), vertices.col(v).size())) {
+        if (!detail::all_finite(vertices.col(v).eval())) {
             fail("weld_vertices: the position of vertex ", v, " is not finite");
         }
         mesh.vertex.push_back(stayed.first_near(v));

@@ -68,7 +68,9 @@ public:
     /// its inertial start or to the momentum that the start gives. A spent budget is no failure: φ
     /// is no larger than at the inertial start, but for rounding.
     template <class AnyState>
-    Report step(AnyState& state, Scalar h, Index count = 1);
+    Report step(AnyState& state, Scalar h, Index count = 1) {
+        return loop_.run(*system_, state, h, count, [&](State& own) { return advance(own, h); });
+    }
     /// Of the last step.
     int iterations() const { return iterations_; }
     /// Factorisations so far.
@@ -100,12 +102,6 @@ private:
     Points<Scalar, Dim> du_;       // its next change
     Points<Scalar, Dim> u1_, g1_;  // a trial
 };
-
-template <class System, class Solver>
-template <class AnyState>
-Report ProjectiveDynamics<System, Solver>::step(AnyState& state, Scalar h, Index count) {
-    return loop_.run(*system_, state, h, count, [&](State& own) { return advance(own, h); });
-}
 
 template <class System, class Solver>
 ProjectiveDynamics<System, Solver>::ProjectiveDynamics(const System& system, const Options& options)

@@ -148,13 +148,11 @@ Mode limiting_mode(const Stability<Scalar>& stability) {
 template <class Scalar>
 std::vector<SpringShare> limiting_springs(const Stability<Scalar>& stability, Index count,
                                           const Mode& mode) {
-    if (stability.size() == 0 || count <= 0) return {};
     return proof_detail::largest_shares(stability.pencil().spring_shares(mode.shape), count);
 }
 /// Of the limiting mode. Finding it is most of the work.
 template <class Scalar>
 std::vector<SpringShare> limiting_springs(const Stability<Scalar>& stability, Index count) {
-    if (stability.size() == 0 || count <= 0) return {};
     return limiting_springs(stability, count, limiting_mode(stability));
 }
 
@@ -162,13 +160,11 @@ std::vector<SpringShare> limiting_springs(const Stability<Scalar>& stability, In
 template <class Scalar>
 std::vector<ParticleShare> limiting_particles(const Stability<Scalar>& stability, Index count,
                                               const Mode& mode) {
-    if (stability.size() == 0 || count <= 0) return {};
     return proof_detail::largest_shares(stability.pencil().particle_shares(mode.shape), count);
 }
 /// Of the limiting mode.
 template <class Scalar>
 std::vector<ParticleShare> limiting_particles(const Stability<Scalar>& stability, Index count) {
-    if (stability.size() == 0 || count <= 0) return {};
     return limiting_particles(stability, count, limiting_mode(stability));
 }
 

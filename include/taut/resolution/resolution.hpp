@@ -178,15 +178,12 @@ private:
         system_.force(state_, f);
         double farthest = 0;
         for (Index i = 0; i < system_.size(); ++i) {
-            if (system_.is_pinned(i)) {
-                farthest =
-                    (std::max)(farthest, duration_ * static_cast<double>(state_.v.col(i).norm()));
-                continue;
+            double way = duration_ * static_cast<double>(state_.v.col(i).norm());
+            if (!system_.is_pinned(i)) {
+                way += duration_ * duration_ / 2 *
+                       static_cast<double>(f.col(i).norm() / system_.mass(i));
             }
-            farthest = (std::max)(farthest,
-                                  duration_ * static_cast<double>(state_.v.col(i).norm()) +
-                                      duration_ * duration_ / 2 *
-                                          static_cast<double>(f.col(i).norm() / system_.mass(i)));
+            farthest = (std::max)(farthest, way);
         }
         return !(farthest <= 1e-9 * found_.size);
     }

@@ -246,7 +246,7 @@ MeshSprings<Scalar> springs_from_mesh(const Points<Scalar, 3>& vertices,
     std::vector<Index> used;
     for (Index v = 0; v < vertices.cols(); ++v) {
         if (particle(v) < 0) continue;
-        if (!detail::all_finite(vertices.col(v).data(), vertices.col(v).size())) {
+        if (!detail::all_finite(vertices.col(v).eval())) {
             fail("springs_from_mesh: the position of vertex ", v, " is not finite");
         }
         used.push_back(v);
