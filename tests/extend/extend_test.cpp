@@ -3,12 +3,14 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <string>
 #include <taut/guard/guard.hpp>
 #include <taut/integrator/energy_stable_euler.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/lattice/chain.hpp>
 #include <taut/proof/stability.hpp>
 #include <taut/taut.hpp>
+#include <vector>
 
 #include "../support/catch.hpp"
 #include "../support/message.hpp"
@@ -162,6 +164,7 @@ TEST_CASE("extend: a stepper of one's own takes an engine's arrays", "[extend]")
     REQUIRE(stepper.step(state, 1e-3, 10));
     CHECK(view.x == state.x);
     CHECK(view.v == state.v);
+    CHECK(state.v(2, 0) == 1);  // a pin knows no drag
     CHECK_FALSE(stepper.step(view, -1, 10));
     CHECK(view.x == state.x);
 }
