@@ -7,7 +7,7 @@
 
 #include "../support/catch.hpp"
 #include "../support/random_system.hpp"
-#include "../support/stability_scenes.hpp"
+#include "../support/proof_scenes.hpp"
 
 // The limits that hold at any pose: 4M − 2hL_c − h²L_k ≻ 0 [T23] and M ⪰ h²L_k + ½hD [T42].
 
