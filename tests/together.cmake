@@ -18,11 +18,11 @@ set(groups_network "force_test parts_test spring_set_test spring_system_test")
 set(groups_newton convex_scene convex_scene_2d convex_scene_3d newton_scenes_2d)
 set(groups_own_matrices "matrix_pencil_test steps_test")
 set(groups_projective "projective_by_eigen projective_by_eigen_float")
-set(groups_resolution resolution_scenes)
-set(groups_solver "conjugate_gradient_test two_level_test")
 set(groups_proof
     "growth_test lanczos_test large_test limit_test"
     "pencil_test small_eigenvalue_test rayleigh_test step_limit_test")
+set(groups_resolution resolution_scenes)
+set(groups_solver "conjugate_gradient_test two_level_test")
 set(groups_step "sweep_forces_test" "energy_stable_sweep_test sweep_test")
 set(groups_support
     "scene_any_double_1 scene_any_double_2 scene_any_double_3 scene_any_float_3"

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The core: springs, cloth, explicit and implicit steps, limits. All else is a module, a
-// folder with a header of its name: docs/modules.md lists them.
+// What most programs use of the core: springs, cloth, explicit steps and their limits. What else
+// there is, by headers of their own and in modules: docs/modules.md.
 
 #include "core/version.hpp"
 #include "integrator/energy_stable_euler.hpp"

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 #include <limits>
+#include <taut/integrator/symplectic_euler.hpp>
 #include <taut/contact/contact.hpp>
 #include <taut/scene/cloth.hpp>
 

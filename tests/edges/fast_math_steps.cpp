@@ -13,6 +13,7 @@
 #include <exception>
 
 #include "referee.hpp"
+#include "steppers.hpp"
 
 namespace {
 
@@ -116,10 +117,8 @@ void judge_core() {
     using System = taut::SpringSystem<Scalar, 3>;
     const auto system = cloth<Scalar>();
     const Scalar h = too_large_a_step<Scalar>();
-    diverges<taut::SymplecticEuler<System>>("symplectic_euler", h);
-    diverges<taut::VelocityVerlet<System>>("velocity_verlet", h);
-    diverges<taut::EnergyStableEuler<System>>("energy_stable_euler", h);
-    diverges<taut::ExplicitEuler<System>>("explicit_euler", h);
+    edges::each_explicit<System>(
+        [&](auto kind) { diverges<typename decltype(kind)::Type>(kind.name, h); });
 
     auto changed = system;
     refuses("mass", [](double bad) { System().add_particle({0, 0, 0}, static_cast<Scalar>(bad)); });

@@ -20,6 +20,8 @@ bool eigen_allocated = false;
 #include <taut/guard/guard.hpp>
 #include <taut/taut.hpp>
 
+#include "steppers.hpp"
+
 // Not inline: GCC would take the pair for a mismatch of new and free.
 EIGEN_DONT_INLINE void* operator new(std::size_t size) {
     ++allocations;
@@ -58,10 +60,11 @@ bool allocates(const char* name, const System& system) {
 
 template <class System>
 bool any_allocates(const System& system) {
-    return allocates<taut::SymplecticEuler<System>>("symplectic_euler", system) ||
-           allocates<taut::ExplicitEuler<System>>("explicit_euler", system) ||
-           allocates<taut::VelocityVerlet<System>>("velocity_verlet", system) ||
-           allocates<taut::EnergyStableEuler<System>>("energy_stable_euler", system);
+    bool any = false;
+    edges::each_explicit<System>([&](auto kind) {
+        any = allocates<typename decltype(kind)::Type>(kind.name, system) || any;
+    });
+    return any;
 }
 
 /// A cloth thrown so hard that frames are trimmed and taken again; as an engine would, in float.

@@ -20,6 +20,8 @@
 #include <string>
 #include <vector>
 
+#include "steppers.hpp"
+
 #if defined(__GLIBC__)
 #include <csetjmp>
 #include <csignal>
@@ -76,13 +78,13 @@ void run_limits(const System& system, const typename System::State& state) {
     using taut::any_pose_limit;
     using taut::energy_limit;
     const taut::Stability<Scalar> stability(system, state);
-    const Method methods[] = {Method::symplectic_euler, Method::explicit_euler,
-                              Method::velocity_verlet, Method::implicit_euler};
-    for (const Method method : methods) {
+    for (int i = 0; i <= static_cast<int>(Method::last); ++i) {
+        const auto method = static_cast<Method>(i);
+        if (taut::method::is_limited_by<taut::method::Absent>(method)) continue;
+        run("any_pose_limit of a method", [&] { (void)any_pose_limit(system, method); });
         run("max_step", [&] { (void)stability.max_step(method); });
         run("bracket", [&] { (void)taut::bracket(stability, method); });
         run("max_step, tight", [&] { (void)taut::max_step(stability, method, 1e-3); });
-        run("any_pose_limit of a method", [&] { (void)any_pose_limit(system, method); });
         run("rayleigh_window", [&] { (void)stability.rayleigh_window(method, 1e-3); });
         run("rayleigh_window, d0", [&] { (void)stability.rayleigh_window(method, 1e-3, 0.1); });
         run("max_stiffness_scale", [&] { (void)stability.max_stiffness_scale(method, 1e-3); });
@@ -143,12 +145,14 @@ void run_steps(const System& system, const typename System::State& start, bool d
     const auto any = static_cast<double>(taut::any_pose_limit(system).certified);
     const auto energy = static_cast<double>(taut::energy_limit(system).certified);
     const auto h = [](double limit) { return limit < 1e-2 ? limit : 1e-2; };
-    run_stepper<taut::SymplecticEuler<System>>("SymplecticEuler", system, start, h(0.9 * any));
-    run_stepper<taut::VelocityVerlet<System>>("VelocityVerlet", system, start, h(0.9 * any));
-    run_stepper<taut::EnergyStableEuler<System>>("EnergyStableEuler", system, start, h(energy));
-    if (damped) {
-        run_stepper<taut::ExplicitEuler<System>>("ExplicitEuler", system, start, h(0.1 * any));
-    }
+    edges::each_explicit<System>([&](auto kind) {
+        using taut::method::AnyPose;
+        if (kind.any_pose == AnyPose::no_step && !damped) return;
+        const double limit = kind.any_pose == AnyPose::proved    ? energy
+                             : kind.any_pose == AnyPose::limited ? 0.9 * any
+                                                                 : 0.1 * any;
+        run_stepper<typename decltype(kind)::Type>(kind.name, system, start, h(limit));
+    });
     run_stepper<taut::ImplicitEuler<System>>("ImplicitEuler", system, start, 1e-2);
     run_guarded(system, start);
 }

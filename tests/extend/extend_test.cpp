@@ -1,118 +1,32 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
+#include <string>
+#include <taut/guard/guard.hpp>
 #include <taut/integrator/energy_stable_euler.hpp>
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/lattice/chain.hpp>
 #include <taut/proof/stability.hpp>
 #include <taut/taut.hpp>
+#include <vector>
 
 #include "../support/catch.hpp"
+#include "../support/message.hpp"
+#include "../support/scene_on.hpp"
+#include "../support/stepper_battery.hpp"
 #include "../support/sweep_checks.hpp"
+#include "../support/temporary_file.hpp"
+#include "drag_leapfrog.hpp"
+#include "ring.hpp"
+#include "stiffening.hpp"
+#include "xyz_format.hpp"
 
-// A law, an integrator and a limit of a program's own: by what Taut's headers offer, nothing added
-// to them. CONTRIBUTING.md walks through this file.
+// A law, an integrator with its limit, a scene and a file format of a program's own: by what Taut's
+// headers offer, nothing added to them. CONTRIBUTING.md lists the files.
 
 namespace taut_test::extend_test {
-
-/// A spring that stiffens: T = k u (1 + a|u|/(w + |u|)), u = l − L. T′ rises from k to k(1 + a).
-struct Stiffening {
-    static constexpr bool convex = false;
-    static constexpr bool monotone = true;
-    static constexpr bool vectorizable = true;
-
-    template <class Scalar>
-    struct Parameters {
-        Scalar stiffness;  ///< k, N/m
-        Scalar more;       ///< a
-        Scalar width;      ///< w, m
-
-        void require_valid(const char* where) const {
-            taut::require_non_negative(where, "stiffness", stiffness);
-            taut::require_non_negative(where, "more", more);
-            taut::require_positive(where, "width", width);
-        }
-        template <class Other>
-        Parameters<Other> cast() const {
-            return {static_cast<Other>(stiffness), static_cast<Other>(more),
-                    static_cast<Other>(width)};
-        }
-    };
-
-    template <class Scalar>
-    static Scalar tension(const Parameters<Scalar>& p, Scalar L, Scalar l) {
-        const Scalar u = l - L, r = size(u);
-        return p.stiffness * u * (Scalar(1) + p.more * r / (p.width + r));
-    }
-    template <class Scalar>
-    static Scalar tension_slope(const Parameters<Scalar>& p, Scalar L, Scalar l) {
-        const Scalar left = p.width / (p.width + size(l - L));
-        return p.stiffness * (Scalar(1) + p.more * (Scalar(1) - left * left));
-    }
-    template <class Scalar>
-    static Scalar energy(const Parameters<Scalar>& p, Scalar L, Scalar l) {
-        const Scalar u = std::abs(l - L), w = p.width;
-        return p.stiffness * (u * u / 2 + p.more * (u * u / 2 - w * u + w * w * std::log1p(u / w)));
-    }
-    template <class Scalar>
-    static Scalar stiffness_bound(const Parameters<Scalar>& p, Scalar) {
-        return p.stiffness * (Scalar(1) + p.more);
-    }
-
-private:
-    template <class Scalar>
-    static Scalar size(Scalar u) {
-        using std::max;
-        return max(u, Scalar(0) - u);
-    }
-};
-
-template <class Scalar>
-Stiffening::Parameters<Scalar> draw_parameters(Random& random, Stiffening) {
-    const auto stiffness = static_cast<Scalar>(random.uniform(20, 200));
-    const auto more = static_cast<Scalar>(random.uniform(0, 3));
-    return {stiffness, more, static_cast<Scalar>(random.uniform(0.01, 1))};
-}
-
-/// Leapfrog whose drag c, 1/s, is taken half at either end of the step:
-///     v⁺ = ((1 − hc/2) v + h f/m)/(1 + hc/2),  x⁺ = x + h v⁺.
-/// On a mode of stiffness k and damping d of the system its multipliers solve
-///     (1 + hc/2) μ² − (2 − hd − h²k) μ + 1 − hc/2 − hd = 0,
-/// which leave the unit circle at 2hd + h²k = 4, whatever c is.
-template <class System>
-class DragLeapfrog {
-public:
-    DragLeapfrog(const System& system, double drag) : system_(&system), drag_(drag) {}
-
-    taut::Report step(typename System::State& state, typename System::Scalar h, Index count = 1) {
-        using Scalar = typename System::Scalar;
-        const Scalar half = h * static_cast<Scalar>(drag_) / 2;
-        for (Index i = 0; i < count; ++i) {
-            system_->force(state, f_);
-            const auto a = f_.array().rowwise() * system_->inverse_mass().transpose().array();
-            state.v.array() = ((1 - half) * state.v.array() + h * a) / (1 + half);
-            state.x += h * state.v;
-            state.time += h;
-            if (!state.finite()) return {taut::Status::diverged};
-        }
-        return {};
-    }
-    /// Its condition, for Stability::max_step: 2hD + h²K⁺ ≺ 4M. The first h fulfils it; from h to
-    /// s·h, s ≥ 1, the sum grows by s² at most.
-    static double certified(const taut::Pencil& pencil) {
-        using namespace taut::matrices;
-        const double h = 2 / (pencil.upper_bound(D) + std::sqrt(pencil.upper_bound(K_plus)));
-        const double sum = std::isinf(h) ? 0 : pencil.upper_bound(2 * h * D + h * h * K_plus);
-        return h * std::sqrt(4 / sum);
-    }
-
-private:
-    const System* system_;
-    double drag_;
-    typename System::Force f_;
-};
 
 namespace {
 
@@ -127,6 +41,19 @@ Chain<Scalar> chain() {
 }
 
 }  // namespace
+
+TEST_CASE("extend: an integrator of one's own keeps what steppers promise", "[extend]") {
+    test_stepper(
+        {[](const Scene& scene) {
+             return make_stepper<DragLeapfrog, Plain<float, 3>, Plain<double, 2>, Plain<double, 3>>(
+                 scene, 0.0);
+         },
+         {{true, 3}, {false, 2}, {false, 3}},
+         {},
+         {},
+         DragLeapfrog<Plain<double, 3>>::order,
+         true});
+}
 
 TEMPLATE_TEST_CASE("extend: the limit of an integrator of one's own is the chain's closed form",
                    "[extend]", float, double) {
@@ -201,6 +128,87 @@ TEST_CASE("extend: a condition tells of compressed springs", "[extend]") {
     CHECK(limit.admitted_growth > 0);
     CHECK(limit.admitted_growth ==
           stability.max_step(taut::Method::symplectic_euler).admitted_growth);
+}
+
+TEMPLATE_TEST_CASE("extend: the guard cuts a frame into steps of one's own limit", "[extend]",
+                   float, double) {
+    const auto cloth = taut::hanging_cloth<TestType>({12, 12});
+    const double limit =
+        DragLeapfrog<taut::SpringSystem<TestType, 3>>::certified(taut::Pencil::any_pose(cloth));
+    DragLeapfrog stepper(cloth, 2);
+    taut::GuardedOptions<TestType> options;  // without `method` it would be given whole frames
+    options.max_step = static_cast<TestType>(0.95 * limit);
+    taut::Guarded guard(cloth, stepper, options);
+    auto state = cloth.initial_state();
+    state.v.row(2).tail(11 * 12).setConstant(20);
+    const double before = cloth.energy(state);
+    for (int frame = 0; frame < 60; ++frame) {
+        const auto report = guard.advance(state, TestType(1) / 60);
+        REQUIRE(report);
+        CHECK(report.h <= options.max_step);
+        CHECK(report.substeps >= 2);
+        CHECK(report.energy < 1.1 * before);
+    }
+    CHECK(static_cast<double>(cloth.energy(state)) < 0.5 * before);  // by the drag
+}
+
+TEST_CASE("extend: a stepper of one's own takes an engine's arrays", "[extend]") {
+    const auto cloth = taut::hanging_cloth<double>({5, 4});
+    auto state = cloth.initial_state();
+    state.v.row(2).setConstant(1);
+    std::vector<double> x(60), v(60);
+    taut::StateView<double, 3> view(x.data(), v.data(), 20);
+    view.copy_from(state);
+    DragLeapfrog stepper(cloth, 2);
+    REQUIRE(stepper.step(view, 1e-3, 10));
+    REQUIRE(stepper.step(state, 1e-3, 10));
+    CHECK(view.x == state.x);
+    CHECK(view.v == state.v);
+    CHECK(state.v(2, 0) == 1);  // a pin knows no drag
+    CHECK_FALSE(stepper.step(view, -1, 10));
+    CHECK(view.x == state.x);
+}
+
+TEMPLATE_TEST_CASE("extend: a scene of one's own has its counts, masses, lengths and spectrum",
+                   "[extend]", float, double) {
+    const auto system = ring<TestType>({10, 2, 0.25, 40});
+    REQUIRE((system.size() == 10 && system.spring_count() == 10));
+    system.visit_springs([](const auto& spring) {
+        CHECK_THAT(static_cast<double>(spring.rest_length),
+                   WithinRel(4 * std::sin(std::acos(-1.0) / 10), Tolerance<TestType>::rounding));
+    });
+    CHECK(system.inverse_mass().minCoeff() == 4);
+    CHECK(system.inverse_mass().maxCoeff() == 4);
+    const double exact = 2 / std::sqrt(4 * 40 / 0.25);
+    const auto certified = static_cast<double>(taut::any_pose_limit(system).certified);
+    CHECK((certified <= exact && certified >= 0.999 * exact));
+    CHECK(missing(message_of([] { (void)ring<TestType>({2}); }), {"ring: particles is 2", ">= 3"})
+              .empty());
+    CHECK(missing(message_of([] { (void)ring<TestType>({3, 0}); }), {"ring: radius is 0"}).empty());
+}
+
+TEST_CASE("extend: a file format of one's own is written frame by frame", "[extend]") {
+    const TemporaryFile first("own00000.xyz"), second("own00001.xyz");
+    taut::MeshSequence<XyzFormat> frames(temporary_prefix() + "own", {});
+    const auto system = ring<double>();
+    auto state = system.initial_state();
+    REQUIRE(frames.write(state.x));
+    state.x *= 2;
+    REQUIRE(frames.write(state.x));
+    std::ifstream in(second.path);
+    std::string count, words, name;
+    REQUIRE(std::getline(in, count));
+    REQUIRE(std::getline(in, words));
+    CHECK(count == "12");
+    for (Index i = 0; i < 12; ++i) {
+        Eigen::Vector3d p;
+        REQUIRE(in >> name >> p[0] >> p[1] >> p[2]);
+        CHECK((p == Eigen::Vector3d(state.x(0, i), state.x(1, i), 0)));
+    }
+    state.x(1, 7) = std::nan("");
+    const auto report = frames.write(state.x);
+    CHECK((report.status == taut::FileStatus::not_finite && report.where == 7));
+    CHECK(frames.frames() == 2);
 }
 
 namespace {

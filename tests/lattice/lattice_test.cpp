@@ -7,7 +7,7 @@
 #include "../support/catch.hpp"
 #include "../support/message.hpp"
 #include "../support/scene_of.hpp"
-#include "../support/stability_scenes.hpp"
+#include "../support/proof_scenes.hpp"
 
 namespace taut_test::lattice_test {
 

@@ -80,7 +80,7 @@ def names(text):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--room", help="only these rooms, in this order: guard,model")
+    parser.add_argument("--room", help="only these rooms, in this order: guard,network")
     parser.add_argument("--only", type=names, help="only these, such as chosen:3,drawn:7-9")
     parser.add_argument("--check", action="store_true", help="whether each line occurs once; compiles nothing")
     parser.add_argument("--table", action="store_true", help="what is known; compiles nothing")

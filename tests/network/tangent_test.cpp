@@ -7,7 +7,7 @@
 #include "../support/message.hpp"
 #include "../support/scene_dense.hpp"
 #include "../support/tolerance.hpp"
-#include "model_scenes.hpp"
+#include "network_scenes.hpp"
 
 // K, K⁺ and D: against forces, against what they are written as, and as a pattern.
 

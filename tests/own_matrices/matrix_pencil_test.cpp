@@ -4,7 +4,7 @@
 #include <taut/proof/pencil_matrix.hpp>
 
 #include "../support/catch.hpp"
-#include "../support/stability_scenes.hpp"
+#include "../support/proof_scenes.hpp"
 #include "matrices.hpp"
 
 namespace taut_test::own_matrices {

@@ -5,7 +5,7 @@
 
 #include "../support/catch.hpp"
 #include "../support/compiled_once.hpp"
-#include "../support/stability_scenes.hpp"
+#include "../support/proof_scenes.hpp"
 
 namespace taut_test::own_matrices {
 

@@ -12,8 +12,6 @@ namespace taut_test::garments_test {
 
 namespace {
 
-namespace sweep = taut::step_detail;
-
 struct Path {
     double scattered = 0;  // share of the springs, in the order that the sweep takes
     bool stars = false;    // whether all of them are in stars
@@ -26,10 +24,10 @@ Path path_of(const std::string& name) {
     const auto mesh = example::read_obj((folder / name).string());
     const auto springs = taut::springs_from_mesh<Scalar>(
         taut::Points<Scalar, 3>(mesh.vertices.cast<Scalar>()), mesh.faces);
-    taut::Buffer<step_detail::SpringEnds> ends;
+    taut::Buffer<taut::step_detail::SpringEnds> ends;
     springs.system.for_each_set([&](const auto& set) { ends.push_back({set.a, set.b}); });
-    const auto order =
-        step_detail::Planner<Scalar>::order(ends, step_detail::Blocks(springs.system.size()), true);
+    const auto order = taut::step_detail::Planner<Scalar>::order(
+        ends, taut::step_detail::Blocks(springs.system.size()), true);
     std::size_t scattered = 0;
     for (std::size_t law = 0; law < ends.size(); ++law) {
         scattered += order.laws[law].scattered().size();

@@ -3,10 +3,11 @@
 #include <cmath>
 #include <taut/network/spring_system.hpp>
 #include <taut/proof/bracket.hpp>
+#include <taut/proof/sharp_limit.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/random_system.hpp"
-#include "../support/stability_scenes.hpp"
+#include "../support/proof_scenes.hpp"
 
 // The limits that hold at any pose: 4M − 2hL_c − h²L_k ≻ 0 [T23] and M ⪰ h²L_k + ½hD [T42].
 
@@ -61,6 +62,17 @@ void check_condition(const StepLimit<double>& limit, const Exact& laplacians, do
     CHECK(definite_margin(laplacians, unit * limit.refuted) <= noise);
 }
 
+/// The sharpened limit is proved, too, no shorter, and of the same scene.
+void check_sharp(const StepLimit<double>& sharp, const StepLimit<double>& plain,
+                 const StepLimit<double>& tight, const Exact& laplacians, double unit) {
+    CHECK(sharp.certified >= plain.certified);
+    CHECK(sharp.cause == plain.cause);
+    CHECK(sharp.revision == plain.revision);
+    if (sharp.unbounded()) return;
+    CHECK(sharp.certified <= tight.refuted);
+    CHECK(definite_margin(laplacians, unit * sharp.certified) >= -noise);
+}
+
 void check_both(const Scene& scene) {
     const Exact laplacians = exact_laplacians(scene);
     // M − h²L_k − ½hD is a quarter of 4M − 2H(½D) − H²L_k with H = 2h.
@@ -95,6 +107,8 @@ void check_both(const Scene& scene) {
         CHECK(limit.refuted <= limit.certified * apart);
         CHECK(energy.refuted <= energy.certified * apart);
         CHECK(energy.certified >= limit.certified / 2 * (1 - 1e-5 - tightness));
+        check_sharp(scene.sharp_any_pose_limit(), wide, limit, laplacians, 1);
+        check_sharp(scene.sharp_energy_limit(), wide_energy, energy, halved, 2);
     }
 }
 
@@ -140,8 +154,8 @@ TEST_CASE("any_pose: the conditions hold at certified and fail at refuted, of ev
             auto scene = random_scene(random, kind, options);
             if (repeat > 6) {  // damping that rules
                 const double h = scene.any_pose_limit().certified;
-                scene.set_rayleigh(repeat % 2 == 0 ? log_uniform(random, 1e-2, 10) / h : 0,
-                                   repeat % 2 == 1 ? log_uniform(random, 1e-2, 10) * h : 0);
+                scene.set_rayleigh(repeat % 2 == 0 ? log_random.uniform(1e-2, 10) / h : 0,
+                                   repeat % 2 == 1 ? log_random.uniform(1e-2, 10) * h : 0);
             }
             check_both(scene);
             if (repeat < 4) check_poses(random, scene, 7);
@@ -179,6 +193,58 @@ TEST_CASE("any_pose: never above the limit of a pose", "[proof]") {
     const auto chain = chain_scene(false, 1, row);
     const Exact e = exact_matrices(chain, chain.initial_state().x);
     CHECK_THAT(chain.any_pose_limit(1e-6).certified, WithinRel(definite_limit(e, 1, false), 2e-6));
+}
+
+TEST_CASE("any_pose: the sharpened limits of cloths and nets are near the condition's end",
+          "[proof]") {
+    taut::ClothOptions cloth;
+    cloth.rows = cloth.columns = 16;
+    const auto near = [](const auto& scene, double least) {
+        const double end = scene.any_pose_limit(1e-6).refuted;
+        CHECK(scene.sharp_any_pose_limit().certified >= least * end);
+        CHECK(scene.sharp_any_pose_limit().certified <= end);
+        CHECK(scene.sharp_energy_limit().certified >= least * scene.energy_limit(1e-6).refuted);
+    };
+    for (const double bend : {0.0, 100.0, 1000.0}) {
+        for (const bool diagonals : {false, true}) {
+            INFO("bend " << bend << ", diagonals " << diagonals);
+            cloth.bend = bend;
+            cloth.diagonals = diagonals;
+            auto scene = cloth_scene(cloth);
+            near(scene, 0.96);
+            const double h = scene.any_pose_limit().certified;
+            scene.set_rayleigh(0.1 / h, 0.1 * h);
+            near(scene, 0.95);
+            scene.add_spring({3, 20, 500, 1, 0.01 / h});
+            near(scene, 0.93);
+        }
+    }
+    // Where it would take too long, all springs with all, it is the splitting bound.
+    Random random(11);
+    Scene all({false, 3, Laws::hookean});
+    for (int i = 0; i < 120; ++i) {
+        all.add_particle(random_points(random, 3, 1, -1, 1), random.uniform(0.5, 2));
+        for (int j = 0; j < i; ++j) all.add_spring({i, j, random.uniform(1, 2)});
+    }
+    CHECK(all.sharp_any_pose_limit().certified == all.any_pose_limit().certified);
+}
+
+TEST_CASE("any_pose: the sharpened limits of numbers at the ends of their range", "[proof]") {
+    for (const double mass : {1e-150, 1e-12, 1.0, 1e150}) {
+        for (const double stiffness : {1e-150, 1e-12, 1.0, 1e12, 1e150}) {
+            INFO("mass " << mass << ", stiffness " << stiffness);
+            taut::SpringSystem<double, 1> triangle;
+            for (int i = 0; i < 3; ++i)
+                triangle.add_particle(Eigen::Matrix<double, 1, 1>(double(i)), mass);
+            for (int i = 0; i < 3; ++i) triangle.add_spring(i, (i + 1) % 3, stiffness);
+            const auto plain = taut::any_pose_limit(triangle);
+            const auto sharp = taut::sharp_any_pose_limit(triangle);
+            CHECK(sharp.cause == plain.cause);
+            CHECK(sharp.certified >= plain.certified);
+            const double end = 2 / (std::sqrt(3.0) * std::sqrt(stiffness) / std::sqrt(mass));
+            if (plain.certified > 0 && !plain.unbounded()) CHECK(sharp.certified <= end);
+        }
+    }
 }
 
 TEST_CASE("any_pose: closed forms, causes, and scenes without a limit", "[proof][bad_input]") {
@@ -286,11 +352,11 @@ TEST_CASE("any pose: every method has its answer", "[proof]") {
 TEST_CASE("any pose: explicit Euler fails at some pose, whatever its step and damping", "[proof]") {
     Random random(77);
     for (int repeat = 0; repeat < 20; ++repeat) {
-        const double h = log_uniform(random, 1e-6, 1);
+        const double h = log_random.uniform(1e-6, 1);
         taut::SpringSystem<double, 3> system;
         system.add_particle({0, 0, 0}, 1);
         system.add_particle({1, 0, 0}, 1);
-        system.add_spring(0, 1, log_uniform(random, 1, 1e4), random.uniform(0, 10));
+        system.add_spring(0, 1, log_random.uniform(1, 1e4), random.uniform(0, 10));
         system.pin(0);
         const double d0 = random.uniform(0, 10);
         system.set_rayleigh({d0, random.uniform(0, 0.01)});

@@ -4,7 +4,7 @@
 #include <taut/proof/bracket.hpp>
 
 #include "../support/catch.hpp"
-#include "../support/stability_scenes.hpp"
+#include "../support/proof_scenes.hpp"
 #include "../support/tolerance.hpp"
 
 // Who limits the step, and what less stiffness, more mass or more substeps would do.

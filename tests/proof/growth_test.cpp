@@ -3,7 +3,7 @@
 #include <taut/integrator/implicit_euler.hpp>
 
 #include "../support/catch.hpp"
-#include "../support/stability_scenes.hpp"
+#include "../support/proof_scenes.hpp"
 
 // The predictions of Stability, simulated: bounded below certified, growing above refuted.
 

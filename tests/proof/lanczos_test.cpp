@@ -3,7 +3,7 @@
 #include <taut/proof/bracket.hpp>
 
 #include "../support/catch.hpp"
-#include "../support/stability_scenes.hpp"
+#include "../support/proof_scenes.hpp"
 #include "../support/tolerance.hpp"
 
 namespace taut_test::lanczos_test {

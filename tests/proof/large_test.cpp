@@ -3,7 +3,7 @@
 #include <taut/proof/bracket.hpp>
 
 #include "../support/catch.hpp"
-#include "../support/stability_scenes.hpp"
+#include "../support/proof_scenes.hpp"
 
 // Rounding where sums are long, and bounds of cloths.
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "../support/catch.hpp"
 #include "../support/methods.hpp"
-#include "../support/stability_scenes.hpp"
+#include "../support/proof_scenes.hpp"
 
 // What every bracket of a pose promises: of every scene and damping, by every method, as tight as
 // asked for, the truth by the referee's multipliers.

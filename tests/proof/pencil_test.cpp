@@ -4,7 +4,7 @@
 #include <taut/proof/pencil_matrix.hpp>
 
 #include "../support/catch.hpp"
-#include "../support/stability_scenes.hpp"
+#include "../support/proof_scenes.hpp"
 #include "../support/tolerance.hpp"
 
 namespace taut_test::pencil_test {

@@ -4,7 +4,7 @@
 
 #include "../support/catch.hpp"
 #include "../support/message.hpp"
-#include "../support/stability_scenes.hpp"
+#include "../support/proof_scenes.hpp"
 #include "../support/tolerance.hpp"
 
 namespace taut_test::rayleigh_test {

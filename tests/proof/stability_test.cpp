@@ -6,7 +6,7 @@
 #include "../support/catch.hpp"
 #include "../support/message.hpp"
 #include "../support/methods.hpp"
-#include "../support/stability_scenes.hpp"
+#include "../support/proof_scenes.hpp"
 #include "../support/tolerance.hpp"
 
 // What Stability tells beside its brackets.

@@ -5,7 +5,7 @@
 #include <taut/scene/with_law.hpp>
 
 #include "../support/scene_on.hpp"
-#include "../support/stability_scenes.hpp"
+#include "../support/proof_scenes.hpp"
 
 // The scenes of the stability tests as systems, for tests that name one.
 

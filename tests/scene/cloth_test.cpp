@@ -4,7 +4,7 @@
 
 #include "../support/catch.hpp"
 #include "../support/message.hpp"
-#include "../support/stability_scenes.hpp"
+#include "../support/proof_scenes.hpp"
 
 namespace taut_test::cloth_test {
 

@@ -54,7 +54,7 @@ TEST_CASE("force_plan: springs without order are in stars, those of grids and ch
 }
 
 TEST_CASE("force_plan: no batch gathers more places than fit, and some are full", "[integrator]") {
-    namespace sweep = taut::step_detail;
+    namespace step_detail = taut::step_detail;
     Random random(55);
     const int places = 5000, springs = 20001;
     std::vector<int> a, b;

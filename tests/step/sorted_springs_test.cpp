@@ -14,7 +14,7 @@ namespace taut_test::sorted_springs_test {
 
 namespace {
 
-namespace sweep = taut::step_detail;
+namespace step_detail = taut::step_detail;
 
 /// @returns the share of the springs that lie in runs
 template <class System>

@@ -15,7 +15,7 @@ namespace taut_test::stars_test {
 
 namespace {
 
-namespace sweep = taut::step_detail;
+namespace step_detail = taut::step_detail;
 
 taut::Buffer<step_detail::PlacedSpring> random_springs(Random& random, int places, int springs,
                                                        int reach) {

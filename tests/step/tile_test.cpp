@@ -9,7 +9,7 @@
 
 namespace taut_test::tile_test {
 
-namespace sweep = taut::step_detail;
+namespace step_detail = taut::step_detail;
 
 TEST_CASE("blocks hold every place once, begin with a tile, and are alike", "[integrator]") {
     std::mt19937 random(8);

@@ -11,6 +11,10 @@ namespace taut_test {
 template <taut::Method method, class System>
 void plain_steps(const System& system, typename System::State& state, typename System::Scalar h,
                  int count) {
+    static_assert(method == taut::Method::explicit_euler ||
+                      method == taut::Method::symplectic_euler ||
+                      method == taut::Method::velocity_verlet,
+                  "plain_steps: write the steps of this method");
     typename System::Force f;
     const auto kick = [&](typename System::Scalar time) {
         state.v.array() += time * (f.array().rowwise() * system.inverse_mass().transpose().array());

@@ -146,6 +146,8 @@ public:
 
     taut::StepLimit<double> any_pose_limit(double tightness = 0) const;
     taut::StepLimit<double> energy_limit(double tightness = 0) const;
+    taut::StepLimit<double> sharp_any_pose_limit() const;
+    taut::StepLimit<double> sharp_energy_limit() const;
     taut::StepLimit<double> limit(taut::Method method, const AnyState& state) const;
 
     /// Of the core's steppers: one that implements `method`. Laws::any has energy-stable Euler and

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include "../support/catch.hpp"
-#include "../support/stability_scenes.hpp"
+#include "../support/proof_scenes.hpp"
 
 // One false proof would make every certificate worthless, so most of these matrices have a least
 // eigenvalue just below zero: by a closed form, by a Schur complement or by long double.

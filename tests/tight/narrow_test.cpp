@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include "../support/catch.hpp"
-#include "../support/stability_scenes.hpp"
+#include "../support/proof_scenes.hpp"
 
 // Brackets narrowed by factorisations, where the truth has a closed form. See proof/limit_test.
 

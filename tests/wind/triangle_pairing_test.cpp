@@ -14,7 +14,7 @@ namespace taut_test::triangle_pairing_test {
 
 namespace {
 
-namespace sweep = taut::step_detail;
+namespace step_detail = taut::step_detail;
 using Triangles = std::vector<step_detail::PlacedTriangle>;
 
 Triangles grid(int rows, int columns) {

@@ -17,6 +17,7 @@
 #include "../integrator/velocity_verlet.hpp"
 #include "../proof/any_pose.hpp"
 #include "../proof/energy_limit.hpp"
+#include "../proof/sharp_limit.hpp"
 #include "detail/stepper.hpp"
 #include "detail/trim.hpp"
 #include "detail/work.hpp"
@@ -52,8 +53,9 @@ namespace taut {
 /// state as it was.
 ///
 /// The trial takes steps of at most 0.95 of any_pose_limit [T23], an implicit one the whole frame,
-/// and the rest steps of energy_limit [T42]; both are asked again when the system's
-/// revision() has moved on. Positions far from the origin make a float guard blind: see
+/// and the rest steps of energy_limit [T42]. Both are sharpened [T45] at the first frame; when the
+/// system's revision() has moved on they are asked again, and sharpened after 60 frames without an
+/// edit. Positions far from the origin make a float guard blind: see
 /// GuardedReport::blind.
 ///
 ///     taut::Guarded stepper(cloth);
@@ -114,9 +116,9 @@ public:
         return viewed_.advance(view, [&](State& state) { return advance(state, frame, respond); });
     }
 
-    /// Takes these in place of any_pose_limit(system) and energy_limit(system) until the system's
-    /// revision() moves on: those with a tightness (tight/tight.hpp) cost factorisations, once, and
-    /// are a sixth longer on a cloth. Fails unless both are of the system's revision.
+    /// Takes these in place of its own until the system's revision() moves on: those with a
+    /// tightness (tight/tight.hpp) cost factorisations and leave 1 % where the sharpened ones leave
+    /// 3. Fails unless both are of the system's revision.
     ///
     ///     guard.set_limits(taut::any_pose_limit(cloth, 0.01), taut::energy_limit(cloth, 0.01));
     void set_limits(const StepLimit<Scalar>& limit, const StepLimit<Scalar>& energy) {
@@ -125,6 +127,7 @@ public:
         }
         any_pose_limit_ = limit;
         proved_limit_ = energy;
+        frames_to_sharpen_ = 0;
     }
 
     /// The trial stepper, to set its solver.
@@ -133,9 +136,9 @@ public:
     const Stepper& stepper() const { return trial_.get(); }
     /// What the guard was made with.
     const Options& options() const { return options_; }
-    /// any_pose_limit in force; nothing before the first frame.
+    /// The limit at any pose in force; nothing before the first frame.
     const std::optional<StepLimit<Scalar>>& limit() const { return any_pose_limit_; }
-    /// energy_limit in force; nothing before the first frame.
+    /// That of the energy-stable step in force; nothing before the first frame.
     const std::optional<StepLimit<Scalar>>& proved_limit() const { return proved_limit_; }
 
 private:
@@ -185,6 +188,7 @@ private:
     guard_detail::HeldStepper<Stepper> trial_;
     EnergyStableEuler<System> proved_;
     std::optional<StepLimit<Scalar>> any_pose_limit_, proved_limit_;
+    int frames_to_sharpen_ = 0;  // both; 0: they are
     guard_detail::Parts parts_;
     guard_detail::EnergyMeter<System> meter_;
     guard_detail::WorkMeter<System> work_;

@@ -131,6 +131,10 @@ public:
     /// A proved upper bound on the largest eigenvalue of M⁻¹S, rounding included [T26]. For springs
     /// it is never below the factor of M, the mass-proportional part of D counted.
     double upper_bound(const Combination& c) const;
+    /// The same for a pencil of any_pose, sharper: by a polynomial of M⁻¹S [T45]. Never above
+    /// upper_bound. Defined by sharp_limit.hpp.
+    template <class Real = double>
+    Real polynomial_bound(const Combination& c) const;
     /// An ε ≥ 0, in the units of M⁻¹S, with S ⪰ −εM proved: by the bound, for bare matrices also by
     /// factorisation.
     double deficit(const Combination& c) const {

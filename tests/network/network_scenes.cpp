@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include "model_scenes.hpp"
+#include "network_scenes.hpp"
 
 #include <taut/network/tangent_matrix.hpp>
 #include <taut/own_matrices/linearize.hpp>

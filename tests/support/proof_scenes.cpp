@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
-#include "stability_scenes.hpp"
+#include "proof_scenes.hpp"
 
 #include "scene_on.hpp"
 
