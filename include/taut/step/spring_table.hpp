@@ -13,14 +13,15 @@
 
 namespace taut {
 
-/// The lengths of as many springs as a register has lanes; a division by them is a product.
+/// The lengths of as many springs as a register has lanes; a division by them is a product. Not
+/// below 2√η: Eigen takes half of l², and what is below η costs as much as dozens of springs.
 template <class Scalar, int most>
 struct SpringLength<step_detail::VectorRegister<Scalar, most>> {
     using Register = step_detail::VectorRegister<Scalar, most>;
     Register l2, inverse, l;
 
     explicit EIGEN_ALWAYS_INLINE SpringLength(const Register& square)
-        : l2(larger(square, Register((std::numeric_limits<Scalar>::min)()))),
+        : l2(larger(square, Register(4 * (std::numeric_limits<Scalar>::min)()))),
           inverse(reciprocal_sqrt(l2)),
           l(l2 * inverse) {}
     EIGEN_ALWAYS_INLINE Register divide(const Register& y) const { return y * inverse; }
