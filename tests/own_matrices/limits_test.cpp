@@ -1,5 +1,9 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include <cmath>
+#include <taut/own_matrices/own_matrices.hpp>
+#include <taut/proof/stability.hpp>
+
 #include "../support/catch.hpp"
 #include "matrices.hpp"
 
@@ -90,6 +94,22 @@ TEST_CASE("limits: a D that is semi-definite but for rounding counts in the limi
                     REQUIRE(1 / (1 - h * exact_delta) <= std::exp(h * limit.admitted_growth));
             }
         }
+    }
+}
+
+// Where no step is certified, and no scale of a K that falls changes that, none is called safe.
+TEST_CASE("limits: what no scale certifies has none", "[own_matrices]") {
+    Random random(1314);
+    for (int repeat = 0; repeat < 20; ++repeat) {
+        taut::SparseMatrix<double> K(2, 2);
+        K.insert(0, 0) = -log_uniform(random, 1e-3, 1e3);
+        K.insert(1, 1) = -log_uniform(random, 1e-3, 1e3);
+        const taut::LinearSystem<double> system(Eigen::Vector2d(1, 2), {}, K);
+        const taut::Stability<double> stability(system);
+        const double h = log_uniform(random, 1e-6, 1e3);
+        CHECK(stability.max_step(Method::explicit_euler).certified == 0);
+        CHECK(stability.max_stiffness_scale(Method::explicit_euler, h) == 0);
+        CHECK(std::isinf(stability.min_mass_scale(Method::explicit_euler, h)));
     }
 }
 
