@@ -224,7 +224,7 @@ TEST_CASE("guard: a trial that is never finite leaves every frame to the proved 
     const Frames frames = guard->advance_all(state, 30);
     CHECK(frames.all_ok);
     CHECK(frames.again == 30);
-    const double n = std::ceil(frame / cloth.energy_limit().certified);
+    const double n = std::ceil(frame / cloth.sharp_energy_limit().certified);
     const auto stepper = cloth.stepper(taut::Method::energy_stable_euler);
     REQUIRE(stepper->step(alone, frame / n, static_cast<Index>(30 * n)));
     CHECK(gap(state.x, alone.x) <= 1e-9);
@@ -264,7 +264,7 @@ TEST_CASE("guard: a late frame is shortened to its most steps", "[guard]") {
     const auto report = guarded(cloth, options)->advance(state, 10);
     CHECK(report);
     CHECK(report.substeps == 10);
-    CHECK_THAT(report.advanced, WithinRel(9.5 * cloth.any_pose_limit().certified, 1e-9));
+    CHECK_THAT(report.advanced, WithinRel(9.5 * cloth.sharp_any_pose_limit().certified, 1e-9));
     CHECK(state.time == report.advanced);
     for (std::uint32_t seed = 4410; seed < 4470; ++seed) {  // of a float's rounding, too
         INFO("seed " << seed);

@@ -74,7 +74,7 @@ TEST_CASE(
             const double fast = off([] { return 1.0 / 144; });
             const double uneven = off([&] { return random.uniform(0.002, 0.04); });
             CAPTURE(slow, fast, uneven);
-            CHECK(std::max({slow, fast, uneven}) < (single ? 0.08 : 0.01));
+            CHECK(std::max({slow, fast, uneven}) < (single ? 0.08 : 0.015));
         }
     }
 }

@@ -154,8 +154,8 @@ TEST_CASE("any_pose: the conditions hold at certified and fail at refuted, of ev
             auto scene = random_scene(random, kind, options);
             if (repeat > 6) {  // damping that rules
                 const double h = scene.any_pose_limit().certified;
-                scene.set_rayleigh(repeat % 2 == 0 ? log_random.uniform(1e-2, 10) / h : 0,
-                                   repeat % 2 == 1 ? log_random.uniform(1e-2, 10) * h : 0);
+                scene.set_rayleigh(repeat % 2 == 0 ? log_uniform(random, 1e-2, 10) / h : 0,
+                                   repeat % 2 == 1 ? log_uniform(random, 1e-2, 10) * h : 0);
             }
             check_both(scene);
             if (repeat < 4) check_poses(random, scene, 7);
@@ -352,11 +352,11 @@ TEST_CASE("any pose: every method has its answer", "[proof]") {
 TEST_CASE("any pose: explicit Euler fails at some pose, whatever its step and damping", "[proof]") {
     Random random(77);
     for (int repeat = 0; repeat < 20; ++repeat) {
-        const double h = log_random.uniform(1e-6, 1);
+        const double h = log_uniform(random, 1e-6, 1);
         taut::SpringSystem<double, 3> system;
         system.add_particle({0, 0, 0}, 1);
         system.add_particle({1, 0, 0}, 1);
-        system.add_spring(0, 1, log_random.uniform(1, 1e4), random.uniform(0, 10));
+        system.add_spring(0, 1, log_uniform(random, 1, 1e4), random.uniform(0, 10));
         system.pin(0);
         const double d0 = random.uniform(0, 10);
         system.set_rayleigh({d0, random.uniform(0, 0.01)});

@@ -109,13 +109,13 @@ public:
     /// Element i; checked where Eigen checks its own.
     template <class Number>
     T& operator[](Number i) {
-        check(static_cast<std::size_t>(i));
+        require_index(static_cast<std::size_t>(i));
         return data_[i];
     }
     /// Element i.
     template <class Number>
     const T& operator[](Number i) const {
-        check(static_cast<std::size_t>(i));
+        require_index(static_cast<std::size_t>(i));
         return data_[i];
     }
     /// The last one.
@@ -163,7 +163,7 @@ public:
     }
 
 private:
-    void check([[maybe_unused]] std::size_t i) const {
+    void require_index([[maybe_unused]] std::size_t i) const {
 #if !defined(EIGEN_NO_DEBUG)
         if (i >= size_) detail::bad_index();
 #endif

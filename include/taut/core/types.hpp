@@ -2,9 +2,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+// TAUT_SAME_BITS, for a whole build: docs/engines.md.
+#if defined(TAUT_SAME_BITS) && !defined(EIGEN_FAST_MATH)
+#define EIGEN_FAST_MATH 0
+#endif
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <array>
+
+#if defined(TAUT_SAME_BITS) && (EIGEN_FAST_MATH || defined(__FAST_MATH__))
+#error "TAUT_SAME_BITS needs -DEIGEN_FAST_MATH=0 where Eigen is included first, and no -ffast-math"
+#endif
 
 namespace taut {
 

@@ -48,6 +48,11 @@ struct Quad {
 
     /// x + y + z, in the order of Eigen's sums.
     EIGEN_ALWAYS_INLINE Scalar total() const {
+#if defined(TAUT_SAME_BITS)
+        Scalar axis[4];
+        store(axis);
+        return axis[0] + axis[1] + axis[2];
+#endif
         if constexpr (parts == 1) return Eigen::internal::predux(part[0].packet);
         if constexpr (parts == 2) return Eigen::internal::predux((part[0] + part[1]).packet);
         if constexpr (parts == 4) return ((part[0] + part[1]) + (part[2] + part[3])).packet;

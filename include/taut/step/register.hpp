@@ -192,7 +192,11 @@ struct VectorRegister {
     }
     /// 1/√a of normal numbers, to a few ulp.
     friend EIGEN_ALWAYS_INLINE VectorRegister reciprocal_sqrt(const VectorRegister& a) {
+#if defined(TAUT_SAME_BITS)
+        return VectorRegister(Scalar(1)) / sqrt(a);  // IEEE 754 says what these two give
+#else
         return of(rsqrt_packet(a.packet));
+#endif
     }
     /// `value` in the lanes where `sign` is ≥ 0, and 0 in the others, whatever they hold.
     friend EIGEN_ALWAYS_INLINE VectorRegister unless_negative(const VectorRegister& sign,
