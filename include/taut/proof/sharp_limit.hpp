@@ -147,14 +147,16 @@ Real Pencil::polynomial_bound(const Combination& combination) const {
         fourth.visit_row(i, [&](int j, double value) { sum += (std::abs)(value)*p[j]; });
         norm = (std::max)(norm, sum / p[i]);
     }
-    // Each entry of T₄(C) is within (110 + 19·longest) ε of that of (|C| + 2I)⁴.
+    // Each entry of T₄(C) is within (110 + 19·longest) ε of that of (|C| + 2I)⁴. Springs side by
+    // side are entries of one row each, and so terms of one entry of the product.
     const double size = 1.01 * weighted_norm(c, p, [](int, double) {}) + 2;
-    const double longest = second.longest();
+    const double degree = c.longest();
+    const double longest = (std::max)(degree * degree, static_cast<double>(second.longest()));
     norm = norm * (1 + (64 + longest * longest) * eps) +
            (128 + 20 * longest) * eps * size * size * size * size;
     const double growth = std::cosh(std::acosh((std::max)(norm, 1.0)) / 4);
     const double bound = s * (1 + growth) * (1 + 64 * eps) + assembly_error(combination, scale);
-    return bound < known ? bound : known;
+    return detail::is_finite(bound) && bound < known ? bound : known;
 }
 
 namespace proof_detail {
