@@ -11,6 +11,7 @@
 #include <exception>
 #include <string>
 #include <string_view>
+#include <taut/guard/guard.hpp>
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/projective/projective.hpp>
 #include <taut/solver/conjugate_gradient.hpp>
@@ -51,6 +52,21 @@ private:
     Stepper stepper_;
     Net::State state_;
     Index substeps_;
+};
+
+/// Whole frames by the guard, its first frame with the limits included.
+class Guard {
+public:
+    explicit Guard(const Net& net) : guard_(net), state_(net.initial_state()) {}
+    Index advance(double duration) {
+        const auto report = guard_.advance(state_, duration);
+        return report ? report.substeps : 0;
+    }
+    const Net::State& state() const { return state_; }
+
+private:
+    taut::Guarded<taut::VelocityVerlet<Net>> guard_;
+    Net::State state_;
 };
 
 class Odeint : bench::OdeintSymplectic {
@@ -137,6 +153,7 @@ void table(const std::string& name, const Net& net, double stretch, double bend)
         Ours<taut::SymplecticEuler<Net>>(net, substeps));
     row("Taut VelocityVerlet, the same step", reference,
         Ours<taut::VelocityVerlet<Net>>(net, substeps));
+    row("Taut Guarded, frames of its own steps", reference, Guard(net));
     xpbd_rows(reference, substeps);
     row("Boost.odeint symplectic_euler, the same step", reference, Odeint(net, substeps));
     row("Boost.odeint runge_kutta_dopri5, error 1e-4", reference, bench::OdeintDopri5(net, 1e-4));
