@@ -8,15 +8,14 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <string>
 #include <taut/lammps/lammps.hpp>
 #include <taut/lammps/lammps_dump.hpp>
-#include <taut/lattice/lattice.hpp>
 #include <taut/proof/bracket.hpp>
 
 #include "../examples/common/number.hpp"
+#include "lammps_run.hpp"
 #include "measure.hpp"
 
 #include <sys/resource.h>
@@ -33,18 +32,9 @@ double peak_megabytes() {
     return static_cast<double>(usage.ru_maxrss) * 1024 / 1e6;
 }
 
-/// A lattice of about so many springs. @param diagonals  nine springs a particle, else three
-System lattice_of(double springs, bool diagonals) {
-    taut::LatticeOptions options;
-    if (!diagonals) options.diagonal = 0;
-    const Index edge = std::lround(std::cbrt(springs / (diagonals ? 9 : 3)));
-    options.particles = {edge, edge, edge};
-    return taut::lattice<double>(options);
-}
-
 /// One row, measured in a process of its own.
 int scale_row(double springs, bool diagonals, const std::string& folder) {
-    const System system = lattice_of(springs, diagonals);
+    const System system = bench::lattice_of(springs, diagonals);
     const auto state = system.initial_state();
     const double scene = peak_megabytes();
     double start = bench::now(bench::process_time);
@@ -83,19 +73,6 @@ int scale(const std::string& program, const std::string& folder) {
     return 0;
 }
 
-/// Whether LAMMPS ended well. The environment makes ranks of Open MPI wait without a processor of
-/// their own, and as root, as in containers.
-bool lammps(const std::string& folder, int ranks) {
-    const std::string command =
-        "cd '" + folder +
-        "' && OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1 "
-        "OMPI_MCA_rmaps_base_oversubscribe=1 mpirun -n " +
-        std::to_string(ranks) + " lmp -log none -in taut.in > taut.log 2>&1";
-    if (std::system(command.c_str()) == 0) return true;
-    std::fprintf(stderr, "lammps_table: lmp failed; see %s/taut.log\n", folder.c_str());
-    return false;
-}
-
 /// A lattice at rest, kicked by 1e-6 of its size along its limiting mode.
 int limit(const std::string& folder, Index edge, Index steps) {
     const auto lattice = taut::lattice<double>({{edge, edge, edge}});
@@ -120,7 +97,9 @@ int limit(const std::string& folder, Index edge, Index steps) {
         options.steps = below ? steps : 20;
         options.every = below ? std::max<Index>(1, steps / 100) + 1 : 20;
         options.velocities = false;
-        if (!taut::write_lammps(folder, lattice, state, options) || !lammps(folder, 1)) return 1;
+        if (!taut::write_lammps(folder, lattice, state, options) ||
+            !bench::lammps("lammps_table", folder, 1))
+            return 1;
         taut::LammpsDump<double, 3> dump(folder + "/taut.dump", lattice.size());
         auto frame = rest;
         double most = 0;
@@ -133,23 +112,9 @@ int limit(const std::string& folder, Index edge, Index steps) {
     return 0;
 }
 
-/// LAMMPS's own account of a run: "Loop time of 1.2 on 2 procs", s.
-double loop_time(const std::string& log) {
-    double time = 0;
-    if (std::FILE* file = std::fopen(log.c_str(), "r")) {
-        char line[512];
-        while (std::fgets(line, sizeof line, file) != nullptr) {
-            (void)std::sscanf(line, "Loop time of %lf", &time);
-        }
-        std::fclose(file);
-    }
-    return time;
-}
-
 int ranks(const std::string& folder, double springs, Index steps) {
-    const System lattice = lattice_of(springs, true);
-    taut::LammpsOptions options;
-    options.steps = options.every = steps;
+    const System lattice = bench::lattice_of(springs, true);
+    const auto options = bench::lammps_steps_alone(steps);
     if (!taut::write_lammps(folder, lattice, lattice.initial_state(), options)) return 1;
     std::printf(
         "lattice of %lld springs, %lld steps; wall time, the least of three\n\n"
@@ -159,8 +124,8 @@ int ranks(const std::string& folder, double springs, Index steps) {
     for (const int count : {1, 2}) {
         double least = 0;
         for (int run = 0; run < 3; ++run) {
-            if (!lammps(folder, count)) return 1;
-            const double time = loop_time(folder + "/taut.log");
+            if (!bench::lammps("lammps_table", folder, count)) return 1;
+            const double time = bench::loop_time(folder);
             least = run == 0 ? time : std::min(least, time);
         }
         if (count == 1) alone = least;

@@ -25,6 +25,19 @@ double peak_bytes(Job&& job) {
     return peak() - before;
 }
 
+/// Bytes that programs may take before this machine swaps; 0: it does not say. Linux.
+inline double available_bytes() {
+    double kilobytes = 0;
+    if (FILE* file = std::fopen("/proc/meminfo", "r")) {
+        char line[128];
+        while (std::fgets(line, sizeof line, file) != nullptr) {
+            if (std::sscanf(line, "MemAvailable: %lf", &kilobytes) == 1) break;
+        }
+        std::fclose(file);
+    }
+    return 1024 * kilobytes;
+}
+
 /// The number that `program argument` prints: peaks are measured in a process of their own.
 inline double number_from(const std::string& program, const std::string& argument) {
     double number = 0;
