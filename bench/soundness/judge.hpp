@@ -8,6 +8,7 @@
 #include <taut/proof/any_pose.hpp>
 #include <taut/proof/energy_limit.hpp>
 #include <taut/proof/bracket.hpp>
+#include <taut/proof/sharp_limit.hpp>
 #include <taut/tight/tight.hpp>
 
 #include "claims.hpp"
@@ -108,18 +109,17 @@ public:
     }
     /// Of EnergyStableEuler [T42]: of the Laplacians.
     template <class Scalar>
-    void energy_stable(const taut::StepLimit<Scalar>& limit) {
-        const std::string label = "energy stable: ";
+    void energy_stable(const std::string& label, const taut::StepLimit<Scalar>& limit) {
         const auto certified = static_cast<double>(limit.certified);
         const auto refuted = static_cast<double>(limit.refuted);
         if (certified > 0) {
-            holds(label + "certified", certified, [&](const Exact& e) {
+            holds(label + ": certified", certified, [&](const Exact& e) {
                 return std::isinf(certified) ? certified_always(e)
                                              : certified_energy_stable(e, certified);
             });
         }
         if (std::isfinite(refuted) && refuted > 0) {
-            possible(label + "refuted", refuted,
+            possible(label + ": refuted", refuted,
                      [&](const Exact& e) { return refuted_energy_stable(e, refuted); });
         }
     }
@@ -274,7 +274,10 @@ void judge_pose(Draw& draw, Tally& tally, const Scene<System>& scene) {
     Judge laplacians(tally, in_enough_bits({[&s = system] { return exact_laplacians(s); }}));
     laplacians.limit(Method::symplectic_euler, "any pose, by bounds", any);
     laplacians.limit(Method::symplectic_euler, "any pose, narrowed", narrow);
-    laplacians.energy_stable(taut::energy_bracket(system));
+    laplacians.limit(Method::symplectic_euler, "any pose, sharpened",
+                     taut::sharp_any_pose_limit(system));
+    laplacians.energy_stable("energy stable", taut::energy_bracket(system));
+    laplacians.energy_stable("energy stable, sharpened", taut::sharp_energy_limit(system));
 }
 
 /// A random scene; some of them again with the stiffest mode as near to critical damping,

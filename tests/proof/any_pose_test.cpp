@@ -227,6 +227,25 @@ TEST_CASE("any_pose: the sharpened limits of cloths and nets are near the condit
         for (int j = 0; j < i; ++j) all.add_spring({i, j, random.uniform(1, 2)});
     }
     CHECK(all.sharp_any_pose_limit().certified == all.any_pose_limit().certified);
+    // Nor do the neighbours of one hub keep it for minutes.
+    cloth.rows = cloth.columns = 60;
+    auto spider = cloth_scene(cloth);
+    spider.add_particle(random_points(random, 3, 1, -1, 1), 1e-3);
+    for (int i = 0; i < 380; ++i) spider.add_spring({3600, 9 * i, 1});
+    CHECK(spider.sharp_any_pose_limit().certified == spider.any_pose_limit().certified);
+}
+
+TEST_CASE("any_pose: the sharpened limits of many springs side by side", "[proof]") {
+    // Two equal particles, whose frequency is 2nk/m: all of the margin is for rounding.
+    for (const int springs : {1, 40, 200, 1000}) {
+        INFO(springs << " springs");
+        taut::SpringSystem<double, 1> pair;
+        for (const double x : {0.0, 1.0}) pair.add_particle(Eigen::Matrix<double, 1, 1>(x), 1.7);
+        for (int s = 0; s < springs; ++s) pair.add_spring(0, 1, 1.36);
+        const Real end = std::sqrt(2 * Real(1.7) / (springs * Real(1.36)));
+        CHECK(taut::sharp_any_pose_limit(pair).certified <= end);
+        CHECK(taut::sharp_energy_limit(pair).certified <= end / 2);
+    }
 }
 
 TEST_CASE("any_pose: the sharpened limits of numbers at the ends of their range", "[proof]") {

@@ -13,6 +13,9 @@
 #if defined(TAUT_SAME_BITS) && (EIGEN_FAST_MATH || defined(__FAST_MATH__))
 #error "TAUT_SAME_BITS needs -DEIGEN_FAST_MATH=0 where Eigen is included first, and no -ffast-math"
 #endif
+#if defined(TAUT_SAME_BITS) && defined(__FLT_EVAL_METHOD__) && __FLT_EVAL_METHOD__ > 0
+#error "TAUT_SAME_BITS needs numbers that are no wider than they are stored: -msse2 -mfpmath=sse"
+#endif
 
 namespace taut {
 

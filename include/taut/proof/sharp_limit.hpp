@@ -31,6 +31,26 @@ struct SparseRows {
         for (int i = 0; i < size(); ++i) most = (std::max)(most, end[i] - begin(i));
         return most;
     }
+    /// One entry of each column in a row, the sum: no entry of a square has more terms than the
+    /// longest of its rows entries.
+    void merge() {
+        Buffer<int> place(size(), -1);  // of each column
+        int used = 0;
+        for (int i = 0, e = 0; i < size(); ++i) {
+            const int first = used;
+            for (; e < end[i]; ++e) {
+                int& at = place[column[e]];
+                if (at < first) {
+                    at = used++;
+                    column[at] = column[e];
+                    value[at] = value[e];
+                } else {
+                    value[at] += value[e];
+                }
+            }
+            end[i] = used;
+        }
+    }
 };
 
 /// visit(i, sum) for each row, with sum = (Σ_j |a_ij| p_j)/p_i. @returns the largest, which bounds
@@ -87,8 +107,8 @@ private:
 template <class Real>
 Real Pencil::polynomial_bound(const Combination& combination) const {
     constexpr double eps = std::numeric_limits<double>::epsilon();
-    constexpr double share = 0.3;            // s in the splitting bound
-    constexpr std::size_t longest_row = 96;  // of T₂(C), on the average: else it takes too long
+    constexpr double share = 0.3;       // s in the splitting bound
+    constexpr double longest_row = 96;  // of T₂(C), on the average: else it takes too long
     const double known = upper_bound(combination);
     const double s = share * known;
     if (matrices_ || dim() != 1 || !(s > 0) || !detail::is_finite(1 / s)) return known;
@@ -111,33 +131,39 @@ Real Pencil::polynomial_bound(const Combination& combination) const {
         const auto add = [&](int i, int j) {
             if (i < 0) return;
             c.value[c.begin(i)] += k;
-            c.column[next[i]] = (std::max)(j, 0);
+            c.column[next[i]] = j < 0 ? i : j;
             c.value[next[i]++] = j < 0 ? 0 : -k;
         };
         add(link.a, link.b);
         add(link.b, link.a);
     }
+    c.merge();  // before any division, so that S stays symmetric to the bit
     for (int i = 0; i < n; ++i) {
         for (int e = c.begin(i); e < c.end[i]; ++e) c.value[e] = c.value[e] / particle_mass(i) / s;
         c.value[c.begin(i)] -= 1;
     }
 
     proof_detail::SparseRows second;  // T₂(C)
+    const double most = (std::min)(longest_row * n, double((std::numeric_limits<int>::max)()));
     proof_detail::DoubledSquare squares(c);
     for (int i = 0; i < n; ++i) {
         squares.visit_row(i, [&](int j, double value) {
             second.column.push_back(j);
             second.value.push_back(value);
         });
-        if (second.column.size() > longest_row * static_cast<std::size_t>(n)) return known;
+        if (!(static_cast<double>(second.column.size()) <= most)) return known;
         second.end.push_back(static_cast<int>(second.column.size()));
     }
+    double terms = 0;  // of its square: those of a hub are many
+    for (const int j : second.column) terms += second.end[j] - second.begin(j);
+    if (terms > longest_row * longest_row * n) return known;
     Eigen::VectorXd scale(n);
     Buffer<double> p(n), quotients(n);
     for (int i = 0; i < n; ++i) p[i] = scale.data()[i] = 1 / std::sqrt(particle_mass(i));
     for (int repeat = 0; repeat < 12; ++repeat) {
         const double norm =
             weighted_norm(second, p, [&](int i, double sum) { quotients[i] = sum; });
+        if (!(norm > 0 && detail::is_finite(norm))) break;
         for (int i = 0; i < n; ++i) p[i] *= std::sqrt((std::max)(quotients[i] / norm, 1e-4));
     }
     proof_detail::DoubledSquare fourth(second);
@@ -147,11 +173,9 @@ Real Pencil::polynomial_bound(const Combination& combination) const {
         fourth.visit_row(i, [&](int j, double value) { sum += (std::abs)(value)*p[j]; });
         norm = (std::max)(norm, sum / p[i]);
     }
-    // Each entry of T₄(C) is within (110 + 19·longest) ε of that of (|C| + 2I)⁴. Springs side by
-    // side are entries of one row each, and so terms of one entry of the product.
+    // Each entry of T₄(C) is within (110 + 19·longest) ε of that of (|C| + 2I)⁴.
     const double size = 1.01 * weighted_norm(c, p, [](int, double) {}) + 2;
-    const double degree = c.longest();
-    const double longest = (std::max)(degree * degree, static_cast<double>(second.longest()));
+    const double longest = second.longest();
     norm = norm * (1 + (64 + longest * longest) * eps) +
            (128 + 20 * longest) * eps * size * size * size * size;
     const double growth = std::cosh(std::acosh((std::max)(norm, 1.0)) / 4);

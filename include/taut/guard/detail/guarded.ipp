@@ -8,8 +8,8 @@ template <class Stepper, class System>
 void Guarded<Stepper, System>::renew() {
     const bool first = !proved_limit_;
     if (first || proved_limit_->revision != system_->revision()) {
-        proved_limit_ = energy_limit(*system_);
         any_pose_limit_ = any_pose_limit(*system_);
+        proved_limit_ = energy_limit(*system_);  // last: its revision stands for both
         frames_to_sharpen_ = first ? 1 : 60;
     }
     if (frames_to_sharpen_ > 0 && --frames_to_sharpen_ == 0) {
