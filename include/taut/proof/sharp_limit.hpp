@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "../conditions/mode.hpp"
 #include "any_pose.hpp"
@@ -26,6 +27,11 @@ struct SparseRows {
 
     int size() const { return static_cast<int>(end.size()); }
     int begin(int i) const { return i > 0 ? end[i - 1] : 0; }
+    /// visit(column, value) for the entries of row i.
+    template <class Visitor>
+    void visit_row(int i, const Visitor& visit) const {
+        for (int e = begin(i); e < end[i]; ++e) visit(column[e], value[e]);
+    }
     int longest() const {
         int most = 0;
         for (int i = 0; i < size(); ++i) most = (std::max)(most, end[i] - begin(i));
@@ -55,23 +61,28 @@ struct SparseRows {
 
 /// visit(i, sum) for each row, with sum = (Σ_j |a_ij| p_j)/p_i. @returns the largest, which bounds
 /// every |eigenvalue|, for all weights p > 0
-template <class Visitor>
-double weighted_norm(const SparseRows& a, const Buffer<double>& p, const Visitor& visit) {
+template <class Rows, class Visitor>
+double weighted_norm(Rows& a, const Buffer<double>& p, const Visitor& visit) {
     double largest = 0;
     for (int i = 0; i < a.size(); ++i) {
         double sum = 0;
-        for (int e = a.begin(i); e < a.end[i]; ++e) sum += (std::abs)(a.value[e]) * p[a.column[e]];
+        a.visit_row(i, [&](int j, double value) { sum += (std::abs)(value)*p[j]; });
         sum /= p[i];
         visit(i, sum);
         largest = (std::max)(largest, sum);
     }
     return largest;
 }
+template <class Rows>
+double weighted_norm(Rows& a, const Buffer<double>& p) {
+    return weighted_norm(a, p, [](int, double) {});
+}
 
 /// 2A² − I, one row after the other.
 class DoubledSquare {
 public:
     explicit DoubledSquare(const SparseRows& a) : a_(a), sum_(a.size()), row_(a.size(), -1) {}
+    int size() const { return a_.size(); }
     /// visit(column, value) for the entries of row i.
     template <class Visitor>
     void visit_row(int i, const Visitor& visit) {
@@ -167,14 +178,9 @@ Real Pencil::polynomial_bound(const Combination& combination) const {
         for (int i = 0; i < n; ++i) p[i] *= std::sqrt((std::max)(quotients[i] / norm, 1e-4));
     }
     proof_detail::DoubledSquare fourth(second);
-    double norm = 0;
-    for (int i = 0; i < n; ++i) {
-        double sum = 0;
-        fourth.visit_row(i, [&](int j, double value) { sum += (std::abs)(value)*p[j]; });
-        norm = (std::max)(norm, sum / p[i]);
-    }
+    double norm = weighted_norm(fourth, p);
     // Each entry of T₄(C) is within (110 + 19·longest) ε of that of (|C| + 2I)⁴.
-    const double size = 1.01 * weighted_norm(c, p, [](int, double) {}) + 2;
+    const double size = 1.01 * weighted_norm(c, p) + 2;
     const double longest = second.longest();
     norm = norm * (1 + (64 + longest * longest) * eps) +
            (128 + 20 * longest) * eps * size * size * size * size;
@@ -185,14 +191,19 @@ Real Pencil::polynomial_bound(const Combination& combination) const {
 
 namespace proof_detail {
 
-/// The limit of symplectic_by_bounds by that bound.
+/// That bound on k_max, which is all that the limit of a Rayleigh-damped scene asks for.
 template <class Real = double>
-UnroundedLimit sharp_by_laplacian(const Pencil& laplacian, Real part) {
+Real sharp_k_max(const Pencil& laplacian) {
+    return laplacian.is_rayleigh() ? laplacian.polynomial_bound(matrices::K_plus) : 0;
+}
+
+/// The limit of symplectic_by_bounds by that bound. @param k  sharp_k_max
+template <class Real = double>
+UnroundedLimit sharp_by_laplacian(const Pencil& laplacian, Real k, Real part) {
     using namespace matrices;
     UnroundedLimit limit = by_laplacian(laplacian);
     double& h = limit.certified;
     if (h > 0 && detail::is_finite(h) && laplacian.is_rayleigh()) {
-        const double k = laplacian.polynomial_bound(K_plus);
         const auto& rayleigh = laplacian.rayleigh();
         const double d = rayleigh.mass_proportional + rayleigh.stiffness_proportional * k;
         h = (std::max)(h, critical_step(Method::symplectic_euler, k, d));
@@ -211,21 +222,35 @@ UnroundedLimit sharp_by_laplacian(const Pencil& laplacian, Real part) {
 
 }  // namespace proof_detail
 
-/// any_pose_limit(system) by a sharper bound [T45]: on cloths and garments within 4 % of the
-/// condition's own end, where the splitting bound leaves 5 to 20 %. It takes as long as some
-/// hundred steps, and tearing asks for it anew.
+/// any_pose_limit(system) and energy_limit(system) by a sharper bound [T45]: on cloths and garments
+/// within 4 % of the conditions' own ends, where the splitting bound leaves 5 to 20 %. They take as
+/// long as some hundred steps, and tearing asks for them anew.
 template <class Scalar, int Dim, class... Laws>
-StepLimit<Scalar> sharp_any_pose_limit(const SpringSystem<Scalar, Dim, Laws...>& system) {
-    return proof_detail::rounded<Scalar>(
-        proof_detail::sharp_by_laplacian(Pencil::any_pose(system), 1.0), system.revision());
+std::pair<StepLimit<Scalar>, StepLimit<Scalar>> sharp_limits(
+    const SpringSystem<Scalar, Dim, Laws...>& system) {
+    using namespace proof_detail;
+    const Pencil laplacian = Pencil::any_pose(system);
+    const Pencil halved = Pencil::any_pose(system, Pencil::Damping::half);
+    const double k = sharp_k_max(laplacian);  // of both
+    return {rounded<Scalar>(sharp_by_laplacian(laplacian, k, 1.0), system.revision()),
+            rounded<Scalar>(sharp_by_laplacian(halved, k, 0.5), system.revision())};
 }
 
-/// energy_limit(system) by a sharper bound [T45]: see sharp_any_pose_limit.
+/// The first of sharp_limits(system).
+template <class Scalar, int Dim, class... Laws>
+StepLimit<Scalar> sharp_any_pose_limit(const SpringSystem<Scalar, Dim, Laws...>& system) {
+    using namespace proof_detail;
+    const Pencil laplacian = Pencil::any_pose(system);
+    return rounded<Scalar>(sharp_by_laplacian(laplacian, sharp_k_max(laplacian), 1.0),
+                           system.revision());
+}
+
+/// The second of sharp_limits(system).
 template <class Scalar, int Dim, class... Laws>
 StepLimit<Scalar> sharp_energy_limit(const SpringSystem<Scalar, Dim, Laws...>& system) {
-    return proof_detail::rounded<Scalar>(
-        proof_detail::sharp_by_laplacian(Pencil::any_pose(system, Pencil::Damping::half), 0.5),
-        system.revision());
+    using namespace proof_detail;
+    const Pencil halved = Pencil::any_pose(system, Pencil::Damping::half);
+    return rounded<Scalar>(sharp_by_laplacian(halved, sharp_k_max(halved), 0.5), system.revision());
 }
 
 }  // namespace taut

@@ -7,14 +7,13 @@ namespace taut {
 template <class Stepper, class System>
 void Guarded<Stepper, System>::renew() {
     const bool first = !proved_limit_;
-    if (first || proved_limit_->revision != system_->revision()) {
+    const bool edited = first || proved_limit_->revision != system_->revision();
+    if (edited) frames_to_sharpen_ = first ? 1 : 60;
+    if (frames_to_sharpen_ > 0 && --frames_to_sharpen_ == 0) {
+        std::tie(any_pose_limit_, proved_limit_) = sharp_limits(*system_);
+    } else if (edited) {
         any_pose_limit_ = any_pose_limit(*system_);
         proved_limit_ = energy_limit(*system_);  // last: its revision stands for both
-        frames_to_sharpen_ = first ? 1 : 60;
-    }
-    if (frames_to_sharpen_ > 0 && --frames_to_sharpen_ == 0) {
-        proved_limit_ = sharp_energy_limit(*system_);
-        any_pose_limit_ = sharp_any_pose_limit(*system_);
     }
     parts_.update(*system_);
 }
