@@ -4,7 +4,7 @@
 
 # What a reader is asked to read, in words as wc counts them, each against its budget; fails above one.
 set -eu
-export LC_ALL=C  # or what wc takes for a word depends on the machine
+export LC_ALL=C.UTF-8  # or what wc takes for a word depends on the machine
 cd "$(dirname "$0")/.."
 
 over=0
