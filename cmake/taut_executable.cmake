@@ -27,6 +27,12 @@ function(taut_sign_conversion target)
     endif()
 endfunction()
 
+# TAUT_SAME_BITS for a target, PRIVATE or INTERFACE.
+function(taut_same_bits target scope)
+    target_compile_definitions(${target} ${scope} TAUT_SAME_BITS EIGEN_FAST_MATH=0)
+    target_compile_options(${target} ${scope} $<IF:$<BOOL:${MSVC}>,/fp:precise,-ffp-contract=off>)
+endfunction()
+
 function(taut_executable target)
     add_executable(${target} ${ARGN})
     target_link_libraries(${target} PRIVATE Taut::Taut)
