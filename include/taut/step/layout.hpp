@@ -163,9 +163,12 @@ struct StatePlanes {
     Planes<Scalar> v, new_v;  // m/s; the same memory where nothing reads another place's v
 
     void swap() {
+        swap_positions();
+        std::swap(v, new_v);
+    }
+    void swap_positions() {
         std::swap(x, new_x);
         std::swap(spring_x, new_spring_x);
-        std::swap(v, new_v);
     }
 };
 
@@ -222,6 +225,7 @@ public:
 
     const StatePlanes<Scalar>& planes() const { return planes_; }
     void swap() { planes_.swap(); }
+    void swap_positions() { planes_.swap_positions(); }
 
 private:
     using Register = VectorRegister<Scalar>;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "between_steps.hpp"
 #include "force_plan.hpp"
 #include "place_update.hpp"
 
@@ -24,6 +25,7 @@ public:
 
     /// s.
     Scalar time() const { return state_.time; }
+    void set_time(Scalar time) { state_.time = time; }
 
     /// Whether a force asks for the whole state before every step.
     bool asks_for_state() const { return static_cast<bool>(forces_->whole); }
@@ -92,6 +94,11 @@ public:
                                                Scalar) const;
 
     void watch(StepWatch<Scalar, Dim>* by) { watch_ = by; }
+    /// Who is called after every step; null: nobody.
+    void set_between(BetweenCall<Scalar, Dim>* call) { between_ = call; }
+    bool calls_between() const { return between_ != nullptr; }
+    /// How many steps of a run or run_verlet that calls it were finite.
+    Index finite_steps() const { return finite_steps_; }
     /// Brings all members up to date: the first thing that a call does.
     /// @param new_plan  whether the layout, or what springs are where, has changed
     /// @param ahead     s, by which springs see x ahead
@@ -116,11 +123,10 @@ private:
     /// A register may begin before its block or end behind it.
     static constexpr Index scratch_stride = most_of_block + most_of_block / 16;
 
-    /// Puts the state back after `count` steps. @param x  its positions, planes, m
+    /// Puts the state back after `count` steps.
     template <class AnyState>
-    void store(const Layout<Scalar>& layout, const Planes<Scalar>& x, Scalar h, Index count,
-               AnyState& state) const {
-        layout.from_planes(x, state.x);
+    void store(const Layout<Scalar>& layout, Scalar h, Index count, AnyState& state) const {
+        layout.from_planes(state_.planes().x, state.x);
         layout.from_planes(state_.planes().v, state.v);
         for (Index i = 0; i < count; ++i) state.time += h;
     }
@@ -135,6 +141,10 @@ private:
         to.resize(static_cast<std::size_t>(state_.whole()));
         std::copy_n(from, state_.whole(), to.data());
     }
+    /// @returns whether somebody is called and has changed anything
+    bool call_between(const Layout<Scalar>& layout);
+    /// Steps of run_verlet, of the planes. The acceleration at either end is in the place of new_x.
+    bool verlet(const Forces& forces, Scalar h, Index count, int threads, bool go_on);
     /// @returns whether all is finite
     bool steps(const Forces& forces, Scalar h, Index count, int threads, Move move);
     void some_steps(const Forces& forces, Scalar h, Index count, int threads, Move move);
@@ -145,9 +155,12 @@ private:
     PlaceUpdate<Scalar> update_;
     Outside<Scalar, Dim> outside_;
     Buffer<Scalar> scratch_;  // forces on one block for each thread, N; 0 between blocks
-    Buffer<Scalar> end_x_;    // of run_verlet, planes, m
+    Buffer<Scalar> end_v_;    // of run_verlet, planes, m/s
     Buffer<int> places_;      // of each particle, if known
     StepWatch<Scalar, Dim>* watch_ = nullptr;
+    BetweenCall<Scalar, Dim>* between_ = nullptr;
+    Index finite_steps_ = 0;
+    Scalar ahead_ = 0;             // s, by which springs see x ahead
     Buffer<Scalar> acceleration_;  // at the end of the last run_verlet, planes, m/s²
     Scalar last_h_ = 0;            // its step, s
     std::uint64_t masses_ = 0;     // the revision of those in update_
@@ -173,6 +186,7 @@ void Steps<Scalar, Dim>::load(const Surroundings<Scalar, Dim>& surroundings,
     }
     layout.to_planes(state.x, state_.planes().x);
     layout.to_planes(state.v, state_.planes().v);
+    ahead_ = ahead;
     if (ahead > 0) state_.look_ahead(ahead);
     outside_.begin(surroundings.external, static_cast<Scalar>(state.time));
 }
@@ -181,9 +195,13 @@ template <class Scalar, int Dim>
 template <class AnyState>
 bool Steps<Scalar, Dim>::run(const Forces& forces, AnyState& state, Scalar h, Index count,
                              int threads, Move move) {
-    if (!steps(forces, h, count, threads, move)) return false;
+    const Index at_once = between_ ? 1 : count;
+    for (finite_steps_ = 0; finite_steps_ < count; finite_steps_ += at_once) {
+        if (!steps(forces, h, at_once, threads, move)) return false;
+        if (call_between(forces.layout()) && !state_.finite()) return false;
+    }
     show(forces.layout(), nullptr, nullptr);
-    store(forces.layout(), state_.planes().x, h, count, state);
+    store(forces.layout(), h, count, state);
     return true;
 }
 
@@ -191,39 +209,16 @@ template <class Scalar, int Dim>
 template <class AnyState>
 bool Steps<Scalar, Dim>::run_verlet(const Forces& forces, AnyState& state, Scalar h, Index count,
                                     int threads, bool go_on) {
-    using Update = PlaceUpdate<Scalar>;
-    if (go_on) {
-        Scalar *x = state_.planes().x.first, *v = state_.planes().v.first;
-        const auto kick = [&](Scalar by) {
-            const Register factor(by);
-            state_.for_each_register([&](Index i) {
-                const Register a = Register::load(acceleration_.data() + i);
-                (Register::load(v + i) + factor * a).store(v + i);
-            });
-        };
-        if (watch_) {  // the forces here were taken at the last step's v½
-            copy_whole(v, end_x_);
-            kick(-last_h_ / 2);
-            show(forces.layout(), nullptr, nullptr);
-            std::copy_n(end_x_.data(), state_.whole(), v);
-        }
-        kick(h / 2);
-        state_.for_each_register([&](Index i) {
-            (Register::load(x + i) + Register(h) * Register::load(v + i)).store(x + i);
-        });
-        outside_.pass(h);
-        if (!state_.finite()) return false;
-    } else if (!steps(forces, h, 1, threads, &Update::template move<VerletUpdate<1, false>>)) {
-        return false;
+    if (go_on) std::copy_n(acceleration_.data(), state_.whole(), state_.planes().new_x.first);
+    const Index at_once = between_ ? 1 : count;
+    for (finite_steps_ = 0; finite_steps_ < count; finite_steps_ += at_once) {
+        if (!verlet(forces, h, at_once, threads, go_on)) return false;
+        const bool changed = call_between(forces.layout());
+        if (changed && !state_.finite()) return false;
+        go_on = !changed;
     }
-    if (!steps(forces, h, count - 1, threads, &Update::template move<VerletUpdate<2, false>>)) {
-        return false;
-    }
-    copy_whole(state_.planes().x.first, end_x_);
-    if (!steps(forces, h, 1, threads, &Update::template move<VerletUpdate<1, true>>)) return false;
-    store(forces.layout(), {end_x_.data(), forces.layout().stride()}, h, count, state);
-    copy_whole(state_.planes().x.first, acceleration_);
-    last_h_ = h;
+    store(forces.layout(), h, count, state);
+    copy_whole(state_.planes().new_x.first, acceleration_);
     return true;
 }
 
@@ -253,7 +248,7 @@ bool Steps<Scalar, Dim>::run_corrected(const Forces& forces, AnyState& state, Sc
         if (check && !state_.finite()) return false;
         outside_.pass(h);
     }
-    store(forces.layout(), state_.planes().x, h, count, state);
+    store(forces.layout(), h, count, state);
     return true;
 }
 
