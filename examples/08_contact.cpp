@@ -21,11 +21,12 @@ int main() {
     auto state = cloth.initial_state();
     taut::EnergyStableEuler stepper(cloth);
     const double h = taut::energy_limit(cloth).certified;
+    const auto count = static_cast<taut::Index>(1 / h) + 1;  // of a second
     taut::ContactReport<double, 3> met;
-    while (state.time < 1) {
-        if (!stepper.step(state, h)) return 1;
-        met = taut::resolve_contacts(cloth, sphere, state, contact);
-    }
+    const auto between = [&](auto& now) {
+        met = taut::resolve_contacts(cloth, sphere, now, contact);
+    };
+    if (!stepper.step(state, h, count, between)) return 1;
     std::printf("%d of %d particles lie on the sphere\n", static_cast<int>(met.contacts),
                 static_cast<int>(cloth.size()));
     return met.contacts > 0 ? 0 : 1;

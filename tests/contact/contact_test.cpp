@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 #include <limits>
+#include <string>
 #include <taut/integrator/symplectic_euler.hpp>
 #include <taut/contact/contact.hpp>
 #include <taut/scene/cloth.hpp>
+#include <vector>
 
 #include "../support/catch.hpp"
 #include "../support/direct_euler.hpp"
@@ -193,6 +195,44 @@ TEST_CASE("contact: obstacles and options out of range are refused by name",
     says({"thickness is nan"}, resolve({0, nan}));
     state.x.conservativeResize(3, 4);
     says({"resolve_contacts", "4 positions", "8 particles"}, resolve({}));
+}
+
+TEMPLATE_TEST_CASE("contact: between steps as on the state after each", "[contact]",
+                   (Case<float, 2>), (Case<double, 1>), (Case<double, 3>)) {
+    using Scalar = typename TestType::Scalar;
+    constexpr int Dim = TestType::Dim;
+    Random random(7);
+    const auto system = random_system<Scalar, Dim>(random);
+    const auto start = random_state(random, system);
+    const Sphere<Scalar, Dim> ball(random.vector<Scalar, Dim>(-1, 1), Scalar(0.8));
+    const taut::ContactOptions options{0.25, 0.01};
+    taut::SymplecticEuler first(system), second(system);
+    auto alone = start, together = start;
+    Index touched = 0;
+    std::vector<taut::ContactReport<Scalar, Dim>> met;
+    for (int step = 0; step < 20; ++step) {
+        REQUIRE(first.step(alone, Scalar(0.001)));
+        met.push_back(resolve_contacts(system, ball, alone, options));
+        touched += met.back().contacts;
+    }
+    CHECK(touched > 0);
+    std::size_t step = 0;
+    REQUIRE(second.step(together, Scalar(0.001), 20, [&](auto& now) {
+        const auto report = resolve_contacts(system, ball, now, options);
+        CHECK(report.contacts == met[step].contacts);
+        CHECK(report.deepest == met[step].deepest);
+        CHECK(report.depth == met[step].depth);
+        CHECK(report.impulse == met[step].impulse);
+        ++step;
+    }));
+    CHECK(same_bits(together, alone));
+
+    auto other = system;
+    other.add_particle(random.vector<Scalar, Dim>(-1, 1), Scalar(1));
+    const auto wrong = [&](auto& now) { resolve_contacts(other, ball, now); };
+    CHECK(message_of([&] { (void)first.step(alone, Scalar(0.001), 1, wrong); }) ==
+          "taut::resolve_contacts: " + std::to_string(system.size()) +
+              " particles between steps, " + std::to_string(other.size()) + " in the system");
 }
 
 }  // namespace taut_test::contact_test

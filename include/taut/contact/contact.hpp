@@ -6,6 +6,7 @@
 
 #include "../core/concepts.hpp"
 #include "../core/detail/fits.hpp"
+#include "../step/between_steps.hpp"
 #include "obstacle.hpp"
 
 namespace taut {
@@ -39,25 +40,36 @@ auto surface_at(const Obstacle& obstacle, const Vector& point) {
     }
 }
 
-/// Moves each free particle that is too deep out along the normal; its velocity stays.
-/// @param visit  visit(i, normal) for each of them
-template <class System, class Obstacle, class Visitor>
-ContactReport<typename System::Scalar, System::Dim> lift_out(const System& system,
-                                                             const Obstacle& obstacle,
-                                                             typename System::State& state,
-                                                             const ContactOptions& options,
-                                                             Visitor&& visit) {
+/// A State with the members of BetweenSteps.
+template <class System>
+struct Particles {
+    using Vector = Eigen::Matrix<typename System::Scalar, System::Dim, 1>;
+
+    typename System::State& state;
+
+    Vector x(Index i) const { return state.x.col(i); }
+    Vector v(Index i) const { return state.v.col(i); }
+    void set_x(Index i, const Vector& x) { state.x.col(i) = x; }
+    void set_v(Index i, const Vector& v) { state.v.col(i) = v; }
+};
+
+/// resolve_contacts of particles as in BetweenSteps.
+template <class System, class Obstacle, class Between>
+ContactReport<typename System::Scalar, System::Dim> resolve(const System& system,
+                                                            const Obstacle& obstacle, Between& now,
+                                                            const ContactOptions& options) {
     using Scalar = typename System::Scalar;
     using Vector = Eigen::Matrix<Scalar, System::Dim, 1>;
     require_obstacle<Obstacle, Vector>();
     require_non_negative("resolve_contacts", "friction", options.friction);
     require_non_negative("resolve_contacts", "thickness", options.thickness);
-    detail::require_fits("resolve_contacts", state, system.size());
+    const auto friction = static_cast<Scalar>(options.friction);
     const auto thickness = static_cast<Scalar>(options.thickness);
     ContactReport<Scalar, System::Dim> report;
     for (Index i = 0; i < system.size(); ++i) {
         if (system.is_pinned(i)) continue;
-        const auto surface = surface_at<Obstacle, Vector>(obstacle, state.x.col(i));
+        const Vector x = now.x(i);
+        const auto surface = surface_at<Obstacle, Vector>(obstacle, x);
         const Scalar depth = thickness - surface.distance;
         if (!(depth >= 0)) continue;
         ++report.contacts;
@@ -65,8 +77,16 @@ ContactReport<typename System::Scalar, System::Dim> lift_out(const System& syste
             report.deepest = i;
             report.depth = depth;
         }
-        state.x.col(i) += depth * surface.normal;
-        visit(i, surface.normal);
+        now.set_x(i, x + depth * surface.normal);
+        const Vector v = now.v(i);
+        const Scalar into = -surface.normal.dot(v);
+        if (!(into > 0)) continue;
+        const Vector along = v + into * surface.normal;
+        const Scalar speed = along.norm();
+        const Scalar kept =
+            speed > 0 ? (std::max)(Scalar(0), 1 - friction * into / speed) : Scalar(0);
+        now.set_v(i, kept * along);
+        report.impulse += system.mass(i) * (kept * along - v);
     }
     return report;
 }
@@ -90,24 +110,21 @@ template <class System, class Obstacle>
 ContactReport<typename System::Scalar, System::Dim> resolve_contacts(
     const System& system, const Obstacle& obstacle, typename System::State& state,
     const ContactOptions& options = {}) {
-    using Scalar = typename System::Scalar;
-    using Vector = Eigen::Matrix<Scalar, System::Dim, 1>;
-    const auto friction = static_cast<Scalar>(options.friction);
-    Vector impulse = Vector::Zero();
-    auto report = scene_detail::lift_out(
-        system, obstacle, state, options, [&](Index i, const Vector& normal) {
-            const Scalar into = -normal.dot(state.v.col(i));
-            if (!(into > 0)) return;
-            const Vector before = state.v.col(i);
-            const Vector along = before + into * normal;
-            const Scalar speed = along.norm();
-            const Scalar kept =
-                speed > 0 ? (std::max)(Scalar(0), 1 - friction * into / speed) : Scalar(0);
-            state.v.col(i) = kept * along;
-            impulse += system.mass(i) * (state.v.col(i) - before);
-        });
-    report.impulse = impulse;
-    return report;
+    detail::require_fits("resolve_contacts", state, system.size());
+    scene_detail::Particles<System> now{state};
+    return scene_detail::resolve(system, obstacle, now, options);
+}
+
+/// The same within a call of a stepper, step(state, h, count, between), where it costs least.
+template <class System, class Obstacle>
+ContactReport<typename System::Scalar, System::Dim> resolve_contacts(
+    const System& system, const Obstacle& obstacle,
+    BetweenSteps<typename System::Scalar, System::Dim>& now, const ContactOptions& options = {}) {
+    if (now.size() != system.size()) {
+        fail("resolve_contacts: ", now.size(), " particles between steps, ", system.size(),
+             " in the system");
+    }
+    return scene_detail::resolve(system, obstacle, now, options);
 }
 
 }  // namespace taut
