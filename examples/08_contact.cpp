@@ -4,6 +4,7 @@
 // A cloth falls on a sphere, with friction. docs/systems/contact.md reads along.
 
 #include <cstdio>
+#include <taut/between/between.hpp>
 #include <taut/contact/contact.hpp>
 #include <taut/taut.hpp>
 
@@ -26,7 +27,7 @@ int main() {
     const auto between = [&](auto& now) {
         met = taut::resolve_contacts(cloth, sphere, now, contact);
     };
-    if (!stepper.step(state, h, count, between)) return 1;
+    if (!taut::step_between(stepper, state, h, count, between)) return 1;
     std::printf("%d of %d particles lie on the sphere\n", static_cast<int>(met.contacts),
                 static_cast<int>(cloth.size()));
     return met.contacts > 0 ? 0 : 1;

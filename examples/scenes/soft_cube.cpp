@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <taut/between/between.hpp>
 #include <taut/contact/contact.hpp>
 #include <taut/lattice/lattice.hpp>
 #include <taut/mesh_files/mesh_files.hpp>
@@ -58,7 +59,7 @@ int main() {
             taut::resolve_contacts(cube, floor, now, contact);
             for (Index i = 0; i < now.size(); ++i) lowest = std::min(lowest, now.x(i).z());
         };
-        if (!stepper.step(state, h, steps, between)) return 1;
+        if (!taut::step_between(stepper, state, h, steps, between)) return 1;
     }
     std::printf("energy-stable Euler: %d steps of %.3f ms a frame\n", steps, 1e3 * h);
     std::printf("lowest %.2e m above the floor, at rest %.5f m high\n", lowest,

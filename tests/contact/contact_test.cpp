@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 #include <taut/integrator/symplectic_euler.hpp>
+#include <taut/between/between.hpp>
 #include <taut/contact/contact.hpp>
 #include <taut/scene/cloth.hpp>
 #include <vector>
@@ -217,7 +218,7 @@ TEMPLATE_TEST_CASE("contact: between steps as on the state after each", "[contac
     }
     CHECK(touched > 0);
     std::size_t step = 0;
-    REQUIRE(second.step(together, Scalar(0.001), 20, [&](auto& now) {
+    REQUIRE(step_between(second, together, Scalar(0.001), 20, [&](auto& now) {
         const auto report = resolve_contacts(system, ball, now, options);
         CHECK(report.contacts == met[step].contacts);
         CHECK(report.deepest == met[step].deepest);
@@ -230,7 +231,7 @@ TEMPLATE_TEST_CASE("contact: between steps as on the state after each", "[contac
     auto other = system;
     other.add_particle(random.vector<Scalar, Dim>(-1, 1), Scalar(1));
     const auto wrong = [&](auto& now) { resolve_contacts(other, ball, now); };
-    CHECK(message_of([&] { (void)first.step(alone, Scalar(0.001), 1, wrong); }) ==
+    CHECK(message_of([&] { (void)step_between(first, alone, Scalar(0.001), 1, wrong); }) ==
           "taut::resolve_contacts: " + std::to_string(system.size()) +
               " particles between steps, " + std::to_string(other.size()) + " in the system");
 }

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "../between/between_steps.hpp"
 #include "../core/concepts.hpp"
 #include "../core/detail/fits.hpp"
-#include "../step/between_steps.hpp"
 #include "obstacle.hpp"
 
 namespace taut {
@@ -115,7 +115,7 @@ ContactReport<typename System::Scalar, System::Dim> resolve_contacts(
     return scene_detail::resolve(system, obstacle, now, options);
 }
 
-/// The same within a call of a stepper, step(state, h, count, between), where it costs least.
+/// The same between the steps of step_between, where it costs least.
 template <class System, class Obstacle>
 ContactReport<typename System::Scalar, System::Dim> resolve_contacts(
     const System& system, const Obstacle& obstacle,

@@ -40,11 +40,6 @@ public:
     /// the velocity that the state gives it. On failure the state is as it was before.
     template <class AnyState>
     Report step(AnyState& state, Scalar h, Index count = 1);
-    /// The same with between(now) after each step, for contacts of your own: now is BetweenSteps&.
-    /// Costs what `count` steps together cost. A step that is not finite ends the call; what
-    /// between has done outside remains.
-    template <class AnyState, class Between>
-    Report step(AnyState& state, Scalar h, Index count, Between&& between);
     /// For the guard, which books the work of a SpringSystem's steps.
     void watch(step_detail::StepWatch<Scalar, System::Dim>* by) { steps_.watch(by); }
 
@@ -57,12 +52,6 @@ template <class System>
 template <class AnyState>
 Report EnergyStableEuler<System>::step(AnyState& state, Scalar h, Index count) {
     return steps_.run_ahead(*system_, state, h, count, integrator_detail::KickAndDrift{});
-}
-
-template <class System>
-template <class AnyState, class Between>
-Report EnergyStableEuler<System>::step(AnyState& state, Scalar h, Index count, Between&& between) {
-    return steps_.call_between(between, [&] { return step(state, h, count); });
 }
 
 }  // namespace taut

@@ -33,11 +33,6 @@ public:
     /// is as it was before.
     template <class AnyState>
     Report step(AnyState& state, Scalar h, Index count = 1);
-    /// The same with between(now) after each step, for contacts of your own: now is BetweenSteps&.
-    /// Costs what `count` steps together cost. A step that is not finite ends the call; what
-    /// between has done outside remains.
-    template <class AnyState, class Between>
-    Report step(AnyState& state, Scalar h, Index count, Between&& between);
     /// For the guard, which books the work of a SpringSystem's steps.
     void watch(step_detail::StepWatch<Scalar, System::Dim>* by) { steps_.watch(by); }
 
@@ -54,14 +49,6 @@ Report VelocityVerlet<System>::step(AnyState& state, Scalar h, Index count) {
     const Report report = steps_.run_verlet(*system_, state, h, count, known);
     if (!report) last_.forget();
     if (report && report.iterations > 0) last_.keep(*system_, state);
-    return report;
-}
-
-template <class System>
-template <class AnyState, class Between>
-Report VelocityVerlet<System>::step(AnyState& state, Scalar h, Index count, Between&& between) {
-    const Report report = steps_.call_between(between, [&] { return step(state, h, count); });
-    last_.forget();  // of a particle that was moved after the last step
     return report;
 }
 

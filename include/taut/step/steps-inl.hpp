@@ -44,53 +44,6 @@ Index Steps<Scalar, Dim>::first_not_finite(const Layout<Scalar>& layout) const {
 }
 
 template <class Scalar, int Dim>
-bool Steps<Scalar, Dim>::call_between(const Layout<Scalar>& layout) {
-    if (!between_) return false;
-    if (places_.empty()) places_ = layout.places();
-    BetweenSteps<Scalar, Dim> now(layout, places_, state_.planes(), outside_.time());
-    between_->call(now);
-    if (now.changed() && ahead_ > 0) state_.look_ahead(ahead_);
-    return now.changed();
-}
-
-template <class Scalar, int Dim>
-bool Steps<Scalar, Dim>::verlet(const Forces& forces, Scalar h, Index count, int threads,
-                                bool go_on) {
-    using Update = PlaceUpdate<Scalar>;
-    if (go_on) {
-        const Scalar* a = state_.planes().new_x.first;
-        Scalar *x = state_.planes().x.first, *v = state_.planes().v.first;
-        const auto kicked = [&](Index i, Scalar by) {
-            return Register::load(v + i) + Register(by) * Register::load(a + i);
-        };
-        if (watch_) {  // the forces here were taken at the last step's v½
-            copy_whole(v, end_v_);
-            state_.for_each_register([&](Index i) { kicked(i, -last_h_ / 2).store(v + i); });
-            show(forces.layout(), nullptr, nullptr);
-            std::copy_n(end_v_.data(), state_.whole(), v);
-        }
-        state_.for_each_register([&](Index i) {
-            const Register half = kicked(i, h / 2);
-            half.store(v + i);
-            (Register::load(x + i) + Register(h) * half).store(x + i);
-        });
-        outside_.pass(h);
-        if (!state_.finite()) return false;
-    } else if (!steps(forces, h, 1, threads, &Update::template move<VerletUpdate<1, false>>)) {
-        return false;
-    }
-    if (!steps(forces, h, count - 1, threads, &Update::template move<VerletUpdate<2, false>>)) {
-        return false;
-    }
-    const Scalar time = outside_.time();
-    if (!steps(forces, h, 1, threads, &Update::template move<VerletUpdate<1, true>>)) return false;
-    outside_.set_time(time);
-    state_.swap_positions();  // the acceleration came in the place of x
-    last_h_ = h;
-    return true;
-}
-
-template <class Scalar, int Dim>
 bool Steps<Scalar, Dim>::steps(const Forces& forces, Scalar h, Index count, int threads,
                                Move move) {
     const bool asks = outside_.asks_for_state();
@@ -104,6 +57,9 @@ bool Steps<Scalar, Dim>::steps(const Forces& forces, Scalar h, Index count, int 
         const bool check = asks || done == count || done % steps_between_checks == 0;
         if (check && !state_.finite()) return false;
         outside_.pass(h);
+        if (watch_ && !watch_->passed(forces.layout(), places_, state_, outside_.time(), ahead_)) {
+            return false;
+        }
     }
     return true;
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "between_steps.hpp"
 #include "force_plan.hpp"
 #include "place_update.hpp"
 
@@ -25,7 +24,6 @@ public:
 
     /// s.
     Scalar time() const { return state_.time; }
-    void set_time(Scalar time) { state_.time = time; }
 
     /// Whether a force asks for the whole state before every step.
     bool asks_for_state() const { return static_cast<bool>(forces_->whole); }
@@ -56,6 +54,12 @@ public:
     virtual void see(const PlaceVectors<Scalar, Dim>& x, const PlaceVectors<Scalar, Dim>& v,
                      Scalar time, const State<Scalar, Dim>* state,
                      const Points<Scalar, Dim>* force) = 0;
+    /// After a step, not of velocity Verlet: may change the planes.
+    /// @param places  as of PlaceVectors   @param time, ahead  s   @returns whether to go on
+    virtual bool passed(const Layout<Scalar>&, const Buffer<int>& /*places*/, StateMemory<Scalar>&,
+                        Scalar /*time*/, Scalar /*ahead*/) {
+        return true;
+    }
 
 protected:
     ~StepWatch() = default;
@@ -94,11 +98,6 @@ public:
                                                Scalar) const;
 
     void watch(StepWatch<Scalar, Dim>* by) { watch_ = by; }
-    /// Who is called after every step; null: nobody.
-    void set_between(BetweenCall<Scalar, Dim>* call) { between_ = call; }
-    bool calls_between() const { return between_ != nullptr; }
-    /// How many steps of a run or run_verlet that calls it were finite.
-    Index finite_steps() const { return finite_steps_; }
     /// Brings all members up to date: the first thing that a call does.
     /// @param new_plan  whether the layout, or what springs are where, has changed
     /// @param ahead     s, by which springs see x ahead
@@ -137,14 +136,6 @@ private:
         watch_->see({layout, places_, state_.planes().x}, {layout, places_, state_.planes().v},
                     outside_.time(), state, force);
     }
-    void copy_whole(const Scalar* from, Buffer<Scalar>& to) const {
-        to.resize(static_cast<std::size_t>(state_.whole()));
-        std::copy_n(from, state_.whole(), to.data());
-    }
-    /// @returns whether somebody is called and has changed anything
-    bool call_between(const Layout<Scalar>& layout);
-    /// Steps of run_verlet, of the planes. The acceleration at either end is in the place of new_x.
-    bool verlet(const Forces& forces, Scalar h, Index count, int threads, bool go_on);
     /// @returns whether all is finite
     bool steps(const Forces& forces, Scalar h, Index count, int threads, Move move);
     void some_steps(const Forces& forces, Scalar h, Index count, int threads, Move move);
@@ -158,13 +149,11 @@ private:
     Buffer<Scalar> end_v_;    // of run_verlet, planes, m/s
     Buffer<int> places_;      // of each particle, if known
     StepWatch<Scalar, Dim>* watch_ = nullptr;
-    BetweenCall<Scalar, Dim>* between_ = nullptr;
-    Index finite_steps_ = 0;
-    Scalar ahead_ = 0;             // s, by which springs see x ahead
     Buffer<Scalar> acceleration_;  // at the end of the last run_verlet, planes, m/s²
     Scalar last_h_ = 0;            // its step, s
     std::uint64_t masses_ = 0;     // the revision of those in update_
     Scalar alpha_ = 0;             // of Rayleigh damping, s
+    Scalar ahead_ = 0;             // s, by which springs see x ahead
 };
 
 template <class Scalar, int Dim>
@@ -195,11 +184,7 @@ template <class Scalar, int Dim>
 template <class AnyState>
 bool Steps<Scalar, Dim>::run(const Forces& forces, AnyState& state, Scalar h, Index count,
                              int threads, Move move) {
-    const Index at_once = between_ ? 1 : count;
-    for (finite_steps_ = 0; finite_steps_ < count; finite_steps_ += at_once) {
-        if (!steps(forces, h, at_once, threads, move)) return false;
-        if (call_between(forces.layout()) && !state_.finite()) return false;
-    }
+    if (!steps(forces, h, count, threads, move)) return false;
     show(forces.layout(), nullptr, nullptr);
     store(forces.layout(), h, count, state);
     return true;
@@ -209,16 +194,38 @@ template <class Scalar, int Dim>
 template <class AnyState>
 bool Steps<Scalar, Dim>::run_verlet(const Forces& forces, AnyState& state, Scalar h, Index count,
                                     int threads, bool go_on) {
-    if (go_on) std::copy_n(acceleration_.data(), state_.whole(), state_.planes().new_x.first);
-    const Index at_once = between_ ? 1 : count;
-    for (finite_steps_ = 0; finite_steps_ < count; finite_steps_ += at_once) {
-        if (!verlet(forces, h, at_once, threads, go_on)) return false;
-        const bool changed = call_between(forces.layout());
-        if (changed && !state_.finite()) return false;
-        go_on = !changed;
+    using Update = PlaceUpdate<Scalar>;
+    if (go_on) {
+        Scalar *x = state_.planes().x.first, *v = state_.planes().v.first;
+        const auto kicked = [&](Index i, Scalar by) {
+            return Register::load(v + i) + Register(by) * Register::load(acceleration_.data() + i);
+        };
+        if (watch_) {  // the forces here were taken at the last step's v½
+            end_v_.resize(static_cast<std::size_t>(state_.whole()));
+            std::copy_n(v, state_.whole(), end_v_.data());
+            state_.for_each_register([&](Index i) { kicked(i, -last_h_ / 2).store(v + i); });
+            show(forces.layout(), nullptr, nullptr);
+            std::copy_n(end_v_.data(), state_.whole(), v);
+        }
+        state_.for_each_register([&](Index i) {
+            const Register half = kicked(i, h / 2);
+            half.store(v + i);
+            (Register::load(x + i) + Register(h) * half).store(x + i);
+        });
+        outside_.pass(h);
+        if (!state_.finite()) return false;
+    } else if (!steps(forces, h, 1, threads, &Update::template move<VerletUpdate<1, false>>)) {
+        return false;
     }
+    if (!steps(forces, h, count - 1, threads, &Update::template move<VerletUpdate<2, false>>)) {
+        return false;
+    }
+    if (!steps(forces, h, 1, threads, &Update::template move<VerletUpdate<1, true>>)) return false;
+    acceleration_.resize(static_cast<std::size_t>(state_.whole()));
+    std::copy_n(state_.planes().x.first, state_.whole(), acceleration_.data());
+    state_.swap_positions();
     store(forces.layout(), h, count, state);
-    copy_whole(state_.planes().new_x.first, acceleration_);
+    last_h_ = h;
     return true;
 }
 

@@ -174,11 +174,6 @@ public:
 
     /// From now on run, run_ahead and run_verlet show their states to that; null ends it.
     void watch(StepWatch<Scalar, Dim>* by) { steps_.watch(by); }
-    /// From now on run, run_ahead and run_verlet call that after every step; null ends it.
-    void set_between(BetweenCall<Scalar, Dim>* call) { steps_.set_between(call); }
-    bool calls_between() const { return steps_.calls_between(); }
-    /// How many steps of the last call were finite, if something was called after every one.
-    Index finite_steps() const { return steps_.finite_steps(); }
     /// Takes `count` steps of h, s. @param update  see PlaceUpdate::move
     /// @returns whether the new state is finite; else `state` is not touched
     template <class AnyState, class Update>

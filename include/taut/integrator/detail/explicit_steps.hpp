@@ -74,14 +74,6 @@ public:
         });
     }
 
-    /// Takes steps with a call between them.
-    template <class Between, class Run>
-    Report call_between(Between&, Run&&) {
-        static_assert(network_detail::is_spring_system_v<System>,
-                      "taut: step(state, h, count, between) needs a SpringSystem");
-        return {};
-    }
-
 private:
     /// M⁻¹f, Dim × n, m/s².
     auto acceleration(const System& system) const {
@@ -103,17 +95,6 @@ public:
 
     /// Shows steps to that; null ends it.
     void watch(step_detail::StepWatch<Scalar, System::Dim>* by) { sweep_.watch(by); }
-    /// Takes steps by `run` with between(now) after each of them.
-    template <class Between, class Run>
-    Report call_between(Between& between, Run&& run) {
-        step_detail::CallOf<Scalar, System::Dim, Between> call(between);
-        const struct Calling {
-            step_detail::Sweep<System>& sweep;
-            ~Calling() { sweep.set_between(nullptr); }
-        } calling{sweep_};
-        sweep_.set_between(&call);
-        return run();
-    }
     /// As above.
     template <class AnyState, class Update>
     Report run(const System& system, AnyState& state, Scalar h, Index count, const Update& update) {
@@ -157,10 +138,6 @@ private:
         const Report report = StepLoop<State>::examine(system, state, h);
         if (!report || count <= 0) return report;
         if (sweep(state, count)) return {Status::ok, static_cast<int>(count)};
-        if (sweep_.calls_between()) {  // not to be called twice for one step
-            return {Status::diverged, static_cast<int>(sweep_.finite_steps()), 0,
-                    sweep_.first_not_finite()};
-        }
         // Not finite: which step and which particle, one by one.
         return loop_.run(system, state, h, count, [&](State& own) -> Report {
             if (sweep(own, Index(1))) return {};

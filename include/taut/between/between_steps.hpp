@@ -2,21 +2,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <type_traits>
-
-#include "layout.hpp"
+#include "../step/layout.hpp"
 
 namespace taut {
 
-/// A scene between two steps of one call, where it lies in the stepper's memory: what a stepper's
-/// step(state, h, count, between) gives to between(now).
+/// A scene between two steps of step_between, where it lies in the stepper's memory.
 ///
 /// Particles are those of the system, by index, in [0, size()). What is set holds from the next
 /// step on, for pins, too.
 template <class Scalar, int Dim>
 class BetweenSteps {
 public:
-    using Vector = Eigen::Matrix<Scalar, Dim, 1>;  // of Dim
+    using Vector = Eigen::Matrix<Scalar, Dim, 1>;
 
     /// For steppers.
     BetweenSteps(const step_detail::Layout<Scalar>& layout, const Buffer<int>& places,
@@ -54,30 +51,4 @@ private:
     bool changed_ = false;
 };
 
-namespace step_detail {
-
-/// The caller's between(now), of whatever type.
-template <class Scalar, int Dim>
-class BetweenCall {
-public:
-    virtual void call(BetweenSteps<Scalar, Dim>& now) = 0;
-
-protected:
-    ~BetweenCall() = default;
-};
-
-template <class Scalar, int Dim, class Between>
-class CallOf final : public BetweenCall<Scalar, Dim> {
-    static_assert(std::is_invocable_v<Between&, BetweenSteps<Scalar, Dim>&>,
-                  "taut: between(now) must take a taut::BetweenSteps<Scalar, Dim>&, or auto&");
-
-public:
-    explicit CallOf(Between& between) : between_(between) {}
-    void call(BetweenSteps<Scalar, Dim>& now) override { between_(now); }
-
-private:
-    Between& between_;
-};
-
-}  // namespace step_detail
 }  // namespace taut

@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: MIT
 #include <limits>
 #include <stdexcept>
+#include <taut/between/between.hpp>
 #include <taut/taut.hpp>
 #include <vector>
 
-#include "../edges/steppers.hpp"
 #include "../support/catch.hpp"
 #include "../support/random_system.hpp"
 #include "../support/sweep_checks.hpp"
 
-namespace taut_test::between_steps_test {
+namespace taut_test::between_test {
 
 namespace {
 
@@ -48,22 +48,25 @@ void each_system(const Visit& visit) {
     }
 }
 
+/// visit(make), make(options) a stepper of each kind.
+template <class System, class Visit>
+void each_stepper(const System& system, const Visit& visit) {
+    visit([&](taut::ExplicitOptions options) { return taut::SymplecticEuler(system, options); });
+    visit([&](taut::ExplicitOptions options) { return taut::EnergyStableEuler(system, options); });
+}
+
 }  // namespace
 
-TEMPLATE_TEST_CASE("between_steps: looking on changes no bit and sees every step once",
-                   "[integrator]", (Case<float, 2>), (Case<float, 3>), (Case<double, 1>),
-                   (Case<double, 3>)) {
+TEMPLATE_TEST_CASE("between: looking on changes no bit and sees every step once", "[between]",
+                   (Case<float, 2>), (Case<float, 3>), (Case<double, 1>), (Case<double, 3>)) {
     using Scalar = typename TestType::Scalar;
     each_system<Scalar, TestType::Dim>([](const auto& system, const auto& start) {
-        using System = std::decay_t<decltype(system)>;
-        edges::each_explicit<System>([&](auto kind) {
-            using Stepper = typename decltype(kind)::Type;
-            INFO(kind.name);
+        each_stepper(system, [&](const auto& make) {
             auto together = start, alone = start, watched = start;
-            Stepper first(system), second(system), third(system, {2});
+            auto first = make({}), second = make({}), third = make({2});
             REQUIRE(first.step(together, h<Scalar>, steps));
             Index calls = 0;
-            const auto report = third.step(watched, h<Scalar>, steps, [&](auto& now) {
+            const auto report = step_between(third, watched, h<Scalar>, steps, [&](auto& now) {
                 ++calls;
                 REQUIRE(second.step(alone, h<Scalar>));
                 bool same = now.size() == system.size() && now.time() == alone.time;
@@ -82,16 +85,13 @@ TEMPLATE_TEST_CASE("between_steps: looking on changes no bit and sees every step
     });
 }
 
-TEMPLATE_TEST_CASE("between_steps: what is set is what single calls would find", "[integrator]",
+TEMPLATE_TEST_CASE("between: what is set is what single calls would find", "[between]",
                    (Case<float, 2>), (Case<float, 3>), (Case<double, 1>), (Case<double, 3>)) {
     using Scalar = typename TestType::Scalar;
     each_system<Scalar, TestType::Dim>([](const auto& system, const auto& start) {
-        using System = std::decay_t<decltype(system)>;
-        edges::each_explicit<System>([&](auto kind) {
-            using Stepper = typename decltype(kind)::Type;
-            INFO(kind.name);
+        each_stepper(system, [&](const auto& make) {
             auto alone = start, together = start;
-            Stepper first(system), second(system);
+            auto first = make({}), second = make({});
             const auto wanted = [](Index step, Index i) { return step != 3 && i % 5 == 1; };
             for (Index step = 0; step < steps; ++step) {
                 REQUIRE(first.step(alone, h<Scalar>));
@@ -103,7 +103,7 @@ TEMPLATE_TEST_CASE("between_steps: what is set is what single calls would find",
                 }
             }
             Index step = 0;
-            REQUIRE(second.step(together, h<Scalar>, steps, [&](auto& now) {
+            REQUIRE(step_between(second, together, h<Scalar>, steps, [&](auto& now) {
                 for (Index i = 0; i < now.size(); ++i) {
                     if (!wanted(step, i)) continue;
                     auto x = now.x(i);
@@ -123,18 +123,15 @@ TEMPLATE_TEST_CASE("between_steps: what is set is what single calls would find",
     });
 }
 
-TEMPLATE_TEST_CASE("between_steps: what is refused or thrown out of leaves the state alone",
-                   "[integrator]", (Case<float, 3>), (Case<double, 2>)) {
+TEMPLATE_TEST_CASE("between: what is refused or thrown out of leaves the state alone", "[between]",
+                   (Case<float, 3>), (Case<double, 2>)) {
     using Scalar = typename TestType::Scalar;
     each_system<Scalar, TestType::Dim>([](const auto& system, const auto& start) {
-        using System = std::decay_t<decltype(system)>;
-        edges::each_explicit<System>([&](auto kind) {
-            using Stepper = typename decltype(kind)::Type;
-            INFO(kind.name);
+        each_stepper(system, [&](const auto& make) {
             for (const Index when : {Index(1), Index(4), steps}) {
                 for (const bool position : {false, true}) {
                     auto state = start;
-                    Stepper stepper(system);
+                    auto stepper = make({});
                     Index calls = 0;
                     const auto spoil = [&](auto& now) {
                         if (++calls != when) return;
@@ -143,7 +140,7 @@ TEMPLATE_TEST_CASE("between_steps: what is refused or thrown out of leaves the s
                                           : std::numeric_limits<Scalar>::quiet_NaN();
                         position ? now.set_x(5, bad) : now.set_v(5, bad);
                     };
-                    const auto report = stepper.step(state, h<Scalar>, steps, spoil);
+                    const auto report = step_between(stepper, state, h<Scalar>, steps, spoil);
                     CHECK(report.status == taut::Status::diverged);
                     CHECK(report.iterations == when - 1);
                     CHECK(report.where == 5);
@@ -151,12 +148,12 @@ TEMPLATE_TEST_CASE("between_steps: what is refused or thrown out of leaves the s
                     CHECK(same_bits(state, start));
 
                     const auto stop = [](auto&) { throw std::runtime_error("enough"); };
-                    CHECK_THROWS_AS(stepper.step(state, h<Scalar>, steps, stop),
+                    CHECK_THROWS_AS(step_between(stepper, state, h<Scalar>, steps, stop),
                                     std::runtime_error);
                     CHECK(same_bits(state, start));
 
                     auto expected = start;
-                    Stepper fresh(system);
+                    auto fresh = make({});
                     REQUIRE(fresh.step(expected, h<Scalar>, steps));
                     REQUIRE(stepper.step(state, h<Scalar>, steps));
                     CHECK(same_bits(state, expected));
@@ -167,8 +164,7 @@ TEMPLATE_TEST_CASE("between_steps: what is refused or thrown out of leaves the s
     });
 }
 
-TEST_CASE("between_steps: on an engine's arrays, and nobody is called for no step",
-          "[integrator]") {
+TEST_CASE("between: on an engine's arrays, and nobody is called for no step", "[between]") {
     const auto cloth = taut::hanging_cloth<double>({9, 7});
     auto state = cloth.initial_state();
     std::vector<float> x(static_cast<std::size_t>(3 * cloth.size())), v = x;
@@ -180,13 +176,13 @@ TEST_CASE("between_steps: on an engine's arrays, and nobody is called for no ste
         now.set_v(8, {0, 0, 1});
     };
     taut::SymplecticEuler stepper(cloth);
-    REQUIRE(stepper.step(view, 1e-4, 0, count));
+    REQUIRE(step_between(stepper, view, 1e-4, 0, count));
     CHECK(calls == 0);
-    CHECK(stepper.step(view, -1.0, 5, count).status == taut::Status::invalid_step);
+    CHECK(step_between(stepper, view, -1.0, 5, count).status == taut::Status::invalid_step);
     CHECK(calls == 0);
-    REQUIRE(stepper.step(view, 1e-4, 5, count));
+    REQUIRE(step_between(stepper, view, 1e-4, 5, count));
     CHECK(calls == 5);
     CHECK(v[3 * 8 + 2] == 1);
 }
 
-}  // namespace taut_test::between_steps_test
+}  // namespace taut_test::between_test
