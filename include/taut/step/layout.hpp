@@ -135,21 +135,26 @@ public:
 
     PlaceVectors(const Layout<Scalar>& layout, const Buffer<int>& places,
                  const Planes<Scalar>& planes)
-        : layout_(layout), places_(places), planes_(planes) {}
+        : places_(places),
+          first_(planes.first),
+          axis_(layout.has_stars() ? 1 : planes.stride),
+          grain_(layout.grain()) {}
 
     Vector operator()(Index i) const {
+        const Scalar* at = first_ + places_[i] * grain_;
         Vector vector;
-        for (int d = 0; d < Dim; ++d) vector[d] = layout_.at(planes_, d, places_[i]);
+        for (int d = 0; d < Dim; ++d) vector[d] = at[d * axis_];
         return vector;
     }
     void set(Index i, const Vector& vector) const {
-        for (int d = 0; d < Dim; ++d) layout_.at(planes_, d, places_[i]) = vector[d];
+        Scalar* at = first_ + places_[i] * grain_;
+        for (int d = 0; d < Dim; ++d) at[d * axis_] = vector[d];
     }
 
 private:
-    const Layout<Scalar>& layout_;
     const Buffer<int>& places_;
-    Planes<Scalar> planes_;
+    Scalar* first_;
+    Index axis_, grain_;
 };
 
 /// The planes of a state between two steps. What springs read of any place has a copy for the old
