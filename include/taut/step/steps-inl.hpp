@@ -52,6 +52,7 @@ bool Steps<Scalar, Dim>::steps(const Forces& forces, Scalar h, Index count, int 
         const Index next = asks || watch_ ? 1 : (std::min)(steps_between_checks, count - done);
         update_.set_external(outside_.at_state(forces.layout(), state_.planes()));
         show(forces.layout(), outside_.state(), outside_.force());
+        if (watch_) watch_->before(forces.layout(), places_, state_, outside_.time());
         some_steps(forces, h, next, threads, move);
         done += next;
         const bool check = asks || done == count || done % steps_between_checks == 0;

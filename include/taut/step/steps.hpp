@@ -54,6 +54,9 @@ public:
     virtual void see(const PlaceVectors<Scalar, Dim>& x, const PlaceVectors<Scalar, Dim>& v,
                      Scalar time, const State<Scalar, Dim>* state,
                      const Points<Scalar, Dim>* force) = 0;
+    /// Before a step.
+    virtual void before(const Layout<Scalar>&, const Buffer<int>& /*places*/,
+                        const StateMemory<Scalar>&, Scalar /*time*/) {}
     /// After a step, not of velocity Verlet: may change the planes.
     /// @param places  as of PlaceVectors   @param time, ahead  s   @returns whether to go on
     virtual bool passed(const Layout<Scalar>&, const Buffer<int>& /*places*/, StateMemory<Scalar>&,

@@ -1,0 +1,242 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "../integrator/energy_stable_euler.hpp"
+#include "../proof/energy_limit.hpp"
+#include "detail/near.hpp"
+
+namespace taut {
+
+/// Convex bodies that move, and the particles of a SpringSystem that touch them, inside the step
+/// [T39]: contact takes nothing off the certified step, however stiff it is, and the energy of a
+/// scene rises by no more than the work of the bodies.
+template <class System>
+class Contacts final : public step_detail::StepWatch<typename System::Scalar, System::Dim> {
+public:
+    using Scalar = typename System::Scalar;
+    static constexpr int Dim = System::Dim;
+    using Vector = Eigen::Matrix<Scalar, Dim, 1>;
+    using Place = Pose<Scalar, Dim>;
+
+    explicit Contacts(const System& system) : system_(&system) {}
+    explicit Contacts(const System&&) = delete;
+
+    /// @param shape  HalfSpace, Sphere, Capsule, Box, in the body's frame
+    /// @returns the body's index
+    template <class Obstacle>
+    Index add(Obstacle shape, const BodyOptions& options = {}, const Place& pose = {}) {
+        require_obstacle<Obstacle, Vector>();
+        using Body = contact_detail::BodyOf<Scalar, Dim, Obstacle>;
+        bodies_.push_back(std::make_unique<Body>(std::move(shape), options, pose));
+        near_.clear();
+        return static_cast<Index>(bodies_.size()) - 1;
+    }
+    /// Where a body is at the end of the next frame; it is carried there rigidly.
+    void move_to(Index body, const Place& pose) {
+        bodies_[static_cast<std::size_t>(body)]->end = pose;
+    }
+
+    /// Σ h ū·f of the last frame, J.
+    double work() const {
+        double sum = 0;
+        for (Index i = 0; i < system_->size(); ++i) sum += work_[i];
+        return sum;
+    }
+    /// What touching pairs hold, J.
+    double energy() const {
+        double sum = 0;
+        for (const auto& body : bodies_) {
+            const auto& solo = body->solo;
+            for (Index k = 0; k < solo.count; ++k)
+                sum += potential(solo.depth[k], solo.cap[k], solo.mass[k]);
+        }
+        for (const auto& pair : near_.shared())
+            sum += potential(pair.depth, pair.cap, mass_[pair.place]);
+        return sum;
+    }
+    /// Particles and bodies that touch, at the end of the last step.
+    Index touching() const { return tally_.touching; }
+    /// m.
+    Scalar deepest() const { return tally_.deepest; }
+    /// How often what is near was looked up anew.
+    Index lookups() const { return lookups_; }
+
+    /// For steppers: a frame of s, in steps of h, from `time`, all in s.
+    void begin(Scalar frame, Scalar h, Scalar time) {
+        if (revision_ != system_->revision() + 1) {
+            revision_ = system_->revision() + 1;
+            longest_ = energy_limit(*system_).certified;
+            near_.clear();
+        }
+        frame_ = frame;
+        penalty_ = {h, 100 / (longest_ * longest_), 0};
+        begun_ = time;
+        work_.assign(system_->size(), 0);
+        fresh_ = true;
+        drift_ = Vector::Zero();
+        for (const auto& body : bodies_) {
+            body->motion.go_to(body->begin);
+            drift_ += (body->end.position - body->begin.position) /
+                      (frame * static_cast<Scalar>(bodies_.size()));
+        }
+    }
+    /// The frame is over.
+    void finish() {
+        for (const auto& body : bodies_) body->begin = body->end;
+    }
+
+    void see(const step_detail::PlaceVectors<Scalar, Dim>&,
+             const step_detail::PlaceVectors<Scalar, Dim>&, Scalar, const taut::State<Scalar, Dim>*,
+             const Points<Scalar, Dim>*) override {}
+    void before(const step_detail::Layout<Scalar>& layout, const Buffer<int>& places,
+                const step_detail::StateMemory<Scalar>& memory, Scalar time) override {
+        if (!std::exchange(fresh_, false)) return;
+        mass_.assign(layout.size() + step_detail::max_width, 0);
+        for (Index i = 0; i < layout.size(); ++i) {
+            if (!system_->is_pinned(i)) mass_[places[i]] = system_->mass(i);
+        }
+        const Access x(layout, memory.planes().x);
+        look_up(x, layout.size(), time, margin_);
+    }
+    bool passed(const step_detail::Layout<Scalar>& layout, const Buffer<int>&,
+                step_detail::StateMemory<Scalar>& memory, Scalar time, Scalar ahead) override {
+        const auto& planes = memory.planes();
+        const Index count = layout.size();
+        const contact_detail::Moving<Scalar, Dim> moving{
+            {layout, planes.x}, {layout, planes.v}, {layout, planes.spring_x}};
+        penalty_.ahead = ahead;
+        const Scalar share = (std::min)((time - begun_) / frame_, Scalar(1));
+        for (const auto& body : bodies_) {
+            body->motion.go_to(contact_detail::between(body->begin, body->end, share));
+        }
+        bool known = near_.holds(bodies_, moving.x, count, time);
+        for (Scalar margin = margin_;; margin *= 4) {
+            if (!known) {
+                look_back(layout, planes, time, margin);
+                known = near_.holds(bodies_, moving.x, count, time);
+                if (!known) continue;
+            }
+            touch(moving);
+            known = true;
+            for (const auto& touched : tally_.touched)
+                known = known && near_.holds_of(bodies_, moving.x, touched.place, time);
+            if (known) break;
+            undo(moving);
+        }
+        for (const auto& touched : tally_.touched) work_[touched.place] += touched.work;
+        return true;
+    }
+
+private:
+    using Access = contact_detail::PlaneAccess<Scalar, Dim>;
+
+    /// Lists what is near where the step began.
+    void look_back(const step_detail::Layout<Scalar>& layout,
+                   const step_detail::StatePlanes<Scalar>& planes, Scalar time, Scalar margin) {
+        const Index size = layout.planes() * layout.stride();
+        old_.resize(size);
+        for (Index i = 0; i < size; ++i)
+            old_[i] = planes.x.first[i] - penalty_.h * planes.v.first[i];
+        for (const auto& body : bodies_) std::swap(body->motion.now, body->motion.next);
+        look_up(Access(layout, {old_.data(), planes.x.stride}), layout.size(), time - penalty_.h,
+                margin);
+        for (const auto& body : bodies_) std::swap(body->motion.now, body->motion.next);
+    }
+    /// Contact of all pairs in a step.
+    void touch(const contact_detail::Moving<Scalar, Dim>& moving) {
+        tally_.clear();
+        for (const auto& body : bodies_) body->step(body->solo, penalty_, moving, tally_);
+        auto& shared = near_.shared();
+        for (std::size_t first = 0, end; first < shared.size(); first = end) {
+            const int place = shared[first].place;
+            for (end = first; end < shared.size() && shared[end].place == place;) ++end;
+            Vector x = moving.x.vector(place), v = moving.v.vector(place);
+            const Vector old_x = x, old_v = v;
+            Scalar work = 0;
+            if (solve_(bodies_, &shared[first], end - first, penalty_, x, v, work)) {
+                moving.x.set(place, x);
+                moving.v.set(place, v);
+                if (penalty_.ahead > 0) moving.spring_x.set(place, x + penalty_.ahead * v);
+                tally_.touched.push_back(
+                    {place, old_x, old_v,
+                     static_cast<double>(work) * static_cast<double>(mass_[place])});
+            }
+            for (std::size_t k = first; k < end; ++k) {
+                auto& pair = shared[k];
+                const auto& body = *bodies_[static_cast<std::size_t>(pair.body)];
+                const Scalar old = pair.depth;
+                pair.x = x;
+                pair.depth = body.depth(x, body.motion.next, pair.normal);
+                if (old > 0 || pair.depth > 0)
+                    tally_.pairs.push_back({&pair.depth, &pair.cap, old, pair.cap});
+                if (!(pair.depth > 0)) pair.cap = std::numeric_limits<Scalar>::infinity();
+                tally_.see(pair.depth);
+            }
+        }
+    }
+    void undo(const contact_detail::Moving<Scalar, Dim>& moving) {
+        for (const auto& touched : tally_.touched) {
+            moving.x.set(touched.place, touched.x);
+            moving.v.set(touched.place, touched.v);
+            if (penalty_.ahead > 0)
+                moving.spring_x.set(touched.place, touched.x + penalty_.ahead * touched.v);
+        }
+        for (const auto& pair : tally_.pairs) {
+            *pair.depth = pair.old_depth;
+            *pair.cap = pair.old_cap;
+        }
+    }
+    void look_up(const Access& x, Index count, Scalar time, Scalar margin) {
+        ++lookups_;
+        near_.build(bodies_, mass_, x, count, margin, longest_ / 2, drift_, time);
+    }
+    double potential(Scalar depth, Scalar cap, Scalar mass) const {
+        if (!(depth > 0)) return 0;
+        const double k = static_cast<double>(penalty_.by_mass) * static_cast<double>(mass);
+        const auto p = static_cast<double>(depth), most = static_cast<double>(cap);
+        return p <= most ? k * p * p / 2 : k * most * (p - most / 2);
+    }
+
+    const System* system_;
+    std::uint64_t revision_ = 0;    // of what longest_ belongs to, and one
+    Scalar longest_ = 0;            // step of energy_limit, s
+    Scalar margin_ = Scalar(0.01);  // m
+    Scalar frame_ = 0, begun_ = 0;  // s
+    contact_detail::Penalty<Scalar> penalty_{};
+    Vector drift_ = Vector::Zero();
+    bool fresh_ = false;
+    std::vector<std::unique_ptr<contact_detail::Body<Scalar, Dim>>> bodies_;
+    contact_detail::NearList<Scalar, Dim> near_;
+    contact_detail::ParticleSolve<Scalar, Dim> solve_;
+    Buffer<Scalar> mass_;  // by place, kg; 0 if pinned
+    Buffer<double> work_;  // by place, J
+    Buffer<Scalar> old_;   // planes, m
+    contact_detail::Tally<Scalar, Dim> tally_;
+    Index lookups_ = 0;
+};
+
+/// Takes `count` steps of h, s, one frame for the bodies.
+template <class System, class AnyState>
+Report step_through(EnergyStableEuler<System>& stepper, AnyState& state, typename System::Scalar h,
+                    Index count, Contacts<System>& contacts) {
+    using Scalar = typename System::Scalar;
+    contacts.begin(h * static_cast<Scalar>(count), h, static_cast<Scalar>(state.time));
+    const struct Watching {
+        EnergyStableEuler<System>& stepper;
+        ~Watching() { stepper.watch(nullptr); }
+    } watching{stepper};
+    stepper.watch(&contacts);
+    const Report report = stepper.step(state, h, count);
+    if (report) contacts.finish();
+    return report;
+}
+
+}  // namespace taut

@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "body.hpp"
+#include "shared.hpp"
+
+namespace taut::contact_detail {
+
+/// Which particles are near which bodies, and for how long that holds: a list is of those within a
+/// margin, and every other one knows how far it was from the nearest body that does not list it.
+template <class Scalar, int Dim>
+class NearList {
+public:
+    using Vector = Eigen::Matrix<Scalar, Dim, 1>;
+    using Bodies = std::vector<std::unique_ptr<Body<Scalar, Dim>>>;
+    using Pair = SharedPair<Scalar, Dim>;
+    using Access = PlaneAccess<Scalar, Dim>;
+
+    std::vector<Pair>& shared() { return shared_; }
+    const std::vector<Pair>& shared() const { return shared_; }
+    void clear() { built_ = false; }
+    bool built() const { return built_; }
+
+    /// Lists what is near bodies at motion.next.
+    /// @param mass       by place, 0 if pinned   @param x  positions
+    /// @param push_time  s, p₁ of what begins inside over the speed at which it is to be pushed out
+    /// @param drift      m/s, of what counts as at rest   @param time  s
+    void build(const Bodies& bodies, const Buffer<Scalar>& mass, const Access& x, Index count,
+               Scalar margin, Scalar push_time, const Vector& drift, Scalar time) {
+        const Index padded = count + step_detail::max_width;
+        const Scalar infinity = std::numeric_limits<Scalar>::infinity();
+        std::vector<Known> known;
+        known.swap(known_);
+        remember(bodies, known);
+        slack_.assign(padded, infinity);
+        depth_.resize(padded);
+        near_.assign(count, 0);
+        found_.resize(bodies.size());
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+            found_[b].clear();
+            bodies[b]->depths(x, count, bodies[b]->motion.next, depth_.data());
+            for (Index i = 0; i < count; i += Register::width) {
+                const Register away = -Register::load(depth_.data() + i);
+                const Register listed = Register(margin);
+                const Register slack = Register::load(slack_.data() + i);
+                const Register room = where_less(away, listed, Register(infinity), away);
+                where_less(room, slack, room, slack).store(slack_.data() + i);
+                if (!(largest_lane(-away) > -margin)) continue;
+                const Index end = (std::min)(count, i + Register::width);
+                for (Index k = i; k < end; ++k) {
+                    if (!(-depth_[k] < margin) || !(mass[k] > 0)) continue;
+                    found_[b].push_back(static_cast<int>(k));
+                    ++near_[k];
+                }
+            }
+        }
+        shared_.clear();
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+            Body<Scalar, Dim>& body = *bodies[b];
+            Index solos = 0;
+            for (const int place : found_[b]) solos += near_[place] == 1;
+            body.solo.resize(solos);
+            Index next = 0;
+            for (const int place : found_[b]) {
+                Pair pair{place, static_cast<int>(b), x.vector(place), {}, 0, infinity};
+                pair.depth = body.depth(pair.x, body.motion.next, pair.normal);
+                if (pair.depth > 0 && !was_outside(known, pair)) {
+                    pair.cap = push_time * static_cast<Scalar>(body.options.push_out);
+                }
+                if (near_[place] > 1) {
+                    shared_.push_back(pair);
+                    continue;
+                }
+                set(body.solo, next++, pair, mass[place]);
+            }
+            for (Index k = next; next > 0 && k < next + step_detail::max_width; ++k) {
+                copy(body.solo, next - 1, k);
+            }
+        }
+        std::stable_sort(shared_.begin(), shared_.end(),
+                         [](const Pair& a, const Pair& b) { return a.place < b.place; });
+        for (int d = 0; d < Dim; ++d) {
+            x_[d].resize(padded);
+            for (Index i = 0; i < count; i += Register::width) x.row(d, i).store(x_[d].data() + i);
+        }
+        built_ = true;
+        drift_ = drift;
+        time_ = time;
+        at_.clear();
+        for (const auto& body : bodies) at_.push_back(body->motion.next);
+    }
+
+    /// Whether no particle can have met a body that does not list it, at places x and motion.next.
+    bool holds(const Bodies& bodies, const Access& x, Index count, Scalar time) const {
+        if (!built_) return false;
+        const auto [moved, gone] = moves(bodies, time);
+        const Register zero(Scalar(0)), by(moved);
+        Register worst(-std::numeric_limits<Scalar>::infinity());
+        for (Index i = 0; i < count; i += Register::width) {
+            Register way2 = zero;
+            for (int d = 0; d < Dim; ++d) {
+                const Register way =
+                    x.row(d, i) - Register::load(x_[d].data() + i) - Register(gone[d]);
+                way2 += way * way;
+            }
+            const Register room = larger(Register::load(slack_.data() + i) - by, zero);
+            worst = larger(worst, way2 - room * room);
+        }
+        return largest_lane(worst) < 0;
+    }
+    /// The same of one particle, by place.
+    bool holds_of(const Bodies& bodies, const Access& x, int place, Scalar time) const {
+        const auto [moved, gone] = moves(bodies, time);
+        Scalar way2 = 0;
+        for (int d = 0; d < Dim; ++d) {
+            const Scalar way = x(d, place) - x_[d][place] - gone[d];
+            way2 += way * way;
+        }
+        const Scalar room = (std::max)(slack_[place] - moved, Scalar(0));
+        return way2 < room * room;
+    }
+
+private:
+    using Register = step_detail::VectorRegister<Scalar>;
+
+    /// How far a body's points have gone at most, beside the drift, and that, m.
+    std::pair<Scalar, Vector> moves(const Bodies& bodies, Scalar time) const {
+        Scalar moved = 0;
+        const Vector gone = (time - time_) * drift_;
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+            const Pose<Scalar, Dim>& pose = bodies[b]->motion.next;
+            const Scalar turned = (pose.rotation - at_[b].rotation).norm();
+            Scalar most = (pose.position - at_[b].position - gone).norm();
+            if (turned > 0) most += turned * bodies[b]->extent();
+            moved = (std::max)(moved, most);
+        }
+        return {(std::min)(moved, (std::numeric_limits<Scalar>::max)()), gone};
+    }
+    /// A pair that touches and did not begin inside.
+    struct Known {
+        int place, body;
+        bool operator<(const Known& other) const {
+            return place != other.place ? place < other.place : body < other.body;
+        }
+    };
+
+    void remember(const Bodies& bodies, std::vector<Known>& known) const {
+        known.clear();
+        if (!built_) return;
+        const auto add = [&](int place, std::size_t body, Scalar depth, Scalar cap) {
+            if (depth > 0 && !detail::is_finite(cap))
+                known.push_back({place, static_cast<int>(body)});
+        };
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+            const auto& solo = bodies[b]->solo;
+            for (Index k = 0; k < solo.count; ++k)
+                add(solo.place[k], b, solo.depth[k], solo.cap[k]);
+        }
+        for (const Pair& pair : shared_)
+            add(pair.place, static_cast<std::size_t>(pair.body), pair.depth, pair.cap);
+        std::sort(known.begin(), known.end());
+    }
+    static bool was_outside(const std::vector<Known>& known, const Pair& pair) {
+        return std::binary_search(known.begin(), known.end(), Known{pair.place, pair.body});
+    }
+    static void set(SoloPairs<Scalar, Dim>& solo, Index k, const Pair& pair, Scalar mass) {
+        solo.place[k] = pair.place;
+        solo.depth[k] = pair.depth;
+        solo.cap[k] = pair.cap;
+        solo.mass[k] = mass;
+        for (int d = 0; d < Dim; ++d) {
+            solo.x[d][k] = pair.x[d];
+            solo.normal[d][k] = pair.normal[d];
+        }
+    }
+    static void copy(SoloPairs<Scalar, Dim>& solo, Index from, Index to) {
+        solo.place[to] = solo.place[from];
+        for (auto* of : {&solo.depth, &solo.cap, &solo.mass}) (*of)[to] = (*of)[from];
+        for (int d = 0; d < Dim; ++d) {
+            solo.x[d][to] = solo.x[d][from];
+            solo.normal[d][to] = solo.normal[d][from];
+        }
+    }
+
+    std::vector<Pair> shared_;  // by place
+    std::vector<Known> known_;
+    std::vector<Buffer<int>> found_;  // of each body
+    Buffer<Scalar> slack_;            // of each place, m
+    Buffer<Scalar> depth_;
+    Buffer<int> near_;                    // bodies that list it
+    detail::Few<Buffer<Scalar>, Dim> x_;  // where they were, m
+    std::vector<Pose<Scalar, Dim>> at_;
+    Vector drift_ = Vector::Zero();
+    Scalar time_ = 0;
+    bool built_ = false;
+};
+
+}  // namespace taut::contact_detail
