@@ -44,24 +44,10 @@ public:
         bodies_[static_cast<std::size_t>(body)]->end = pose;
     }
 
-    /// Σ h ū·f of the last frame, J.
-    double work() const {
-        double sum = 0;
-        for (Index i = 0; i < system_->size(); ++i) sum += work_[i];
-        return sum;
-    }
-    /// What touching pairs hold, J.
-    double energy() const {
-        double sum = 0;
-        for (const auto& body : bodies_) {
-            const auto& solo = body->solo;
-            for (Index k = 0; k < solo.count; ++k)
-                sum += potential(solo.depth[k], solo.cap[k], solo.mass[k]);
-        }
-        for (const auto& pair : near_.shared())
-            sum += potential(pair.depth, pair.cap, mass_[pair.place]);
-        return sum;
-    }
+    /// What the bodies did on the particles in the last frame, Σ h ū·f, J.
+    double work() const { return sum(settled_.work); }
+    /// What touching pairs hold at its end, J.
+    double energy() const { return sum(settled_.energy); }
     /// Particles and bodies that touch, at the end of the last step.
     Index touching() const { return tally_.touching; }
     /// m.
@@ -88,8 +74,33 @@ public:
                       (frame * static_cast<Scalar>(bodies_.size()));
         }
     }
-    /// The frame is over.
-    void finish() {
+    /// What a try of a frame came to.
+    struct Outcome {
+        Buffer<double> work, energy;  // of each particle, J
+        std::vector<contact_detail::KnownPair> known;
+    };
+    /// Of the last try.
+    void end(Outcome& outcome) const {
+        outcome.work.assign(system_->size(), 0);
+        outcome.energy.assign(system_->size(), 0);
+        for (Index place = 0; place < system_->size(); ++place)
+            outcome.work[particle_[place]] = work_[place];
+        near_.remember(bodies_, outcome.known);
+        for (const auto& body : bodies_) {
+            const auto& solo = body->solo;
+            for (Index k = 0; k < solo.count; ++k) {
+                outcome.energy[particle_[solo.place[k]]] +=
+                    potential(solo.depth[k], solo.cap[k], solo.mass[k]);
+            }
+        }
+        for (const auto& pair : near_.shared()) {
+            outcome.energy[particle_[pair.place]] +=
+                potential(pair.depth, pair.cap, mass_[pair.place]);
+        }
+    }
+    /// The frame is over, as that try had it.
+    void settle(const Outcome& outcome) {
+        settled_ = outcome;
         for (const auto& body : bodies_) body->begin = body->end;
     }
 
@@ -100,10 +111,13 @@ public:
                 const step_detail::StateMemory<Scalar>& memory, Scalar time) override {
         if (!std::exchange(fresh_, false)) return;
         mass_.assign(layout.size() + step_detail::max_width, 0);
+        particle_.resize(layout.size());
         for (Index i = 0; i < layout.size(); ++i) {
+            particle_[places[i]] = static_cast<int>(i);
             if (!system_->is_pinned(i)) mass_[places[i]] = system_->mass(i);
         }
         const Access x(layout, memory.planes().x);
+        known_ = settled_.known;
         look_up(x, layout.size(), time, margin_);
     }
     bool passed(const step_detail::Layout<Scalar>& layout, const Buffer<int>&,
@@ -145,6 +159,7 @@ private:
         old_.resize(size);
         for (Index i = 0; i < size; ++i)
             old_[i] = planes.x.first[i] - penalty_.h * planes.v.first[i];
+        near_.remember(bodies_, known_);
         for (const auto& body : bodies_) std::swap(body->motion.now, body->motion.next);
         look_up(Access(layout, {old_.data(), planes.x.stride}), layout.size(), time - penalty_.h,
                 margin);
@@ -196,7 +211,12 @@ private:
     }
     void look_up(const Access& x, Index count, Scalar time, Scalar margin) {
         ++lookups_;
-        near_.build(bodies_, mass_, x, count, margin, longest_ / 2, drift_, time);
+        near_.build(bodies_, known_, mass_, x, count, margin, longest_ / 2, drift_, time);
+    }
+    static double sum(const Buffer<double>& of) {
+        double sum = 0;
+        for (const double each : of) sum += each;
+        return sum;
     }
     double potential(Scalar depth, Scalar cap, Scalar mass) const {
         if (!(depth > 0)) return 0;
@@ -216,9 +236,12 @@ private:
     std::vector<std::unique_ptr<contact_detail::Body<Scalar, Dim>>> bodies_;
     contact_detail::NearList<Scalar, Dim> near_;
     contact_detail::ParticleSolve<Scalar, Dim> solve_;
-    Buffer<Scalar> mass_;  // by place, kg; 0 if pinned
-    Buffer<double> work_;  // by place, J
-    Buffer<Scalar> old_;   // planes, m
+    Buffer<Scalar> mass_;   // by place, kg; 0 if pinned
+    Buffer<double> work_;   // by place, J
+    Buffer<int> particle_;  // at each place
+    std::vector<contact_detail::KnownPair> known_;
+    Outcome settled_;
+    Buffer<Scalar> old_;  // planes, m
     contact_detail::Tally<Scalar, Dim> tally_;
     Index lookups_ = 0;
 };
@@ -235,7 +258,10 @@ Report step_through(EnergyStableEuler<System>& stepper, AnyState& state, typenam
     } watching{stepper};
     stepper.watch(&contacts);
     const Report report = stepper.step(state, h, count);
-    if (report) contacts.finish();
+    if (!report) return report;
+    typename Contacts<System>::Outcome outcome;
+    contacts.end(outcome);
+    contacts.settle(outcome);
     return report;
 }
 

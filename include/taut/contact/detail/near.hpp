@@ -13,6 +13,15 @@
 
 namespace taut::contact_detail {
 
+/// A pair that touches and did not begin inside, or did so and has been out since.
+struct KnownPair {
+    int place, body;
+
+    bool operator<(const KnownPair& other) const {
+        return place != other.place ? place < other.place : body < other.body;
+    }
+};
+
 /// Which particles are near which bodies, and for how long that holds: a list is of those within a
 /// margin, and every other one knows how far it was from the nearest body that does not list it.
 template <class Scalar, int Dim>
@@ -28,17 +37,33 @@ public:
     void clear() { built_ = false; }
     bool built() const { return built_; }
 
+    /// The pairs that touch and need not be pushed out gently, in order.
+    void remember(const Bodies& bodies, std::vector<KnownPair>& known) const {
+        known.clear();
+        if (!built_) return;
+        const auto add = [&](int place, std::size_t body, Scalar depth, Scalar cap) {
+            if (depth > 0 && !detail::is_finite(cap))
+                known.push_back({place, static_cast<int>(body)});
+        };
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+            const auto& solo = bodies[b]->solo;
+            for (Index k = 0; k < solo.count; ++k)
+                add(solo.place[k], b, solo.depth[k], solo.cap[k]);
+        }
+        for (const Pair& pair : shared_)
+            add(pair.place, static_cast<std::size_t>(pair.body), pair.depth, pair.cap);
+        std::sort(known.begin(), known.end());
+    }
     /// Lists what is near bodies at motion.next.
+    /// @param known      of what touches there
     /// @param mass       by place, 0 if pinned   @param x  positions
     /// @param push_time  s, p₁ of what begins inside over the speed at which it is to be pushed out
     /// @param drift      m/s, of what counts as at rest   @param time  s
-    void build(const Bodies& bodies, const Buffer<Scalar>& mass, const Access& x, Index count,
-               Scalar margin, Scalar push_time, const Vector& drift, Scalar time) {
+    void build(const Bodies& bodies, const std::vector<KnownPair>& known,
+               const Buffer<Scalar>& mass, const Access& x, Index count, Scalar margin,
+               Scalar push_time, const Vector& drift, Scalar time) {
         const Index padded = count + step_detail::max_width;
         const Scalar infinity = std::numeric_limits<Scalar>::infinity();
-        std::vector<Known> known;
-        known.swap(known_);
-        remember(bodies, known);
         slack_.assign(padded, infinity);
         depth_.resize(padded);
         near_.assign(count, 0);
@@ -143,32 +168,8 @@ private:
         }
         return {(std::min)(moved, (std::numeric_limits<Scalar>::max)()), gone};
     }
-    /// A pair that touches and did not begin inside.
-    struct Known {
-        int place, body;
-        bool operator<(const Known& other) const {
-            return place != other.place ? place < other.place : body < other.body;
-        }
-    };
-
-    void remember(const Bodies& bodies, std::vector<Known>& known) const {
-        known.clear();
-        if (!built_) return;
-        const auto add = [&](int place, std::size_t body, Scalar depth, Scalar cap) {
-            if (depth > 0 && !detail::is_finite(cap))
-                known.push_back({place, static_cast<int>(body)});
-        };
-        for (std::size_t b = 0; b < bodies.size(); ++b) {
-            const auto& solo = bodies[b]->solo;
-            for (Index k = 0; k < solo.count; ++k)
-                add(solo.place[k], b, solo.depth[k], solo.cap[k]);
-        }
-        for (const Pair& pair : shared_)
-            add(pair.place, static_cast<std::size_t>(pair.body), pair.depth, pair.cap);
-        std::sort(known.begin(), known.end());
-    }
-    static bool was_outside(const std::vector<Known>& known, const Pair& pair) {
-        return std::binary_search(known.begin(), known.end(), Known{pair.place, pair.body});
+    static bool was_outside(const std::vector<KnownPair>& known, const Pair& pair) {
+        return std::binary_search(known.begin(), known.end(), KnownPair{pair.place, pair.body});
     }
     static void set(SoloPairs<Scalar, Dim>& solo, Index k, const Pair& pair, Scalar mass) {
         solo.place[k] = pair.place;
@@ -189,8 +190,7 @@ private:
         }
     }
 
-    std::vector<Pair> shared_;  // by place
-    std::vector<Known> known_;
+    std::vector<Pair> shared_;        // by place
     std::vector<Buffer<int>> found_;  // of each body
     Buffer<Scalar> slack_;            // of each place, m
     Buffer<Scalar> depth_;
