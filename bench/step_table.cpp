@@ -269,9 +269,9 @@ int main(int argc, char** argv) try {
         meshes.push_back(mesh_of(bench::file_name(argv[i]), example::read_obj(argv[i])));
     }
     std::printf(
-        "Processor time, least of many turns (median). hanging_cloth N has N × N particles; the "
-        "sleeve is\nirregular, its vertices are numbered at random. In double unless said. Ratio: "
-        "the right time over the left.\n\n"
+        "Processor time, least of many turns (median); ratio: the right time over the left. "
+        "hanging_cloth N has\nN × N particles; the sleeve is irregular, its vertices are numbered "
+        "at random. In double unless said.\n\n"
         "## A symplectic step beside the plain loop over springs, ms\n\n"
         "| scene | plain loop | Taut | ratio |\n|---|---|---|---|\n");
     for (const Index n : {32, 64, 100, 200, 400}) {
