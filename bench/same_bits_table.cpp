@@ -15,7 +15,7 @@ template <class Scalar>
 void row(int side, const char* scalar) {
     const auto plain = bench::plain_steps<Scalar>(side);
     const auto same_bits = bench::same_bits_steps<Scalar>(side);
-    const int count = static_cast<int>(4e6 / plain->springs());
+    const int count = static_cast<int>(4e7 / plain->springs());
     bench::Turns builds(1e-6 * count * plain->springs());
     builds.run(
         11, [&] { plain->take(count); }, [&] { same_bits->take(count); });
