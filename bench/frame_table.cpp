@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <taut/between/between.hpp>
 #include <taut/guard/guard.hpp>
 #include <taut/network/buckling.hpp>
 #include <taut/network/tension_only.hpp>
@@ -20,6 +21,7 @@
 #include <utility>
 #include <vector>
 
+#include "capes.hpp"
 #include "measure.hpp"
 #include "outcome.hpp"
 
@@ -60,17 +62,24 @@ void step_row(const char* law, Index side, const System& cloth) {
     const auto alone = [&] {
         for (Index i = 0; i < steps; ++i) ok &= bool(stepper.step(state, h));
     };
+    const auto between = [&] {
+        Index calls = 0;
+        ok &= bool(taut::step_between(stepper, state, h, steps, [&](auto&) { ++calls; }));
+        ok &= calls == steps;
+    };
     bench::Turns ways(updates(cloth));
-    ways.run(turns, together, alone);
+    ways.run(turns, together, alone, between);
     if (!ok) std::abort();
-    std::printf("| %d × %d, %s | %s |\n", int(side), int(side), law, ways.cells().c_str());
+    std::printf("| %d × %d, %s | %s | %s |\n", int(side), int(side), law, ways.cells().c_str(),
+                ways.cells_beside(2).c_str());
 }
 
 void step_table() {
     std::printf(
-        "## Steps of SymplecticEuler: step(state, h) by itself beside step(state, h, n)\n\n"
+        "## Steps of SymplecticEuler: n together; step(state, h) one at a time; step_between\n\n"
         "ns a spring and step.\n\n"
-        "| cloth, law | n steps together | one at a time | ratio |\n|---|---|---|---|\n");
+        "| cloth, law | n steps together | one at a time | ratio | with a call between | ratio |\n"
+        "|---|---|---|---|---|---|\n");
     for (const Index side : {16, 32, 64, 100}) {
         const auto cloth = square(side);
         step_row("Hookean", side, cloth);
@@ -189,63 +198,16 @@ void frame_table() {
     }
 }
 
-using Cape = taut::SpringSystem<float, 3, taut::TensionOnly, taut::Hookean>;
-
-/// 0.6 m × 0.9 m, 0.4 kg, by its upper corners, particles 0 and 15.
-Cape cape() {
-    constexpr int rows = 20, columns = 16;
-    Cape cape;
-    for (int r = 0; r < rows; ++r) {
-        for (int c = 0; c < columns; ++c) {
-            cape.add_particle({0.6f * float(c) / (columns - 1), 0, -0.9f * float(r) / (rows - 1)},
-                              0.4f / (rows * columns));
-        }
-    }
-    const auto join = [&](int r, int c, int down, int across) {
-        const int s = r + down, d = c + across;
-        if (s >= rows || d < 0 || d >= columns) return;
-        const Index a = r * columns + c, b = s * columns + d;
-        if (down == 2 || across == 2) {
-            cape.add_spring<taut::Hookean>(a, b, {5.0f}, 0.0f);
-        } else {
-            cape.add_spring<taut::TensionOnly>(a, b, {500.0f}, 0.0f);
-        }
-    };
-    for (int r = 0; r < rows; ++r) {
-        for (int c = 0; c < columns; ++c) {
-            for (const auto& [down, across] :
-                 {std::pair{0, 1}, {1, 0}, {1, 1}, {1, -1}, {0, 2}, {2, 0}}) {
-                join(r, c, down, across);
-            }
-        }
-    }
-    cape.pin(0);
-    cape.pin(columns - 1);
-    cape.set_gravity({0, 0, -9.81f});
-    return cape;
-}
-
-struct Wearer {
-    Cape cape = ::cape();
-    Cape::State state = cape.initial_state();
-    taut::Guarded<taut::VelocityVerlet<Cape>> guard{cape};
-};
-
 void capes() {
-    std::vector<std::unique_ptr<Wearer>> crowd;
-    for (int i = 0; i < 30; ++i) crowd.push_back(std::make_unique<Wearer>());
+    std::vector<std::unique_ptr<bench::Wearer>> crowd;
+    for (int i = 0; i < 30; ++i) crowd.push_back(std::make_unique<bench::Wearer>());
     bench::Stopwatch frames(bench::thread_time);
     Index substeps = 0, trimmed = 0, again = 0;
     constexpr int count = 120;
     for (int f = 0; f < count; ++f) {
         frames.run([&] {
             for (std::size_t i = 0; i < crowd.size(); ++i) {
-                auto& [cape, state, guard] = *crowd[i];
-                const float speed = 1.5f * std::cos(6.28f * float(f) / 60 + float(i));
-                for (const Index corner : {0, 15}) {
-                    state.v.col(corner) = Eigen::Vector3f(speed, 0.3f * speed, 0);
-                }
-                const auto report = guard.advance(state, frame);
+                const auto report = crowd[i]->advance(f, float(i));
                 if (!report) std::abort();
                 substeps = report.substeps;
                 trimmed += report.trimmed;
