@@ -64,6 +64,10 @@ void row(const char* name, const Cloth& cloth, bool shaken) {
 int main(int argc, char** argv) {
     taut::ClothOptions options;
     options.rows = options.columns = argc > 1 ? std::atoi(argv[1]) : 64;
+    if (argc > 2 || options.rows < 2) {
+        std::fprintf(stderr, "guard_costs [SIZE], particles along an edge, at least 2\n");
+        return 2;
+    }
     auto cloth = taut::hanging_cloth<double>(options);
     const auto strings = taut::with_law<taut::TensionOnly>(cloth);
     std::printf(

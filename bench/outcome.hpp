@@ -15,14 +15,16 @@ namespace bench {
 using Net = taut::SpringSystem<double, 3>;
 
 /// Largest l/L.
-inline double largest_stretch(const Net& net, const Net::State& state) {
+template <class Scalar>
+double largest_stretch(const taut::SpringSystem<Scalar, 3>& net,
+                       const taut::State<Scalar, 3>& state) {
     const auto& springs = net.springs();
-    double stretch = 0;
+    Scalar stretch = 0;
     for (std::size_t s = 0; s < springs.a.size(); ++s) {
-        const double l = (state.x.col(springs.b[s]) - state.x.col(springs.a[s])).norm();
+        const Scalar l = (state.x.col(springs.b[s]) - state.x.col(springs.a[s])).norm();
         stretch = std::max(stretch, l / springs.rest_length[s]);
     }
-    return stretch;
+    return static_cast<double>(stretch);
 }
 
 /// What becomes of a scene, judged by Taut's own energies whoever moves it.

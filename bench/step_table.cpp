@@ -3,8 +3,7 @@
 
 // What a symplectic step costs beside the plain loop over springs and Boost.odeint, and what
 // becomes of the scene, beside XPBD. Prints Markdown; a mesh in OBJ form may be named on the
-// command line. Times are of one thread's processor, ratios of runs side by side: the minimum and
-// the median.
+// command line.
 
 #include <algorithm>
 #include <cmath>
@@ -23,6 +22,7 @@
 #include "odeint.hpp"
 #include "outcome.hpp"
 #include "plain_loop.hpp"
+#include "sleeve.hpp"
 #include "xpbd.hpp"
 
 namespace {
@@ -31,120 +31,97 @@ using taut::Index;
 template <class Scalar>
 using Net = taut::SpringSystem<Scalar, 3>;
 
-struct Comparison {
-    clockid_t clock = bench::thread_time;
-    std::vector<double> ours, theirs, ratio;  // ms a step, sorted
+constexpr int steps = 100;  // of a turn
 
-    template <class Ours, class Theirs>
-    void run(int runs, int count, Ours&& our_steps, Theirs&& their_steps) {
-        our_steps(count);
-        their_steps(count);
-        for (int i = 0; i < runs; ++i) {
-            const double start = bench::now(clock);
-            their_steps(count);
-            const double middle = bench::now(clock);
-            our_steps(count);
-            const double end = bench::now(clock);
-            theirs.push_back((middle - start) / count);
-            ours.push_back((end - middle) / count);
-            ratio.push_back((end - middle) / (middle - start));
-        }
-        for (auto* times : {&ours, &theirs, &ratio}) std::sort(times->begin(), times->end());
-    }
-    void print(const char* label) const {
-        std::printf("| %s | %.4f | %.4f (%.4f) | %.2f (%.2f) |\n", label, theirs.front(),
-                    ours.front(), ours[ours.size() / 2], ours.front() / theirs.front(),
-                    ratio[ratio.size() / 2]);
-        std::fflush(stdout);
-    }
-};
+void print(const std::string& label, const bench::Turns& turns) {
+    std::printf("| %s | %s |\n", label.c_str(), turns.cells().c_str());
+    std::fflush(stdout);
+}
 
 template <class Scalar>
-void compare(const char* label, const Net<Scalar>& net, int runs, int count) {
+void compare(const std::string& label, const Net<Scalar>& net, int turns) {
     const Scalar h = Scalar(0.9) * taut::any_pose_limit(net).certified;
     bench::PlainLoop<Scalar> plain(net);
     taut::SymplecticEuler<Net<Scalar>> stepper(net);
     auto state = net.initial_state();
-    Comparison comparison;
-    comparison.run(
-        runs, count,
-        [&](int steps) {
-            if (!stepper.step(state, h, steps)) std::printf("%s: diverged\n", label);
-        },
-        [&](int steps) {
+    bench::Turns both(steps);
+    both.run(
+        turns,
+        [&] {
             for (int i = 0; i < steps; ++i) plain.step(h);
+        },
+        [&] {
+            if (!stepper.step(state, h, steps)) std::printf("%s: diverged\n", label.c_str());
         });
-    comparison.print(label);
+    print(label, both);
 }
 
 /// Another step of h beside the plain symplectic one.
 template <class Scalar, class Stepper>
-void compare_steppers(const std::string& label, const Net<Scalar>& net, Scalar h, Stepper stepper,
-                      int runs, int count) {
+void compare_steppers(const std::string& label, const Net<Scalar>& net, Scalar h, Stepper stepper) {
     taut::SymplecticEuler plain(net);
     auto state = net.initial_state();
     auto state_of_plain = state;
-    Comparison comparison;
-    comparison.run(
-        runs, count, [&](int steps) { std::ignore = stepper.step(state, h, steps); },
-        [&](int steps) { std::ignore = plain.step(state_of_plain, h, steps); });
-    comparison.print(label.c_str());
+    bench::Turns both(steps);
+    both.run(
+        21, [&] { std::ignore = plain.step(state_of_plain, h, steps); },
+        [&] { std::ignore = stepper.step(state, h, steps); });
+    print(label, both);
 }
 
 /// A damped step beside the undamped one: α = 0.4 h on K⁺.
 template <class Scalar>
-void compare_damping(const std::string& label, const Net<Scalar>& net, int runs, int count) {
+void compare_damping(const std::string& label, const Net<Scalar>& net) {
     const Scalar h = Scalar(0.5) * taut::any_pose_limit(net).certified;
     auto rayleigh = net;
     rayleigh.set_rayleigh({0, 0.4 * static_cast<double>(h)});
-    compare_steppers(label, net, h, taut::SymplecticEuler<Net<Scalar>>(rayleigh), runs, count);
+    compare_steppers(label, net, h, taut::SymplecticEuler<Net<Scalar>>(rayleigh));
 }
 
 /// What else is asked of a step, beside the step without.
-void compare_kinds(const std::string& label, const Net<double>& net,
-                   std::vector<taut::Triangle> triangles, int runs, int count) {
-    const double h = 0.5 * taut::any_pose_limit(net).certified;
-    compare_steppers(label + ", velocity Verlet", net, h, taut::VelocityVerlet(net), runs, count);
+template <class Scalar>
+void compare_kinds(const std::string& label, const Net<Scalar>& net,
+                   std::vector<taut::Triangle> triangles) {
+    const Scalar h = Scalar(0.5) * taut::any_pose_limit(net).certified;
+    compare_steppers(label + ", velocity Verlet", net, h, taut::VelocityVerlet(net));
     const auto with = [&](const char* force, const auto& set) {
         auto copy = net;
         set(copy);
-        compare_steppers(label + ", " + force, net, h, taut::SymplecticEuler(copy), runs, count);
+        compare_steppers(label + ", " + force, net, h, taut::SymplecticEuler(copy));
     };
-    taut::Wind<double> wind;
+    taut::Wind<Scalar> wind;
     wind.velocity = {1, 2, 3};
     wind.triangles = std::move(triangles);
     with("wind on every triangle", [&](auto& copy) { taut::set_wind(copy, wind); });
     with("a force of the whole state", [](auto& copy) {
-        copy.set_external_force([](const auto& state, auto& f) { f -= 1e-6 * state.v; });
+        copy.set_external_force([](const auto& state, auto& f) { f -= Scalar(1e-6) * state.v; });
     });
 }
 
 /// Two threads beside one.
-void compare_threads(const char* label, const Net<double>& net, int runs, int count) {
+void compare_threads(const std::string& label, const Net<double>& net, int turns) {
     const double h = 0.9 * taut::any_pose_limit(net).certified;
     taut::SymplecticEuler<Net<double>> one(net);
     taut::SymplecticEuler<Net<double>> two(net, {2});
     auto state_of_one = net.initial_state();
     auto state_of_two = state_of_one;
-    Comparison comparison;
-    comparison.clock = bench::wall;
-    comparison.run(
-        runs, count, [&](int steps) { std::ignore = two.step(state_of_two, h, steps); },
-        [&](int steps) { std::ignore = one.step(state_of_one, h, steps); });
-    comparison.print(label);
+    bench::Turns both(steps, bench::wall);
+    both.run(
+        turns, [&] { std::ignore = one.step(state_of_one, h, steps); },
+        [&] { std::ignore = two.step(state_of_two, h, steps); });
+    print(label, both);
     if (state_of_one.x != state_of_two.x) std::printf("the bits differ\n");
 }
 
-void compare_odeint(const char* label, const Net<double>& net, int runs, int count) {
+void compare_odeint(const std::string& label, const Net<double>& net) {
     const double h = 0.9 * taut::any_pose_limit(net).certified;
     bench::OdeintSymplectic peer(net);
     taut::SymplecticEuler stepper(net);
     auto state = net.initial_state();
-    Comparison comparison;
-    comparison.run(
-        runs, count, [&](int steps) { std::ignore = stepper.step(state, h, steps); },
-        [&](int steps) { peer.step(h, steps); });
-    comparison.print(label);
+    bench::Turns both(steps);
+    both.run(
+        7, [&] { peer.step(h, steps); }, [&] { std::ignore = stepper.step(state, h, steps); });
+    print(label, both);
 }
 
 /// A lattice of n³ particles in the shape of a cube, its springs to the 13 nearest, nothing pinned.
@@ -265,9 +242,23 @@ void memory() {
 
 struct Mesh {
     std::string name;
-    taut::MeshSprings<double> springs;
-    taut::SpringSystem<float, 3> in_float;
+    taut::MeshSprings<double> in_double;
+    taut::MeshSprings<float> in_float;
 };
+
+Mesh mesh_of(std::string name, const example::MeshFile& file) {
+    return {std::move(name), bench::mesh_in<double>(file), bench::mesh_in<float>(file)};
+}
+
+void plain_rows(const Mesh& mesh) {
+    compare<double>(mesh.name, mesh.in_double.system, 21);
+    compare<float>(mesh.name + ", float", mesh.in_float.system, 21);
+}
+
+void kinds_rows(const Mesh& mesh) {
+    compare_kinds<double>(mesh.name, mesh.in_double.system, mesh.in_double.triangles);
+    compare_kinds<float>(mesh.name + ", float", mesh.in_float.system, mesh.in_float.triangles);
+}
 
 }  // namespace
 
@@ -275,48 +266,50 @@ struct Mesh {
 int main(int argc, char** argv) try {
     std::vector<Mesh> meshes;
     for (int i = 1; i < argc; ++i) {
-        const auto file = example::read_obj(argv[i]);
-        meshes.push_back({bench::file_name(argv[i]), bench::mesh_in<double>(file),
-                          bench::mesh_in<float>(file).system});
+        meshes.push_back(mesh_of(bench::file_name(argv[i]), example::read_obj(argv[i])));
     }
     std::printf(
-        "## A symplectic step, ms\n\n"
-        "| scene | plain loop | Taut: min (median) | ratio: of minima (median) |\n"
-        "|---|---|---|---|\n");
+        "Processor time, least of many turns (median); ratio: the right time over the left. "
+        "hanging_cloth N has\nN × N particles; the sleeve is irregular, its vertices are numbered "
+        "at random. In double unless said.\n\n"
+        "## A symplectic step beside the plain loop over springs, ms\n\n"
+        "| scene | plain loop | Taut | ratio |\n|---|---|---|---|\n");
     for (const Index n : {32, 64, 100, 200, 400}) {
-        const int count = 100;
-        const int runs = n < 200 ? 21 : 7;
-        char label[64];
-        std::snprintf(label, sizeof label, "hanging_cloth %d", static_cast<int>(n));
-        compare<double>(label, taut::hanging_cloth<double>({n, n}), runs, count);
-        std::snprintf(label, sizeof label, "hanging_cloth %d, float", static_cast<int>(n));
-        compare<float>(label, taut::hanging_cloth<float>({n, n}), runs, count);
+        const int turns = n < 200 ? 21 : 7;
+        const auto label = "hanging_cloth " + std::to_string(n);
+        compare<double>(label, taut::hanging_cloth<double>({n, n}), turns);
+        compare<float>(label + ", float", taut::hanging_cloth<float>({n, n}), turns);
     }
     const auto free_lattice = lattice(30);
-    compare<double>("free lattice 30³", free_lattice, 7, 100);
-    for (const Mesh& mesh : meshes) {
-        compare<double>(mesh.name.c_str(), mesh.springs.system, 21, 100);
-        compare<float>((mesh.name + ", float").c_str(), mesh.in_float, 21, 100);
-    }
-    const auto cloth = taut::hanging_cloth<double>({100, 100});
-    std::printf("\n| scene | undamped | α = 0.4 h: min (median) | ratio |\n|---|---|---|---|\n");
-    compare_damping<double>("hanging_cloth 100", cloth, 21, 100);
-    compare_damping<float>("hanging_cloth 100, float", taut::hanging_cloth<float>({100, 100}), 21,
-                           100);
-    for (const Mesh& mesh : meshes)
-        compare_damping<double>(mesh.name.c_str(), mesh.springs.system, 21, 100);
-    std::printf("\n| scene, step | symplectic | this: min (median) | ratio |\n|---|---|---|---|\n");
-    compare_kinds("hanging_cloth 100", cloth, taut::cloth_triangles({100, 100}), 21, 100);
-    for (const Mesh& mesh : meshes)
-        compare_kinds(mesh.name.c_str(), mesh.springs.system, mesh.springs.triangles, 21, 100);
-    std::printf("\n| scene | Boost.odeint | Taut: min (median) | ratio |\n|---|---|---|---|\n");
-    compare_odeint("hanging_cloth 100", cloth, 7, 100);
+    compare<double>("free lattice 30³", free_lattice, 7);
+    plain_rows(mesh_of("sleeve of 500 vertices", bench::sleeve()));
+    for (const Mesh& mesh : meshes) plain_rows(mesh);
+    const Mesh cloth{
+        "hanging_cloth 100",
+        {taut::hanging_cloth<double>({100, 100}), {}, 0, 0, 0, taut::cloth_triangles({100, 100})},
+        {taut::hanging_cloth<float>({100, 100}), {}, 0, 0, 0, taut::cloth_triangles({100, 100})}};
+    std::printf(
+        "\n## A damped symplectic step beside the undamped, ms\n\n"
+        "| scene | undamped | α = 0.4 h | ratio |\n|---|---|---|---|\n");
+    compare_damping<double>(cloth.name, cloth.in_double.system);
+    compare_damping<float>(cloth.name + ", float", cloth.in_float.system);
+    for (const Mesh& mesh : meshes) compare_damping<double>(mesh.name, mesh.in_double.system);
+    std::printf(
+        "\n## What else is asked of a step, beside the symplectic step without, ms\n\n"
+        "| scene, what is asked | without | with | ratio |\n|---|---|---|---|\n");
+    kinds_rows(cloth);
+    for (const Mesh& mesh : meshes) kinds_rows(mesh);
+    std::printf(
+        "\n## A symplectic step beside Boost.odeint's, ms\n\n"
+        "| scene | Boost.odeint | Taut | ratio |\n|---|---|---|---|\n");
+    compare_odeint(cloth.name, cloth.in_double.system);
 #ifdef _OPENMP
-    std::printf("\n| scene | one thread | two: min (median) | ratio |\n|---|---|---|---|\n");
-    compare_threads("hanging_cloth 100", cloth, 11, 100);
-    compare_threads("hanging_cloth 400", taut::hanging_cloth<double>({400, 400}), 7, 100);
-    for (const Mesh& mesh : meshes)
-        compare_threads(mesh.name.c_str(), mesh.springs.system, 11, 100);
+    std::printf(
+        "\n## A symplectic step on two threads beside one, ms by the clock on the wall\n\n"
+        "| scene | one thread | two | ratio |\n|---|---|---|---|\n");
+    compare_threads(cloth.name, cloth.in_double.system, 11);
+    compare_threads("hanging_cloth 400", taut::hanging_cloth<double>({400, 400}), 7);
+    for (const Mesh& mesh : meshes) compare_threads(mesh.name, mesh.in_double.system, 11);
 #endif
     std::printf(
         "\n## One second in frames of 1/60 s at the any-pose limit\n\n"
@@ -327,7 +320,7 @@ int main(int argc, char** argv) try {
         outcome("hanging_cloth " + std::to_string(n), taut::hanging_cloth<double>({n, n}));
     }
     outcome("free lattice 30³", free_lattice);
-    for (const Mesh& mesh : meshes) outcome(mesh.name, mesh.springs.system);
+    for (const Mesh& mesh : meshes) outcome(mesh.name, mesh.in_double.system);
     memory();
 } catch (const std::exception& error) {
     std::fprintf(stderr, "step_table: %s\n", error.what());
