@@ -55,13 +55,19 @@ public:
     /// How often what is near was looked up anew.
     Index lookups() const { return lookups_; }
 
-    /// For steppers: a frame of s, in steps of h, from `time`, all in s.
+    /// For steppers, before all else of a frame: looks whether the system was edited.
+    void renew() {
+        if (revision_ == system_->revision() + 1) return;
+        revision_ = system_->revision() + 1;
+        longest_ = energy_limit(*system_).certified;
+        penalty_.by_mass = 100 / (longest_ * longest_);
+        near_.clear();
+        settled_.known.clear();
+        settled_x_.resize(Dim, 0);
+    }
+    /// A frame of s, in steps of h, from `time`, all in s.
     void begin(Scalar frame, Scalar h, Scalar time) {
-        if (revision_ != system_->revision() + 1) {
-            revision_ = system_->revision() + 1;
-            longest_ = energy_limit(*system_).certified;
-            near_.clear();
-        }
+        renew();
         frame_ = frame;
         penalty_ = {h, 100 / (longest_ * longest_), 0};
         begun_ = time;
@@ -74,13 +80,9 @@ public:
                       (frame * static_cast<Scalar>(bodies_.size()));
         }
     }
-    /// What a try of a frame came to.
-    struct Outcome {
-        Buffer<double> work, energy;  // of each particle, J
-        std::vector<contact_detail::KnownPair> known;
-    };
-    /// Of the last try.
-    void end(Outcome& outcome) const {
+    /// What the last try of a frame came to: keeps it, as try 0 or 1.
+    void end(int which) {
+        Outcome& outcome = tries_[which];
         outcome.work.assign(system_->size(), 0);
         outcome.energy.assign(system_->size(), 0);
         for (Index place = 0; place < system_->size(); ++place)
@@ -98,10 +100,52 @@ public:
                 potential(pair.depth, pair.cap, mass_[pair.place]);
         }
     }
-    /// The frame is over, as that try had it.
-    void settle(const Outcome& outcome) {
-        settled_ = outcome;
+    /// The work on each particle in a try, J.
+    const Buffer<double>& work_of(int which) const { return tries_[which].work; }
+    /// What touching pairs of each particle hold at its end, J.
+    const Buffer<double>& energy_of(int which) const { return tries_[which].energy; }
+    /// Takes for each particle the try of that number.
+    /// @param which  which(i), 0 or 1   @returns what touching pairs of each particle hold, J
+    template <class Which>
+    const Buffer<double>& choose(const Which& which) {
+        settled_.work.resize(system_->size());
+        settled_.energy.resize(system_->size());
+        for (Index i = 0; i < system_->size(); ++i) {
+            const Outcome& outcome = tries_[which(i)];
+            settled_.work[i] = outcome.work[i];
+            settled_.energy[i] = outcome.energy[i];
+        }
+        next_known_.clear();
+        for (int each = 0; each < 2; ++each) {
+            for (const auto& pair : tries_[each].known) {
+                if (which(particle_[pair.place]) == each) next_known_.push_back(pair);
+            }
+        }
+        std::sort(next_known_.begin(), next_known_.end());
+        return settled_.energy;
+    }
+    /// The frame is over, and left this state.
+    void settle(const taut::State<Scalar, Dim>& state) {
+        settled_.known = next_known_;
+        settled_x_ = state.x;
         for (const auto& body : bodies_) body->begin = body->end;
+    }
+    /// What touching pairs of each particle hold at a state, where bodies are now, J.
+    const Buffer<double>& energy_at(const taut::State<Scalar, Dim>& state) {
+        if (settled_x_.cols() == state.x.cols() && settled_x_ == state.x) return settled_.energy;
+        settled_.energy.assign(system_->size(), 0);
+        for (Index i = 0; i < system_->size(); ++i) {
+            if (system_->is_pinned(i)) continue;
+            for (const auto& body : bodies_) {
+                Vector normal;
+                const Scalar depth = body->depth(state.x.col(i), body->begin, normal);
+                const Scalar cap = longest_ / 2 * static_cast<Scalar>(body->options.push_out);
+                settled_.energy[i] += potential(depth, cap, system_->mass(i));
+            }
+        }
+        settled_.known.clear();
+        settled_x_ = state.x;
+        return settled_.energy;
     }
 
     void see(const step_detail::PlaceVectors<Scalar, Dim>&,
@@ -147,6 +191,43 @@ public:
         }
         for (const auto& touched : tally_.touched) work_[touched.place] += touched.work;
         return true;
+    }
+
+    void kicked(const step_detail::Layout<Scalar>& layout,
+                step_detail::StateMemory<Scalar>& memory) override {
+        const Access v(layout, memory.planes().v);
+        const auto stop = [&](int place, const contact_detail::Body<Scalar, Dim>& body,
+                              const Vector& x, const Vector& normal) {
+            const auto& motion = body.motion;  // which ends here
+            const Vector u = (x - motion.now(motion.next.inside(x))) / penalty_.h;
+            const Vector before = v.vector(place), w = before - u;
+            const Scalar into = -normal.dot(w);
+            if (!(into > 0)) return;
+            const Vector along = w + into * normal;
+            const Scalar sliding = along.norm();
+            const auto friction = static_cast<Scalar>(body.options.friction);
+            const Scalar keep =
+                sliding > friction * into ? 1 - friction * into / sliding : Scalar(0);
+            const Vector after = u + (friction > 0 ? Vector(keep * along) : along);
+            v.set(place, after);
+            work_[place] += static_cast<double>(mass_[place] * u.dot(after - before));
+        };
+        for (const auto& body : bodies_) {
+            const auto& solo = body->solo;
+            for (Index k = 0; k < solo.count; ++k) {
+                if (!(solo.depth[k] > 0)) continue;
+                Vector x, normal;
+                for (int d = 0; d < Dim; ++d) {
+                    x[d] = solo.x[d][k];
+                    normal[d] = solo.normal[d][k];
+                }
+                stop(solo.place[k], *body, x, normal);
+            }
+        }
+        for (const auto& pair : near_.shared()) {
+            if (!(pair.depth > 0)) continue;
+            stop(pair.place, *bodies_[static_cast<std::size_t>(pair.body)], pair.x, pair.normal);
+        }
     }
 
 private:
@@ -240,8 +321,15 @@ private:
     Buffer<double> work_;   // by place, J
     Buffer<int> particle_;  // at each place
     std::vector<contact_detail::KnownPair> known_;
+    std::vector<contact_detail::KnownPair> next_known_;
+    struct Outcome {
+        Buffer<double> work, energy;  // of each particle, J
+        std::vector<contact_detail::KnownPair> known;
+    };
+    detail::Few<Outcome, 2> tries_;
     Outcome settled_;
-    Buffer<Scalar> old_;  // planes, m
+    Points<Scalar, Dim> settled_x_;  // m
+    Buffer<Scalar> old_;             // planes, m
     contact_detail::Tally<Scalar, Dim> tally_;
     Index lookups_ = 0;
 };
@@ -259,9 +347,9 @@ Report step_through(EnergyStableEuler<System>& stepper, AnyState& state, typenam
     stepper.watch(&contacts);
     const Report report = stepper.step(state, h, count);
     if (!report) return report;
-    typename Contacts<System>::Outcome outcome;
-    contacts.end(outcome);
-    contacts.settle(outcome);
+    contacts.end(0);
+    contacts.choose([](Index) { return 0; });
+    contacts.settle(state);
     return report;
 }
 

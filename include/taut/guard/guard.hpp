@@ -182,6 +182,13 @@ private:
     }
     void measure(const State& state, std::vector<guard_detail::Energy>& energies) {
         meter_.measure(*system_, state, parts_, shortest_, energies);
+        if (!held_) return;
+        for (Index i = 0; i < system_->size(); ++i) {
+            if (parts_.of(i) < 0) continue;
+            auto& energy = energies[static_cast<std::size_t>(parts_.of(i))];
+            energy.total += (*held_)[i];
+            energy.terms += (*held_)[i];
+        }
     }
 
     const System* system_;
@@ -197,6 +204,7 @@ private:
     State start_, again_, touched_;                     // of the frame; taken again; responses
     std::vector<guard_detail::Energy> begin_, end_;     // of each part, like all that follows
     std::vector<guard_detail::Energy> before_, after_;  // a response
+    const Buffer<double>* held_ = nullptr;              // by contacts, of each particle, J
     const char* blamed_ = nullptr;                      // what the user gave that was not finite
     bool too_stiff_ = false;      // whether a code force asked for shorter steps
     Index where_ = -1;            // and of which particle

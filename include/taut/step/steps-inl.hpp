@@ -44,8 +44,8 @@ Index Steps<Scalar, Dim>::first_not_finite(const Layout<Scalar>& layout) const {
 }
 
 template <class Scalar, int Dim>
-bool Steps<Scalar, Dim>::steps(const Forces& forces, Scalar h, Index count, int threads,
-                               Move move) {
+bool Steps<Scalar, Dim>::steps(const Forces& forces, Scalar h, Index count, int threads, Move move,
+                               bool kick_alone) {
     const bool asks = outside_.asks_for_state();
     if (asks && !state_.finite()) return false;  // a finite double may be infinite as a float
     for (Index done = 0; done < count;) {
@@ -58,9 +58,7 @@ bool Steps<Scalar, Dim>::steps(const Forces& forces, Scalar h, Index count, int 
         const bool check = asks || done == count || done % steps_between_checks == 0;
         if (check && !state_.finite()) return false;
         outside_.pass(h);
-        if (watch_ && !watch_->passed(forces.layout(), places_, state_, outside_.time(), ahead_)) {
-            return false;
-        }
+        if (!kick_alone && !passed(forces.layout())) return false;
     }
     return true;
 }

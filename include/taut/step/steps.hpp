@@ -57,12 +57,15 @@ public:
     /// Before a step.
     virtual void before(const Layout<Scalar>&, const Buffer<int>& /*places*/,
                         const StateMemory<Scalar>&, Scalar /*time*/) {}
-    /// After a step, not of velocity Verlet: may change the planes.
+    /// After a step, in velocity Verlet after its drift: may change the planes.
     /// @param places  as of PlaceVectors   @param time, ahead  s   @returns whether to go on
     virtual bool passed(const Layout<Scalar>&, const Buffer<int>& /*places*/, StateMemory<Scalar>&,
                         Scalar /*time*/, Scalar /*ahead*/) {
         return true;
     }
+
+    /// After the last half kick of velocity Verlet: may change velocities.
+    virtual void kicked(const Layout<Scalar>&, StateMemory<Scalar>&) {}
 
 protected:
     ~StepWatch() = default;
@@ -139,8 +142,12 @@ private:
         watch_->see({layout, places_, state_.planes().x}, {layout, places_, state_.planes().v},
                     outside_.time(), state, force);
     }
+    bool passed(const Layout<Scalar>& layout) {
+        return !watch_ || watch_->passed(layout, places_, state_, outside_.time(), ahead_);
+    }
     /// @returns whether all is finite
-    bool steps(const Forces& forces, Scalar h, Index count, int threads, Move move);
+    bool steps(const Forces& forces, Scalar h, Index count, int threads, Move move,
+               bool kick_alone = false);
     void some_steps(const Forces& forces, Scalar h, Index count, int threads, Move move);
     void step_block(const Forces& forces, const StatePlanes<Scalar>& planes, int block, Scalar h,
                     Scalar* scratch, Move move) const;
@@ -209,6 +216,7 @@ bool Steps<Scalar, Dim>::run_verlet(const Forces& forces, AnyState& state, Scala
             state_.for_each_register([&](Index i) { kicked(i, -last_h_ / 2).store(v + i); });
             show(forces.layout(), nullptr, nullptr);
             std::copy_n(end_v_.data(), state_.whole(), v);
+            watch_->before(forces.layout(), places_, state_, outside_.time());
         }
         state_.for_each_register([&](Index i) {
             const Register half = kicked(i, h / 2);
@@ -216,17 +224,19 @@ bool Steps<Scalar, Dim>::run_verlet(const Forces& forces, AnyState& state, Scala
             (Register::load(x + i) + Register(h) * half).store(x + i);
         });
         outside_.pass(h);
-        if (!state_.finite()) return false;
+        if (!state_.finite() || !passed(forces.layout())) return false;
     } else if (!steps(forces, h, 1, threads, &Update::template move<VerletUpdate<1, false>>)) {
         return false;
     }
     if (!steps(forces, h, count - 1, threads, &Update::template move<VerletUpdate<2, false>>)) {
         return false;
     }
-    if (!steps(forces, h, 1, threads, &Update::template move<VerletUpdate<1, true>>)) return false;
+    const auto last = &Update::template move<VerletUpdate<1, true>>;
+    if (!steps(forces, h, 1, threads, last, true)) return false;
     acceleration_.resize(static_cast<std::size_t>(state_.whole()));
     std::copy_n(state_.planes().x.first, state_.whole(), acceleration_.data());
     state_.swap_positions();
+    if (watch_) watch_->kicked(forces.layout(), state_);
     store(forces.layout(), h, count, state);
     last_h_ = h;
     return true;

@@ -79,14 +79,35 @@ template <class Stepper, class System>
 template <class By, class Take, class Respond>
 bool Guarded<Stepper, System>::run(State& state, Frame frame, Kind kind, By& by, Take&& take,
                                    Respond& respond) {
-    constexpr bool responds = !std::is_same_v<std::decay_t<Respond>, guard_detail::NoResponse>;
+    constexpr bool touches = guard_detail::is_contacts_v<Respond>;
+    constexpr bool responds =
+        !touches && !std::is_same_v<std::decay_t<Respond>, guard_detail::NoResponse>;
     constexpr bool held = detail::is_detected_v<guard_detail::constraint_forces_of, Stepper>;
     constexpr bool shows = detail::is_detected_v<guard_detail::watch_of, By>;
     const bool seen = work_.start(*system_, state, parts_, frame.h, kind);
     const bool stepwise = responds || held || (seen && !shows);
     const Index at_once = stepwise ? 1 : frame.steps;
     if (stepwise && !shows) work_.see(state);
-    const guard_detail::Watching watching(by, seen ? &work_ : nullptr);
+    static_assert(!touches || (shows && !held),
+                  "taut::Guarded: contacts need a trial by VelocityVerlet, SymplecticEuler or "
+                  "EnergyStableEuler");
+    const auto watch = [&] {
+        if constexpr (touches) {
+            respond.begin(frame.h * static_cast<Scalar>(frame.steps), frame.h, state.time);
+            return guard_detail::BooksAndContacts(seen ? &work_ : nullptr, respond);
+        } else {
+            return &work_;
+        }
+    };
+    auto watched = watch();
+    const auto pointer = [&] {
+        if constexpr (touches) {
+            return &watched;
+        } else {
+            return seen ? watched : nullptr;
+        }
+    };
+    const guard_detail::Watching watching(by, pointer());
     for (Index done = 0; done < frame.steps; done += at_once) {
         if (shows && stepwise && done > 0) work_.repeat();  // where a call of its own begins
         if (!take(state, frame.h, at_once)) return false;
@@ -117,6 +138,12 @@ bool Guarded<Stepper, System>::run(State& state, Frame frame, Kind kind, By& by,
         }
     }
     work_.add_swing(state);
+    if constexpr (touches) {
+        const int which = static_cast<const void*>(&by) == static_cast<const void*>(&proved_);
+        respond.end(which);
+        work_.add_each(respond.work_of(which));
+        held_ = &respond.energy_of(which);
+    }
     return stepwise || !seen || work_.seen() == frame.steps + 1;
 }
 
@@ -223,6 +250,11 @@ bool Guarded<Stepper, System>::take_again(State& state, Scalar span, bool tried,
             if (taken_of(i, tried) != Taken::again) continue;
             state.x.col(i) = again_.x.col(i);
             state.v.col(i) = again_.v.col(i);
+        }
+        if constexpr (guard_detail::is_contacts_v<Respond>) {
+            held_ = &respond.choose([&](Index i) {
+                return taken_of(i, tried) == Taken::again || taken_of(i, tried) == Taken::frozen;
+            });
         }
         measure(state, end_);
         bool stiff = false;
@@ -351,6 +383,11 @@ auto Guarded<Stepper, System>::advance(State& state, Scalar frame, Respond&& res
     -> GuardedReport<Scalar> {
     GuardedReport<Scalar> report;
     renew();
+    held_ = nullptr;
+    if constexpr (guard_detail::is_contacts_v<Respond>) {
+        respond.renew();
+        if (detail::fits(state, system_->size())) held_ = &respond.energy_at(state);
+    }
     const Scalar longest = trial_step();
     report.status = open(state, frame, longest, report);
     if (!report) return report;
@@ -379,6 +416,9 @@ auto Guarded<Stepper, System>::advance(State& state, Scalar frame, Respond&& res
     } undo{*this, state};
     const bool tried = !parts_.all_skip() && try_frame(state, trial, respond);
     judge(state, tried);
+    if constexpr (guard_detail::is_contacts_v<Respond>) {
+        if (tried) held_ = &respond.choose([](Index) { return 0; });
+    }
     if (!tried) state = start_;
     if ((!tried || any(Taken::again)) && !take_again(state, span, tried, report, respond)) {
         report.status = Status::diverged;
@@ -389,6 +429,7 @@ auto Guarded<Stepper, System>::advance(State& state, Scalar frame, Respond&& res
         }
         return report;
     }
+    if constexpr (guard_detail::is_contacts_v<Respond>) respond.settle(state);
     state.time = start_.time + span;
     report.advanced = span;
     close(state, report);
