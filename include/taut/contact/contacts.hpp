@@ -49,9 +49,9 @@ public:
     /// What touching pairs hold at its end, J.
     double energy() const { return sum(settled_.energy); }
     /// Particles and bodies that touch, at the end of the last step.
-    Index touching() const { return tally_.touching; }
+    Index touching() const { return touching_.count; }
     /// m.
-    Scalar deepest() const { return tally_.deepest; }
+    Scalar deepest() const { return touching_.deepest; }
     /// How often what is near was looked up anew.
     Index lookups() const { return lookups_; }
 
@@ -183,13 +183,16 @@ public:
                 if (!known) continue;
             }
             touch(moving);
-            known = true;
-            for (const auto& touched : tally_.touched)
-                known = known && near_.holds_of(bodies_, moving.x, touched.place, time);
-            if (known) break;
+            if (pushed_in_reach(moving.x, time)) break;
             undo(moving);
+            known = false;
         }
-        for (const auto& touched : tally_.touched) work_[touched.place] += touched.work;
+        for (const auto& body : bodies_) {
+            const auto& hits = body->hits;
+            for (Index k = 0; k < hits.count; ++k)
+                work_[hits.place[k]] += static_cast<double>(hits.work[k]);
+        }
+        for (const auto& touched : touched_) work_[touched.place] += touched.work;
         return true;
     }
 
@@ -232,6 +235,13 @@ public:
 
 private:
     using Access = contact_detail::PlaneAccess<Scalar, Dim>;
+    /// A particle of shared pairs that was touched: what it was without, and what that did.
+    struct Touched {
+        int place;
+        Vector x, v;  // m, m/s
+        double work;  // J
+        std::pair<std::size_t, std::size_t> pairs;
+    };
 
     /// Lists what is near where the step began.
     void look_back(const step_detail::Layout<Scalar>& layout,
@@ -246,48 +256,77 @@ private:
                 margin);
         for (const auto& body : bodies_) std::swap(body->motion.now, body->motion.next);
     }
+    /// Whether those that were touched have met no body that does not list them.
+    bool pushed_in_reach(const Access& x, Scalar time) const {
+        const auto leeway = near_.leeway(bodies_, time);
+        for (const auto& body : bodies_) {
+            for (Index k = 0; k < body->hits.count; ++k) {
+                if (!near_.holds(leeway, x, body->hits.place[k])) return false;
+            }
+        }
+        for (const auto& touched : touched_) {
+            if (!near_.holds(leeway, x, touched.place)) return false;
+        }
+        return true;
+    }
     /// Contact of all pairs in a step.
     void touch(const contact_detail::Moving<Scalar, Dim>& moving) {
-        tally_.clear();
-        for (const auto& body : bodies_) body->step(body->solo, penalty_, moving, tally_);
+        touching_ = {};
+        touched_.clear();
+        old_pairs_.clear();
+        for (const auto& body : bodies_) body->step(penalty_, moving, touching_);
         auto& shared = near_.shared();
         for (std::size_t first = 0, end; first < shared.size(); first = end) {
             const int place = shared[first].place;
             for (end = first; end < shared.size() && shared[end].place == place;) ++end;
-            Vector x = moving.x.vector(place), v = moving.v.vector(place);
-            const Vector old_x = x, old_v = v;
+            Touched touched{place, moving.x.vector(place), moving.v.vector(place), 0, {}};
+            Vector x = touched.x, v = touched.v;
             Scalar work = 0;
-            if (solve_(bodies_, &shared[first], end - first, penalty_, x, v, work)) {
+            const bool touches = solve_(bodies_, &shared[first], end - first, penalty_, x, v, work);
+            if (touches) {
                 moving.x.set(place, x);
                 moving.v.set(place, v);
                 if (penalty_.ahead > 0) moving.spring_x.set(place, x + penalty_.ahead * v);
-                tally_.touched.push_back(
-                    {place, old_x, old_v,
-                     static_cast<double>(work) * static_cast<double>(mass_[place])});
+                touched.work = static_cast<double>(work) * static_cast<double>(mass_[place]);
+                touched.pairs = {first, end};
+                for (std::size_t k = first; k < end; ++k) old_pairs_.push_back(shared[k]);
+                touched_.push_back(touched);
             }
             for (std::size_t k = first; k < end; ++k) {
                 auto& pair = shared[k];
                 const auto& body = *bodies_[static_cast<std::size_t>(pair.body)];
-                const Scalar old = pair.depth;
                 pair.x = x;
                 pair.depth = body.depth(x, body.motion.next, pair.normal);
-                if (old > 0 || pair.depth > 0)
-                    tally_.pairs.push_back({&pair.depth, &pair.cap, old, pair.cap});
                 if (!(pair.depth > 0)) pair.cap = std::numeric_limits<Scalar>::infinity();
-                tally_.see(pair.depth);
+                touching_.see(pair.depth);
             }
         }
     }
+    /// A step without contact again, its lists as they were.
     void undo(const contact_detail::Moving<Scalar, Dim>& moving) {
-        for (const auto& touched : tally_.touched) {
-            moving.x.set(touched.place, touched.x);
-            moving.v.set(touched.place, touched.v);
-            if (penalty_.ahead > 0)
-                moving.spring_x.set(touched.place, touched.x + penalty_.ahead * touched.v);
+        const auto set = [&](int place, const Vector& x, const Vector& v) {
+            moving.x.set(place, x);
+            moving.v.set(place, v);
+            if (penalty_.ahead > 0) moving.spring_x.set(place, x + penalty_.ahead * v);
+        };
+        for (const auto& body : bodies_) {
+            const auto& hits = body->hits;
+            for (Index k = 0; k < hits.count; ++k) {
+                Vector x, v;
+                for (int d = 0; d < Dim; ++d) {
+                    x[d] = hits.x[d][k];
+                    v[d] = hits.v[d][k];
+                }
+                set(hits.place[k], x, v);
+                body->solo.depth[hits.pair[k]] = hits.depth[k];
+                body->solo.cap[hits.pair[k]] = hits.cap[k];
+            }
         }
-        for (const auto& pair : tally_.pairs) {
-            *pair.depth = pair.old_depth;
-            *pair.cap = pair.old_cap;
+        auto old = old_pairs_.begin();
+        for (const auto& touched : touched_) {
+            set(touched.place, touched.x, touched.v);
+            for (std::size_t k = touched.pairs.first; k < touched.pairs.second; ++k)
+                near_.shared()[k] = *old++;
         }
     }
     void look_up(const Access& x, Index count, Scalar time, Scalar margin) {
@@ -330,7 +369,9 @@ private:
     Outcome settled_;
     Points<Scalar, Dim> settled_x_;  // m
     Buffer<Scalar> old_;             // planes, m
-    contact_detail::Tally<Scalar, Dim> tally_;
+    contact_detail::Touching<Scalar> touching_;
+    std::vector<Touched> touched_;  // of shared pairs
+    std::vector<contact_detail::SharedPair<Scalar, Dim>> old_pairs_;
     Index lookups_ = 0;
 };
 

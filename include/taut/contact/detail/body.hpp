@@ -44,37 +44,35 @@ struct SoloPairs {
     }
 };
 
-/// What a step's contacts sum up to, and what they were without it.
+/// Those solo pairs that touch at the start of a step or would at its end: what they were without
+/// contact, and what it did. Arrays padded by a register.
 template <class Scalar, int Dim>
-struct Tally {
-    using Vector = Eigen::Matrix<Scalar, Dim, 1>;
-    /// A particle that was touched.
-    struct Touched {
-        int place;
-        Vector x, v;  // without contact, m, m/s
-        double work;  // h ū·f, J
-    };
-    /// A pair that touches at either end: its depth and cap at the start.
-    struct Old {
-        Scalar* depth;
-        Scalar* cap;
-        Scalar old_depth, old_cap;
-    };
+struct Hits {
+    Index count = 0;
+    Buffer<int> pair, place;
+    Buffer<Scalar> depth, cap, mass, work;  // at the start, m; kg; Σ h ū·f of the step, J
+    detail::Few<Buffer<Scalar>, Dim> from, normal, x, v;
 
-    std::vector<Touched> touched;
-    std::vector<Old> pairs;
-    Index touching = 0;
-    Scalar deepest = 0;  // m
-
-    void clear() {
-        touched.clear();
-        pairs.clear();
-        touching = 0;
-        deepest = 0;
+    void clear(Index most) {
+        count = 0;
+        const Index padded = most + step_detail::max_width;
+        for (auto* of : {&pair, &place}) of->resize(padded);
+        for (auto* of : {&depth, &cap, &mass, &work}) of->resize(padded);
+        for (auto* of : {&from, &normal, &x, &v}) {
+            for (int d = 0; d < Dim; ++d) (*of)[d].resize(padded);
+        }
     }
+};
+
+/// How many pairs touch, and the deepest, m.
+template <class Scalar>
+struct Touching {
+    Index count = 0;
+    Scalar deepest = 0;
+
     void see(Scalar depth) {
         if (!(depth > 0)) return;
-        ++touching;
+        ++count;
         deepest = (std::max)(deepest, depth);
     }
 };
@@ -104,8 +102,8 @@ public:
     virtual void depths(const PlaneAccess<Scalar, Dim>& x, Index count, const Place& pose,
                         Scalar* depth) const = 0;
     /// A step of solo pairs: from what is at v, x without contact to what is with it.
-    virtual void step(SoloPairs<Scalar, Dim>& pairs, const Penalty<Scalar>& penalty,
-                      const Moving<Scalar, Dim>& moving, Tally<Scalar, Dim>& tally) const = 0;
+    virtual void step(const Penalty<Scalar>& penalty, const Moving<Scalar, Dim>& moving,
+                      Touching<Scalar>& touching) = 0;
 
     Scalar thickness() const { return static_cast<Scalar>(options.thickness); }
     /// p, m. @param normal  in the world
@@ -119,6 +117,7 @@ public:
     Place begin, end;  // of the frame
     Motion<Scalar, Dim> motion;
     SoloPairs<Scalar, Dim> solo;
+    Hits<Scalar, Dim> hits;
 };
 
 template <class Scalar, int Dim, class Obstacle>
@@ -141,25 +140,29 @@ public:
             query(at, pose, normal).store(depth + i);
         }
     }
-    void step(SoloPairs<Scalar, Dim>& pairs, const Penalty<Scalar>& penalty,
-              const Moving<Scalar, Dim>& moving, Tally<Scalar, Dim>& tally) const override {
-        const Register zero(Scalar(0));
+    void step(const Penalty<Scalar>& penalty, const Moving<Scalar, Dim>& moving,
+              Touching<Scalar>& touching) override {
+        SoloPairs<Scalar, Dim>& pairs = this->solo;
+        this->hits.clear(pairs.count);
         for (Index i = 0; i < pairs.count; i += Register::width) {
             const int* places = pairs.place.data() + i;
             Vectors x, normal;
             for (int d = 0; d < Dim; ++d) x[d] = moving.x.gather(d, places);
             const Register before = Register::load(pairs.depth.data() + i);
-            Register depth = query(x, this->motion.next, normal);
-            if (largest_lane(larger(before, depth)) > 0) {
-                const Index lanes = (std::min)(Index(Register::width), pairs.count - i);
-                resolve(pairs, i, lanes, penalty, moving, tally, before, x, depth, normal);
-            }
+            const Register depth = query(x, this->motion.next, normal);
+            const Register deepest = larger(before, depth);
+            if (largest_lane(deepest) > 0) keep(i, deepest);
             depth.store(pairs.depth.data() + i);
             for (int d = 0; d < Dim; ++d) {
                 x[d].store(pairs.x[d].data() + i);
                 normal[d].store(pairs.normal[d].data() + i);
             }
         }
+        Hits<Scalar, Dim>& hits = this->hits;
+        for (Index i = 0; hits.count > 0 && i < step_detail::max_width; ++i)
+            copy(hits.count - 1, hits.count + i);
+        for (Index i = 0; i < hits.count; i += Register::width)
+            resolve(i, penalty, moving, touching);
     }
 
 private:
@@ -175,36 +178,70 @@ private:
         normal = times(pose.rotation, normal);
         return Register(this->thickness()) - distance;
     }
-    /// Of pairs some of which touch: x, depth and normal after contact.
-    void resolve(SoloPairs<Scalar, Dim>& pairs, Index i, Index lanes,
-                 const Penalty<Scalar>& penalty, const Moving<Scalar, Dim>& moving,
-                 Tally<Scalar, Dim>& tally, const Register& before, Vectors& x, Register& depth,
-                 Vectors& normal) const {
+    /// Of a register of pairs those lanes that touch, as they were at the start.
+    void keep(Index i, const Register& deepest) {
+        const SoloPairs<Scalar, Dim>& pairs = this->solo;
+        Hits<Scalar, Dim>& hits = this->hits;
+        detail::Few<Scalar, Register::width> lanes;
+        deepest.store(lanes.data());
+        const Index end = (std::min)(Index(Register::width), pairs.count - i);
+        for (Index k = 0; k < end; ++k) {
+            if (!(lanes[static_cast<int>(k)] > 0)) continue;
+            const Index hit = hits.count++;
+            hits.pair[hit] = static_cast<int>(i + k);
+            hits.place[hit] = pairs.place[i + k];
+            hits.depth[hit] = pairs.depth[i + k];
+            hits.cap[hit] = pairs.cap[i + k];
+            hits.mass[hit] = pairs.mass[i + k];
+            for (int d = 0; d < Dim; ++d) {
+                hits.from[d][hit] = pairs.x[d][i + k];
+                hits.normal[d][hit] = pairs.normal[d][i + k];
+            }
+        }
+    }
+    void copy(Index from, Index to) {
+        Hits<Scalar, Dim>& hits = this->hits;
+        for (auto* of : {&hits.pair, &hits.place}) (*of)[to] = (*of)[from];
+        for (auto* of : {&hits.depth, &hits.cap, &hits.mass}) (*of)[to] = (*of)[from];
+        for (int d = 0; d < Dim; ++d) {
+            hits.from[d][to] = hits.from[d][from];
+            hits.normal[d][to] = hits.normal[d][from];
+        }
+    }
+    /// Contact of a register of hits.
+    void resolve(Index i, const Penalty<Scalar>& penalty, const Moving<Scalar, Dim>& moving,
+                 Touching<Scalar>& touching) {
+        Hits<Scalar, Dim>& hits = this->hits;
         const Register zero(Scalar(0)), one(Scalar(1)), h(penalty.h);
         const Motion<Scalar, Dim>& motion = this->motion;
-        const int* places = pairs.place.data() + i;
-        Vectors from, n, v, u, w;
+        const int* places = hits.place.data() + i;
+        const Register before = Register::load(hits.depth.data() + i);
+        Vectors from, n, x, v, u, w;
         for (int d = 0; d < Dim; ++d) {
-            from[d] = Register::load(pairs.x[d].data() + i);
-            n[d] = Register::load(pairs.normal[d].data() + i);
+            from[d] = Register::load(hits.from[d].data() + i);
+            n[d] = Register::load(hits.normal[d].data() + i);
+            x[d] = moving.x.gather(d, places);
             v[d] = moving.v.gather(d, places);
+            x[d].store(hits.x[d].data() + i);
+            v[d].store(hits.v[d].data() + i);
         }
+        Vectors normal;
+        Register depth = query(x, motion.next, normal);
         n = times(motion.turn, n);
         const Vectors carried = times(motion.turn, from);
         for (int d = 0; d < Dim; ++d) {
             u[d] = (carried[d] + Register(motion.shift[d]) - from[d]) * Register(1 / penalty.h);
             w[d] = v[d] - u[d];
         }
-        Register cap = Register::load(pairs.cap.data() + i);
+        Register cap = Register::load(hits.cap.data() + i);
         const Register deep = larger(before, zero);
         const Register push = Register(penalty.by_mass) * where_less(deep, cap, deep, cap);
         const Register into = dot(w, n);
         const Register out = (into + h * push) * Register(1 / (1 + penalty.block()));
         const Register impulse = out - into;  // hλ/m
         // A pair that would pull is left out if it goes no deeper so.
-        Register touches = where_less(zero, larger(before, depth), one, zero);
         const Register pulls = where_less(impulse, zero, where_less(zero, before, one, zero), zero);
-        touches = where_less(zero, pulls, where_less(before, depth, touches, zero), touches);
+        const Register touches = where_less(zero, pulls, where_less(before, depth, one, zero), one);
         Vectors along;
         for (int d = 0; d < Dim; ++d) along[d] = w[d] - into * n[d];
         const Register by_sliding = reciprocal_sqrt(
@@ -212,42 +249,52 @@ private:
         const Register keep =
             larger(zero, one - Register(static_cast<Scalar>(this->options.friction)) *
                                    larger(impulse, zero) * by_sliding);
-        Vectors to, after;
         Register work = zero;
-        const Register mass = Register::load(pairs.mass.data() + i);
+        const Register mass = Register::load(hits.mass.data() + i);
         for (int d = 0; d < Dim; ++d) {
-            after[d] = u[d] + out * n[d] + keep * along[d];
-            work += mass * u[d] * (after[d] - v[d]);
-            to[d] = where_less(zero, touches, from[d] + h * after[d], x[d]);
+            const Register after = u[d] + out * n[d] + keep * along[d];
+            work += mass * u[d] * (after - v[d]);
+            x[d] = where_less(zero, touches, from[d] + h * after, x[d]);
+            v[d] = where_less(zero, touches, after, v[d]);
         }
-        x = to;
+        where_less(zero, touches, work, zero).store(hits.work.data() + i);
         depth = query(x, motion.next, normal);
         cap = where_less(zero, depth, cap, Register(std::numeric_limits<Scalar>::infinity()));
-        detail::Few<Scalar, Register::width> touched, done, depths;
-        detail::Few<detail::Few<Scalar, Register::width>, Dim> new_x, new_v;
-        touches.store(touched.data());
-        work.store(done.data());
+        put_back(i, penalty, moving, touching, x, v, depth, cap, normal);
+    }
+    /// Into the pairs and the planes.
+    void put_back(Index i, const Penalty<Scalar>& penalty, const Moving<Scalar, Dim>& moving,
+                  Touching<Scalar>& touching, const Vectors& x, const Vectors& v,
+                  const Register& depth, const Register& cap, const Vectors& normal) {
+        SoloPairs<Scalar, Dim>& pairs = this->solo;
+        const Hits<Scalar, Dim>& hits = this->hits;
+        using Lanes = detail::Few<Scalar, Register::width>;
+        Lanes depths, caps;
+        detail::Few<Lanes, Dim> xs, vs, ys, normals;
         depth.store(depths.data());
+        cap.store(caps.data());
         for (int d = 0; d < Dim; ++d) {
-            x[d].store(new_x[d].data());
-            after[d].store(new_v[d].data());
+            x[d].store(xs[d].data());
+            v[d].store(vs[d].data());
+            (x[d] + Register(penalty.ahead) * v[d]).store(ys[d].data());
+            normal[d].store(normals[d].data());
         }
+        const auto lanes = static_cast<int>((std::min)(Index(Register::width), hits.count - i));
         for (int k = 0; k < lanes; ++k) {
-            Scalar& old = pairs.depth[i + k];
-            if (old > 0 || depths[k] > 0)
-                tally.pairs.push_back({&old, &pairs.cap[i + k], old, pairs.cap[i + k]});
-            tally.see(depths[k]);
-            if (!(touched[k] > 0)) continue;
-            tally.touched.push_back({places[k], moving.x.vector(places[k]),
-                                     moving.v.vector(places[k]), static_cast<double>(done[k])});
+            const int pair = hits.pair[i + k], place = hits.place[i + k];
+            touching.see(depths[k]);
+            pairs.depth[pair] = depths[k];
+            pairs.cap[pair] = caps[k];
             for (int d = 0; d < Dim; ++d) {
-                moving.x(d, places[k]) = new_x[d][k];
-                moving.v(d, places[k]) = new_v[d][k];
-                if (penalty.ahead > 0)
-                    moving.spring_x(d, places[k]) = new_x[d][k] + penalty.ahead * new_v[d][k];
+                pairs.x[d][pair] = xs[d][k];
+                pairs.normal[d][pair] = normals[d][k];
+                moving.x(d, place) = xs[d][k];
+                moving.v(d, place) = vs[d][k];
+            }
+            if (penalty.ahead > 0) {
+                for (int d = 0; d < Dim; ++d) moving.spring_x(d, place) = ys[d][k];
             }
         }
-        cap.store(pairs.cap.data() + i);
     }
 
     Obstacle shape_;

@@ -32,6 +32,8 @@ public:
     using Pair = SharedPair<Scalar, Dim>;
     using Access = PlaneAccess<Scalar, Dim>;
 
+    using Leeway = std::pair<Scalar, Vector>;
+
     std::vector<Pair>& shared() { return shared_; }
     const std::vector<Pair>& shared() const { return shared_; }
     void clear() { built_ = false; }
@@ -122,10 +124,23 @@ public:
         for (const auto& body : bodies) at_.push_back(body->motion.next);
     }
 
+    /// How far a body's points have gone at most, beside the drift, and that, m.
+    Leeway leeway(const Bodies& bodies, Scalar time) const {
+        Scalar moved = 0;
+        const Vector gone = (time - time_) * drift_;
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+            const Pose<Scalar, Dim>& pose = bodies[b]->motion.next;
+            const Scalar turned = (pose.rotation - at_[b].rotation).norm();
+            Scalar most = (pose.position - at_[b].position - gone).norm();
+            if (turned > 0) most += turned * bodies[b]->extent();
+            moved = (std::max)(moved, most);
+        }
+        return {(std::min)(moved, (std::numeric_limits<Scalar>::max)()), gone};
+    }
     /// Whether no particle can have met a body that does not list it, at places x and motion.next.
     bool holds(const Bodies& bodies, const Access& x, Index count, Scalar time) const {
         if (!built_) return false;
-        const auto [moved, gone] = moves(bodies, time);
+        const auto [moved, gone] = leeway(bodies, time);
         const Register zero(Scalar(0)), by(moved);
         Register worst(-std::numeric_limits<Scalar>::infinity());
         for (Index i = 0; i < count; i += Register::width) {
@@ -141,8 +156,8 @@ public:
         return largest_lane(worst) < 0;
     }
     /// The same of one particle, by place.
-    bool holds_of(const Bodies& bodies, const Access& x, int place, Scalar time) const {
-        const auto [moved, gone] = moves(bodies, time);
+    bool holds(const Leeway& leeway, const Access& x, int place) const {
+        const auto& [moved, gone] = leeway;
         Scalar way2 = 0;
         for (int d = 0; d < Dim; ++d) {
             const Scalar way = x(d, place) - x_[d][place] - gone[d];
@@ -155,19 +170,6 @@ public:
 private:
     using Register = step_detail::VectorRegister<Scalar>;
 
-    /// How far a body's points have gone at most, beside the drift, and that, m.
-    std::pair<Scalar, Vector> moves(const Bodies& bodies, Scalar time) const {
-        Scalar moved = 0;
-        const Vector gone = (time - time_) * drift_;
-        for (std::size_t b = 0; b < bodies.size(); ++b) {
-            const Pose<Scalar, Dim>& pose = bodies[b]->motion.next;
-            const Scalar turned = (pose.rotation - at_[b].rotation).norm();
-            Scalar most = (pose.position - at_[b].position - gone).norm();
-            if (turned > 0) most += turned * bodies[b]->extent();
-            moved = (std::max)(moved, most);
-        }
-        return {(std::min)(moved, (std::numeric_limits<Scalar>::max)()), gone};
-    }
     static bool was_outside(const std::vector<KnownPair>& known, const Pair& pair) {
         return std::binary_search(known.begin(), known.end(), KnownPair{pair.place, pair.body});
     }
