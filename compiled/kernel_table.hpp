@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+
+// What units of the library tell each other that are compiled for different processors. They share
+// no function and no type of Taut or Eigen: of an inline function compiled twice the linker keeps
+// one for all, and might keep the one that the processor cannot run. So a wide unit
+// (wide_kernels.cpp.in) has Taut and Eigen under names of its own. Here are pointers alone.
+
+namespace taut_kernels {
+
+inline constexpr int laws = 3;
+inline constexpr int updates = 6;
+
+/// The kernels of one set of instructions. Void is what has a name of its own in each unit, and the
+/// same members.
+template <class Scalar>
+struct Table {
+    /// LawPlan::add_forces<Both>.
+    using Add = void (*)(const void* plan, const void* view);
+    /// PlaceUpdate::move<Update>.
+    using Move = void (*)(const void* update, const void* layout, const void* tile, Scalar h);
+
+    Add add[laws][3][2];  // law, dimension − 1, Both; null where there is none
+    Move move[updates];
+    std::size_t size_of_plans[laws][3];
+    std::size_t size_of_update;
+};
+
+}  // namespace taut_kernels
