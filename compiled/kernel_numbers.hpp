@@ -24,5 +24,13 @@ template <class Update>
 inline constexpr int update_number = number_among<
     Update, integrator_detail::KickAndDrift, integrator_detail::DriftAndKick,
     VerletUpdate<1, false>, VerletUpdate<2, false>, VerletUpdate<1, true>, VerletUpdate<0, true>>();
+/// The sizes of what a kernel gets by a pointer to void.
+template <class Scalar>
+constexpr void set_sizes(taut_kernels::Table<Scalar>& table) {
+    table.sizes[0] = sizeof(LawPlan<Scalar, 3, Buckling>);
+    table.sizes[1] = sizeof(PlaceUpdate<Scalar>);
+    table.sizes[2] = sizeof(Layout<Scalar>);
+    table.sizes[3] = sizeof(StateMemory<Scalar>);
+}
 
 }  // namespace taut::step_detail

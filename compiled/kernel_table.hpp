@@ -23,10 +23,21 @@ struct Table {
     /// PlaceUpdate::move<Update>.
     using Move = void (*)(const void* update, const void* layout, const void* tile, Scalar h);
 
+    /// Layout::to_planes and Layout::from_planes.
+    using ToPlanes = void (*)(const void* layout, const Scalar* points, const void* planes);
+    using FromPlanes = void (*)(const void* layout, const void* planes, Scalar* points);
+    /// StateMemory::look_ahead.
+    using LookAhead = void (*)(void* memory, Scalar ahead);
+    /// detail::all_finite.
+    using Finite = bool (*)(const Scalar* numbers, std::ptrdiff_t count);
+
     Add add[laws][3][2];  // law, dimension − 1, Both; null where there is none
     Move move[updates];
-    std::size_t size_of_plans[laws][3];
-    std::size_t size_of_update;
+    ToPlanes to_planes[3];  // dimension − 1
+    FromPlanes from_planes[3];
+    LookAhead look_ahead;
+    Finite finite;
+    std::size_t sizes[4];  // of LawPlan, PlaceUpdate, Layout, StateMemory: the same in all units
 };
 
 }  // namespace taut_kernels

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstring>
+#include <iterator>
 #include <taut/kernels.hpp>
 
 // TAUT_KERNELS_AVX2 and TAUT_KERNELS_AVX512 say which wide units the library has. Those that its
@@ -39,35 +40,39 @@ struct Kernels {
     const taut_kernels::Table<double>* of_double;
 };
 
-constexpr Kernels own = {detail::kernels_of_flags(),
-                         VectorRegister<float>::width* static_cast<int>(sizeof(float)), nullptr,
-                         nullptr};
+/// Whether a wide unit has the classes that this one has.
+template <class Scalar>
+bool same_classes(const taut_kernels::Table<Scalar>* table) {
+    taut_kernels::Table<Scalar> here{};
+    set_sizes(here);
+    return std::equal(std::begin(here.sizes), std::end(here.sizes), table->sizes);
+}
+/// The kernels, if a name (null: any) is theirs, and unit and processor are as they should be.
+const Kernels* if_taken(const Kernels& kernels, const char* name, bool can) {
+    return can && (!name || std::strcmp(name, kernels.name) == 0) &&
+                   same_classes(kernels.of_float) && same_classes(kernels.of_double)
+               ? &kernels
+               : nullptr;
+}
 
-#if defined(TAUT_KERNELS_AVX2)
-constexpr Kernels avx2 = {"avx2", 32, &taut_avx2::step_detail::kernels_of_float,
-                          &taut_avx2::step_detail::kernels_of_double};
-#endif
-#if defined(TAUT_KERNELS_AVX512)
-constexpr Kernels avx512 = {"avx512", 64, &taut_avx512::step_detail::kernels_of_float,
-                            &taut_avx512::step_detail::kernels_of_double};
-#endif
-
-/// Those of a name, if the processor can; null, the widest.
+/// Those of a name, or for null the widest; null where there are none.
 const Kernels* find(const char* name) {
-    const auto is = [&](const Kernels& kernels) {
-        return !name || std::strcmp(name, kernels.name) == 0;
-    };
 #if defined(TAUT_KERNELS_AVX512)
-    if (is(avx512) && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-        __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
-        __builtin_cpu_supports("fma")) {
-        return &avx512;
-    }
+    static constexpr Kernels avx512 = {"avx512", 64, &taut_avx512::step_detail::kernels_of_float,
+                                       &taut_avx512::step_detail::kernels_of_double};
+    const bool has_512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+                         __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    if (const auto* found = if_taken(avx512, name, has_512)) return found;
 #endif
 #if defined(TAUT_KERNELS_AVX2)
-    if (is(avx2) && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return &avx2;
+    static constexpr Kernels avx2 = {"avx2", 32, &taut_avx2::step_detail::kernels_of_float,
+                                     &taut_avx2::step_detail::kernels_of_double};
+    const bool has_2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    if (const auto* found = if_taken(avx2, name, has_2)) return found;
 #endif
-    return is(own) ? &own : nullptr;
+    static constexpr Kernels own = {detail::kernels_of_flags(), 0, nullptr, nullptr};
+    return !name || std::strcmp(name, own.name) == 0 ? &own : nullptr;
 }
 
 /// What plans are made for, whatever is chosen later: all that can be chosen may run them.
@@ -92,16 +97,15 @@ template <>
 int planned_width<double>() {
     return (std::max)(VectorRegister<double>::width, widest().bytes / 8);
 }
-template <>
-const taut_kernels::Table<float>* chosen_kernels<float>() {
-    return current().of_float;
-}
-template <>
-const taut_kernels::Table<double>* chosen_kernels<double>() {
-    return current().of_double;
-}
 
 }  // namespace step_detail
+
+const taut_kernels::Table<float>* detail::chosen_kernels(float) {
+    return step_detail::current().of_float;
+}
+const taut_kernels::Table<double>* detail::chosen_kernels(double) {
+    return step_detail::current().of_double;
+}
 
 const char* kernels() { return step_detail::current().name; }
 

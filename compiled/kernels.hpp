@@ -4,38 +4,61 @@
 
 #include "kernel_numbers.hpp"
 
-// The kernels of this processor, for the library's own units: LawPlan::add_forces and
-// PlaceUpdate::move ask here first where TAUT_KERNELS is defined.
+// The kernels of this processor, for the library's own units: where TAUT_KERNELS is defined,
+// TAUT_BY_KERNEL asks here.
 
-namespace taut::step_detail {
+namespace taut::detail {
 
 /// The kernels to take; null: those of the library's own flags.
+const taut_kernels::Table<float>* chosen_kernels(float);
+const taut_kernels::Table<double>* chosen_kernels(double);
+
+/// Each function gives a kernel, or null for the library's own.
 template <class Scalar>
-const taut_kernels::Table<Scalar>* chosen_kernels();
-template <>
-const taut_kernels::Table<float>* chosen_kernels<float>();
-template <>
-const taut_kernels::Table<double>* chosen_kernels<double>();
+struct Kernels {
+    using Table = taut_kernels::Table<Scalar>;
 
-/// LawPlan::add_forces<Both> by these. @returns whether there is one
-template <class Scalar, int Dim, class Law, bool Both>
-bool add_by_kernel(const LawPlan<Scalar, Dim, Law>& plan, const TileView<Scalar>& view,
-                   std::bool_constant<Both>) {
-    static_assert(law_number<Law> >= 0);
-    const auto* table = chosen_kernels<Scalar>();
-    const auto add = table ? table->add[law_number<Law>][Dim - 1][Both] : nullptr;
-    if (add) add(&plan, &view);
-    return add;
-}
+    template <bool Both, int Dim, class Law>
+    static typename Table::Add add(const step_detail::LawPlan<Scalar, Dim, Law>&) {
+        constexpr int law = step_detail::law_number<Law>;
+        static_assert(law >= 0, "compiled/kernel_numbers.hpp does not know this law");
+        const Table* table = chosen_kernels(Scalar());
+        return table ? table->add[law][Dim - 1][Both] : nullptr;
+    }
+    template <class Update>
+    static typename Table::Move move(Update) {
+        constexpr int update = step_detail::update_number<Update>;
+        static_assert(update >= 0, "compiled/kernel_numbers.hpp does not know this update");
+        const Table* table = chosen_kernels(Scalar());
+        return table ? table->move[update] : nullptr;
+    }
+    template <int Dim>
+    static typename Table::ToPlanes to_planes(const Points<Scalar, Dim>&) {
+        const Table* table = chosen_kernels(Scalar());
+        return table ? table->to_planes[Dim - 1] : nullptr;
+    }
+    template <int Dim>
+    static typename Table::FromPlanes from_planes(const Points<Scalar, Dim>&) {
+        const Table* table = chosen_kernels(Scalar());
+        return table ? table->from_planes[Dim - 1] : nullptr;
+    }
+    /// Points of other kinds have none.
+    template <class Matrix>
+    static void (*to_planes(const Matrix&))(...) {
+        return nullptr;
+    }
+    template <class Matrix>
+    static void (*from_planes(const Matrix&))(...) {
+        return nullptr;
+    }
+    static typename Table::LookAhead look_ahead() {
+        const Table* table = chosen_kernels(Scalar());
+        return table ? table->look_ahead : nullptr;
+    }
+    static typename Table::Finite finite() {
+        const Table* table = chosen_kernels(Scalar());
+        return table ? table->finite : nullptr;
+    }
+};
 
-/// PlaceUpdate::move<Update> by these. @returns whether there is one
-template <class Scalar, class Update>
-bool move_by_kernel(const PlaceUpdate<Scalar>& update, const Layout<Scalar>& layout,
-                    const TilePlaces<Scalar>& tile, Scalar h, Update) {
-    static_assert(update_number<Update> >= 0);
-    const auto* table = chosen_kernels<Scalar>();
-    if (table) table->move[update_number<Update>](&update, &layout, &tile, h);
-    return table;
-}
-
-}  // namespace taut::step_detail
+}  // namespace taut::detail

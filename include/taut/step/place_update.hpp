@@ -72,9 +72,7 @@ template <class Scalar>
 template <class Update>
 void PlaceUpdate<Scalar>::move(const Layout<Scalar>& layout, const TilePlaces<Scalar>& tile,
                                Scalar h) const {
-#if defined(TAUT_KERNELS)
-    if (move_by_kernel(*this, layout, tile, h, Update())) return;
-#endif
+    TAUT_BY_KERNEL(move(Update()), this, &layout, &tile, h);
     const int planes = layout.planes();
     layout.has_stars() ? move<true, Update>(tile, 1, h) : move<false, Update>(tile, planes, h);
 }
