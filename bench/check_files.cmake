@@ -11,7 +11,7 @@ include(${CMAKE_CURRENT_LIST_DIR}/../examples/check/expect.cmake)
 
 file(WRITE ${folder}/empty.obj "")
 file(WRITE ${folder}/broken.obj "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")
-foreach(name IN ITEMS step_table stable_step_table implicit_table peers_table resolution_table work_precision)
+foreach(name IN ITEMS step_table stable_step_table dispatch_table implicit_table peers_table resolution_table work_precision)
     find_program(${name} ${name} PATHS ${programs} ${programs}/tradeoff REQUIRED NO_DEFAULT_PATH NO_CACHE)
     set(before "")
     if(name STREQUAL "resolution_table")

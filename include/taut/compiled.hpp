@@ -22,7 +22,8 @@
 //
 // Library and program must agree about Eigen's version and its alignment, which follows from flags
 // like -mavx: a program that does not agree lacks a symbol named compiled_for. TAUT_USER_CONFIG and
-// -fopenmp are those of the library.
+// -fopenmp are those of the library. What steps do most exists for wider registers, too, and is
+// chosen when a program runs: kernels.hpp.
 
 #define TAUT_COMPILED_ANALYSIS(KIND, SCALAR)                    \
     KIND struct SpringSet<SCALAR, Hookean>;                     \

@@ -144,6 +144,7 @@ int main() {
         if (taut::kernels() != std::string(sets.back())) return 1;
     }
     if (sets.back() != best || taut::set_kernels("none") || taut::kernels() != best) return 1;
+    if (sets.size() == 1) return 0;  // another processor, or another compiler
     for (const char* set : sets) std::printf("%s ", set);
     const bool ok = same_systems<float>(sets) & same_systems<double>(sets);
     std::printf("%s: at most %.0f roundings apart\n", ok ? "agree" : "DO NOT AGREE", most_off);
