@@ -119,8 +119,8 @@
 //
 // Plans are made of indices alone (Planner), places are the same for all laws (Layout, PlaceUpdate,
 // Steps), and a law has its table and loops (LawPlan). They meet at a tile's forces: a virtual
-// call. Taut::Compiled has some functions (TAUT_BY_KERNEL) for wider registers, too, and takes those
-// of the processor, so its plans fit these (planned_width).
+// call. Taut::Compiled has some functions (TAUT_BY_KERNEL) for wider registers, too, and takes
+// those of the processor, so its plans fit these (planned_width).
 //
 //
 // Words, each for one thing
