@@ -5,6 +5,8 @@
 #include <Eigen/Core>
 #include <cstring>
 
+#include "core/assert.hpp"
+
 // Which vector instructions the explicit steps of springs take.
 
 namespace taut {
@@ -32,18 +34,18 @@ constexpr const char* kernels_of_flags() {
 
 }  // namespace detail
 
-#if defined(TAUT_COMPILED)
-/// The widest kernels that the library has for this processor, "avx512" or "avx2", or those of its
-/// own flags, such as "sse2". By headers alone: those of the program's flags.
+/// The widest kernels that Taut::Compiled has for this processor, "avx512" or "avx2", or those of
+/// its own flags, such as "sse2". By headers alone: those of the program's flags.
 ///
 /// They are of the laws and scalars that compiled.hpp and compiled_laws.hpp list. A law of your own
-/// is compiled with your program, and has the registers of your program's flags.
-const char* kernels();
-/// Takes others, for all steps from now on; for tests. A program that may want the same bits on
-/// every processor names those of the library's flags here, or builds all with TAUT_SAME_BITS.
-/// @returns whether the library has them and the processor can; if not, nothing changes
-bool set_kernels(const char* name);
-#else
+/// is compiled with your program, for the registers of your program's flags.
+TAUT_INLINE const char* kernels();
+/// Takes others, for all steps from now on: for tests, or for the same rounding on unlike
+/// processors. TAUT_SAME_BITS does without: all kernels give the same bits then.
+/// @returns whether there are such and the processor can; if not, nothing changes
+TAUT_INLINE bool set_kernels(const char* name);
+
+#if !defined(TAUT_COMPILED)
 inline const char* kernels() { return detail::kernels_of_flags(); }
 inline bool set_kernels(const char* name) { return std::strcmp(name, kernels()) == 0; }
 #endif
