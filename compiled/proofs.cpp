@@ -6,6 +6,8 @@
 #include <taut/proof/rayleigh-inl.hpp>
 #include <taut/proof/stability-inl.hpp>
 
+#include "kernels.hpp"
+
 #if defined(__FAST_MATH__) || defined(_M_FP_FAST)
 #error "Taut::Compiled is compiled strictly: the flag was lost"
 #endif

@@ -22,10 +22,12 @@
 //
 // Library and program must agree about Eigen's version and its alignment, which follows from flags
 // like -mavx: a program that does not agree lacks a symbol named compiled_for. TAUT_USER_CONFIG and
-// -fopenmp are those of the library.
+// -fopenmp are those of the library. What steps do most exists for wider registers, too, and is
+// chosen when a program runs: kernels.hpp.
 
-#define TAUT_COMPILED_ANALYSIS(KIND, SCALAR) \
-    KIND struct SpringSet<SCALAR, Hookean>;  \
+#define TAUT_COMPILED_ANALYSIS(KIND, SCALAR)                    \
+    KIND struct SpringSet<SCALAR, Hookean>;                     \
+    KIND bool detail::all_finite<SCALAR>(const SCALAR*, Index); \
     KIND SpringSystem<SCALAR, 3> hanging_cloth<SCALAR>(const ClothOptions&);
 
 // What all systems of a dimension share.
@@ -60,13 +62,15 @@
     KIND void PlaceUpdate<SCALAR>::move<__VA_ARGS__>(const Layout<SCALAR>&, \
                                                      const TilePlaces<SCALAR>&, SCALAR) const;
 
-#define TAUT_COMPILED_SWEEP_IN(KIND, SCALAR, DIM)                                               \
-    KIND void Steps<SCALAR, DIM>::load(const Surroundings<SCALAR, DIM>&, const Layout<SCALAR>&, \
-                                       bool, const State<SCALAR, DIM>&, SCALAR,                 \
-                                       const ReadAnywhere&);                                    \
-    KIND bool Steps<SCALAR, DIM>::run(const Forces&, State<SCALAR, DIM>&, SCALAR, Index, int,   \
-                                      Move);                                                    \
-    KIND bool Steps<SCALAR, DIM>::run_verlet(const Forces&, State<SCALAR, DIM>&, SCALAR, Index, \
+#define TAUT_COMPILED_SWEEP_IN(KIND, SCALAR, DIM)                                                 \
+    KIND void Layout<SCALAR>::to_planes(const Points<SCALAR, DIM>&, const Planes<SCALAR>&) const; \
+    KIND void Layout<SCALAR>::from_planes(const Planes<SCALAR>&, Points<SCALAR, DIM>&) const;     \
+    KIND void Steps<SCALAR, DIM>::load(const Surroundings<SCALAR, DIM>&, const Layout<SCALAR>&,   \
+                                       bool, const State<SCALAR, DIM>&, SCALAR,                   \
+                                       const ReadAnywhere&);                                      \
+    KIND bool Steps<SCALAR, DIM>::run(const Forces&, State<SCALAR, DIM>&, SCALAR, Index, int,     \
+                                      Move);                                                      \
+    KIND bool Steps<SCALAR, DIM>::run_verlet(const Forces&, State<SCALAR, DIM>&, SCALAR, Index,   \
                                              int, bool);
 
 // The explicit steps of one law's springs; a law that pushes has steps ahead of its own.

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #pragma once
+// Needs the module between.
 
 #include <algorithm>
 

@@ -43,6 +43,18 @@
 #define TAUT_NOINLINE
 #endif
 
+/// Where Taut::Compiled may have a function for this processor, the rest of the body is for none.
+#if defined(TAUT_KERNELS)  // in that library alone: compiled/kernels.hpp
+#define TAUT_BY_KERNEL(find, ...) \
+    if (const auto kernel = detail::Kernels<Scalar>::find) return kernel(__VA_ARGS__)
+namespace taut::detail {
+template <class Scalar>
+struct Kernels;
+}  // namespace taut::detail
+#else
+#define TAUT_BY_KERNEL(find, ...) static_cast<void>(0)
+#endif
+
 /// Of what a header declares and its -inl.hpp defines: compiled with the program, or once in
 /// Taut::Compiled, whose users do not see it.
 #if defined(TAUT_COMPILED)

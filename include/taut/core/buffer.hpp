@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <type_traits>
 #include <utility>
@@ -14,12 +15,23 @@
 namespace taut {
 namespace detail {
 
-/// Memory for `bytes`, as Eigen aligns it, that begins with what `old` held, and which takes the
-/// place of `old`. Plain: all element types share it.
+/// Memory for `bytes` from the start of a cache line, since of Taut::Compiled any register may read
+/// it, that begins with what `old` held, and which takes the place of `old`; null for 0 bytes.
+/// Plain: all element types share it.
 TAUT_COLD TAUT_NOINLINE inline void* regrow(void* old, std::size_t used, std::size_t bytes) {
-    void* grown = bytes > 0 ? Eigen::internal::aligned_malloc(bytes) : nullptr;
+    constexpr std::size_t line = 64;
+    char* grown = nullptr;
+    if (bytes > 0) {
+        auto* const memory = static_cast<char*>(Eigen::internal::aligned_malloc(bytes + line));
+        grown = memory + line - reinterpret_cast<std::uintptr_t>(memory) % line;
+        std::memcpy(grown - sizeof memory, &memory, sizeof memory);
+    }
     if (used > 0) std::memcpy(grown, old, used);
-    Eigen::internal::aligned_free(old);
+    if (old) {
+        void* memory;
+        std::memcpy(&memory, static_cast<char*>(old) - sizeof memory, sizeof memory);
+        Eigen::internal::aligned_free(memory);
+    }
     return grown;
 }
 
@@ -88,7 +100,9 @@ public:
         swap(other);
         return *this;
     }
-    ~Buffer() { Eigen::internal::aligned_free(data_); }
+    ~Buffer() {
+        if (data_) detail::regrow(data_, 0, 0);
+    }
 
     /// The number of elements.
     std::size_t size() const { return size_; }

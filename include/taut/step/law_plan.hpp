@@ -110,6 +110,7 @@ void LawPlan<Scalar, Dim, Law>::renew(const SpringSet<Scalar, Law>& set,
 template <class Scalar, int Dim, class Law>
 template <bool Both>
 void LawPlan<Scalar, Dim, Law>::add_forces(const TileView<Scalar>& view) const {
+    TAUT_BY_KERNEL(template add<Both>(*this), this, &view);
     const bool damped = damped_ || view.alpha > 0;
     if constexpr (Dim > 1) {
         if (in_stars_) {

@@ -45,6 +45,7 @@ public:
     /// Planes ← points, Dim × size(), converted where they hold another number type.
     template <class Matrix>
     void to_planes(const Matrix& points, const Planes<Scalar>& planes) const {
+        TAUT_BY_KERNEL(to_planes(points), this, points.data(), &planes);
         constexpr int Dim = Matrix::RowsAtCompileTime;
         if (order_.empty() && !stars_ && points.colStride() == Dim) {
             return split<Dim>(points.data(), planes);
@@ -57,6 +58,7 @@ public:
     /// Points ← planes.
     template <class Matrix>
     void from_planes(const Planes<Scalar>& planes, Matrix& points) const {
+        TAUT_BY_KERNEL(from_planes(points), this, &planes, points.data());
         constexpr int Dim = Matrix::RowsAtCompileTime;
         if (order_.empty() && !stars_ && points.colStride() == Dim) {
             return join<Dim>(planes, points.data());
@@ -210,6 +212,7 @@ public:
     }
     /// Sets spring_x to x + ahead·v, with `ahead` in s.
     void look_ahead(Scalar ahead) {
+        TAUT_BY_KERNEL(look_ahead(), this, ahead);
         const Register step(ahead);
         for_each_register([&](Index i) {
             const Register x = Register::load(planes_.x.first + i);

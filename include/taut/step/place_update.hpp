@@ -72,6 +72,7 @@ template <class Scalar>
 template <class Update>
 void PlaceUpdate<Scalar>::move(const Layout<Scalar>& layout, const TilePlaces<Scalar>& tile,
                                Scalar h) const {
+    TAUT_BY_KERNEL(move(Update()), this, &layout, &tile, h);
     const int planes = layout.planes();
     layout.has_stars() ? move<true, Update>(tile, 1, h) : move<false, Update>(tile, planes, h);
 }

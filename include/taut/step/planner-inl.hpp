@@ -224,7 +224,12 @@ SpringOrder Planner<Scalar>::order(const Buffer<SpringEnds>& laws, const Blocks&
     // The share of scattered springs from which on stars were faster, on AMD's and Intel's
     // processors: a scattered spring costs five springs of a run or more, one in a star two, but in
     // registers of 16 bytes hardly more than one.
-    constexpr double most_scattered = Register::width * sizeof(Scalar) > 16 ? 0.25 : 0.05;
+#if defined(TAUT_SAME_BITS)
+    constexpr bool wide = true;  // or sums had another order
+#else
+    const bool wide = planned_width<Scalar>() * static_cast<int>(sizeof(Scalar)) > 16;
+#endif
+    const double most_scattered = wide ? 0.25 : 0.05;
     SpringOrder result;
     result.laws.reset(new SortedSprings[laws.size()]);
     const auto sort = [&](const Buffer<int>& place) {
@@ -252,7 +257,7 @@ SpringOrder Planner<Scalar>::order(const Buffer<SpringEnds>& laws, const Blocks&
 template <class Scalar>
 PlannedRuns Planner<Scalar>::runs(const SortedSprings& sorted, const Blocks& blocks,
                                   Buffer<int>& index) {
-    constexpr int width = Register::width;
+    const int width = planned_width<Scalar>();
     PlannedRuns plan;
     const auto tiles = static_cast<std::size_t>(blocks.tiles());
     Buffer<Segment> segments;    // run by run
@@ -352,6 +357,9 @@ StarGroups Planner<Scalar>::groups(const SortedSprings& sorted, const Blocks& bl
     const auto by_hub = choose_hubs(sorted.all(), blocks.places());
     const auto stars = plan_stars(by_hub, blocks);
     StarGroups plan;
+    // As many as Planner::group of registers of the planned width.
+    const int lanes = (std::min)(planned_width<Scalar>(), static_cast<int>(32 / sizeof(Scalar)));
+    const int together = (std::max)(1, lanes / star_size);
     const auto append = [&](const PlannedStar& star) {
         const auto* spring = &by_hub[star.first];
         const int block_begin = blocks.begin(blocks.block_of_tile(star.tile));
@@ -369,10 +377,11 @@ StarGroups Planner<Scalar>::groups(const SortedSprings& sorted, const Blocks& bl
         for (; next != stars.end() && next->tile == tile && next->outer == outer; ++next) {
             append(*next);
         }
-        const int groups = (static_cast<int>(plan.stars.size()) + group - 1) / group;
-        plan.stars.resize(groups * group, Star{});
+        const int size = static_cast<int>(plan.stars.size());
+        const int count = (size + together - 1) / together * together;
+        plan.stars.resize(count, Star{});
         index.resize(plan.stars.size() * star_size, by_hub.empty() ? 0 : gap(by_hub[0].index));
-        return groups;
+        return count;
     };
     for (int tile = 0; tile < blocks.tiles(); ++tile) {
         const int outer = append_all(tile, true);

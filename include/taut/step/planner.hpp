@@ -67,6 +67,19 @@ struct SpringOrder {
     bool stars = false;  // whether all springs are in stars
 };
 
+/// Plans fit registers of so many scalars, and narrower ones: those of the program's flags, or with
+/// Taut::Compiled the widest that the library has for this processor.
+template <class Scalar>
+int planned_width() {
+    return VectorRegister<Scalar>::width;
+}
+#if defined(TAUT_COMPILED)
+template <>
+int planned_width<float>();
+template <>
+int planned_width<double>();
+#endif
+
 /// Plans that depend on indices and on the width of registers: the same for all laws and
 /// dimensions, and so compiled once.
 template <class Scalar>

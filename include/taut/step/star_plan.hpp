@@ -154,12 +154,12 @@ void StarPlan<Scalar, Law>::add_forces(const TileView<Scalar>& view) const {
              view.force_a.first};
     constexpr std::make_integer_sequence<int, group> all;
     int g = view.tile == 0 ? 0 : plan_.ends[view.tile - 1].all;
-    Reader springs(table_, 0, static_cast<std::size_t>(g * group * star_size));
+    Reader springs(table_, 0, static_cast<std::size_t>(g * star_size));
     const Star* stars = plan_.stars.data();
     const auto [outer, end] = plan_.ends[view.tile];
     Few<Star, group> inside_block;
-    for (; g < end; ++g) {  // one loop: the kernel is most of what a program has of springs
-        of.stars = of.targets = stars + g * group;
+    for (; g < end; g += group) {  // one loop: the kernel is most of what a program has of springs
+        of.stars = of.targets = stars + g;
         if (g < outer) {
             inside_block = within_block(of.stars, 4 * view.size);
             of.targets = inside_block.data();

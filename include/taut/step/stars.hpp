@@ -44,7 +44,7 @@ struct Star {
 
 /// The stars of one law, tile by tile, in groups.
 struct StarGroups {
-    /// Where the groups of a tile end: of outer stars, and of all.
+    /// Where the stars of a tile end: the outer ones, and all. Whole groups.
     struct Ends {
         int outer, all;
     };

@@ -32,6 +32,7 @@ bool finite_one_by_one(const Scalar* numbers, Index count) {
 /// The same, a register at a time.
 template <class Scalar>
 bool all_finite(const Scalar* numbers, Index count) {
+    TAUT_BY_KERNEL(finite(), numbers, count);
     if constexpr (sizeof(Scalar) <= sizeof(double)) {
         using namespace Eigen::internal;
         using Packet = typename packet_traits<Scalar>::type;

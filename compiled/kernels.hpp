@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "kernel_numbers.hpp"
+
+// The kernels of this processor, for the library's own units: where TAUT_KERNELS is defined,
+// TAUT_BY_KERNEL asks here.
+
+namespace taut::detail {
+
+/// The kernels to take; null: those of the library's own flags.
+const taut_kernels::Table<float>* chosen_kernels(float);
+const taut_kernels::Table<double>* chosen_kernels(double);
+
+/// Each function gives a kernel, or null for the library's own.
+template <class Scalar>
+struct Kernels {
+    using Table = taut_kernels::Table<Scalar>;
+
+    template <bool Both, int Dim, class Law>
+    static typename Table::Add add(const step_detail::LawPlan<Scalar, Dim, Law>&) {
+        constexpr int law = step_detail::law_number<Law>;
+        static_assert(law >= 0, "compiled/kernel_numbers.hpp does not know this law");
+        const Table* table = chosen_kernels(Scalar());
+        return table ? table->add[law][Dim - 1][Both] : nullptr;
+    }
+    template <class Update>
+    static typename Table::Move move(Update) {
+        constexpr int update = step_detail::update_number<Update>;
+        static_assert(update >= 0, "compiled/kernel_numbers.hpp does not know this update");
+        const Table* table = chosen_kernels(Scalar());
+        return table ? table->move[update] : nullptr;
+    }
+    template <int Dim>
+    static typename Table::ToPlanes to_planes(const Points<Scalar, Dim>&) {
+        const Table* table = chosen_kernels(Scalar());
+        return table ? table->to_planes[Dim - 1] : nullptr;
+    }
+    template <int Dim>
+    static typename Table::FromPlanes from_planes(const Points<Scalar, Dim>&) {
+        const Table* table = chosen_kernels(Scalar());
+        return table ? table->from_planes[Dim - 1] : nullptr;
+    }
+    /// Points of other kinds have none.
+    template <class Matrix>
+    static void (*to_planes(const Matrix&))(...) {
+        return nullptr;
+    }
+    template <class Matrix>
+    static void (*from_planes(const Matrix&))(...) {
+        return nullptr;
+    }
+    static typename Table::LookAhead look_ahead() {
+        const Table* table = chosen_kernels(Scalar());
+        return table ? table->look_ahead : nullptr;
+    }
+    static typename Table::Finite finite() {
+        const Table* table = chosen_kernels(Scalar());
+        return table ? table->finite : nullptr;
+    }
+};
+
+}  // namespace taut::detail
