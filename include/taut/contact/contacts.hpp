@@ -71,7 +71,7 @@ public:
         frame_ = frame;
         penalty_ = {h, 100 / (longest_ * longest_), 0};
         begun_ = time;
-        work_.assign(system_->size(), 0);
+        work_.assign(system_->size() + step_detail::max_width, Scalar(0));
         fresh_ = true;
         drift_ = Vector::Zero();
         for (const auto& body : bodies_) {
@@ -86,12 +86,13 @@ public:
         outcome.work.assign(system_->size(), 0);
         outcome.energy.assign(system_->size(), 0);
         for (Index place = 0; place < system_->size(); ++place)
-            outcome.work[particle_[place]] = work_[place];
+            outcome.work[particle_[place]] = static_cast<double>(work_[place]);
         near_.remember(bodies_, outcome.known);
         for (const auto& body : bodies_) {
             const auto& solo = body->solo;
-            for (Index k = 0; k < solo.count; ++k) {
-                outcome.energy[particle_[solo.place[k]]] +=
+            for (Index k = 0; k < solo.blocks * Register::width; ++k) {
+                if (!(solo.depth[k] > 0)) continue;
+                outcome.energy[particle_[place_of(solo, k)]] +=
                     potential(solo.depth[k], solo.cap[k], solo.mass[k]);
             }
         }
@@ -189,10 +190,14 @@ public:
         }
         for (const auto& body : bodies_) {
             const auto& hits = body->hits;
-            for (Index k = 0; k < hits.count; ++k)
-                work_[hits.place[k]] += static_cast<double>(hits.work[k]);
+            for (Index k = 0; k < hits.count; ++k) {
+                Scalar* work = work_.data() + body->solo.first[hits.block[k]];
+                (Register::load(work) + Register::load(hits.work.data() + k * Register::width))
+                    .store(work);
+            }
         }
-        for (const auto& touched : touched_) work_[touched.place] += touched.work;
+        for (const auto& touched : touched_)
+            work_[touched.place] += static_cast<Scalar>(touched.work);
         return true;
     }
 
@@ -213,18 +218,18 @@ public:
                 sliding > friction * into ? 1 - friction * into / sliding : Scalar(0);
             const Vector after = u + (friction > 0 ? Vector(keep * along) : along);
             v.set(place, after);
-            work_[place] += static_cast<double>(mass_[place] * u.dot(after - before));
+            work_[place] += mass_[place] * u.dot(after - before);
         };
         for (const auto& body : bodies_) {
             const auto& solo = body->solo;
-            for (Index k = 0; k < solo.count; ++k) {
+            for (Index k = 0; k < solo.blocks * Register::width; ++k) {
                 if (!(solo.depth[k] > 0)) continue;
                 Vector x, normal;
                 for (int d = 0; d < Dim; ++d) {
                     x[d] = solo.x[d][k];
                     normal[d] = solo.normal[d][k];
                 }
-                stop(solo.place[k], *body, x, normal);
+                stop(place_of(solo, k), *body, x, normal);
             }
         }
         for (const auto& pair : near_.shared()) {
@@ -235,6 +240,7 @@ public:
 
 private:
     using Access = contact_detail::PlaneAccess<Scalar, Dim>;
+    using Register = step_detail::VectorRegister<Scalar>;
     /// A particle of shared pairs that was touched: what it was without, and what that did.
     struct Touched {
         int place;
@@ -259,10 +265,17 @@ private:
     /// Whether those that were touched have met no body that does not list them.
     bool pushed_in_reach(const Access& x, Scalar time) const {
         const auto leeway = near_.leeway(bodies_, time);
+        const Register zero(Scalar(0)), below(Scalar(-1));
         for (const auto& body : bodies_) {
-            for (Index k = 0; k < body->hits.count; ++k) {
-                if (!near_.holds(leeway, x, body->hits.place[k])) return false;
+            const auto& hits = body->hits;
+            Register worst = below;
+            for (Index k = 0; k < hits.count; ++k) {
+                const Register touched = Register::load(hits.touched.data() + k * Register::width);
+                const Index place = body->solo.first[hits.block[k]];
+                const Register beyond = near_.beyond(leeway.first, leeway.second, x, place);
+                worst = larger(worst, where_less(zero, touched, beyond, below));
             }
+            if (!(contact_detail::largest_lane(worst) < 0)) return false;
         }
         for (const auto& touched : touched_) {
             if (!near_.holds(leeway, x, touched.place)) return false;
@@ -312,14 +325,18 @@ private:
         for (const auto& body : bodies_) {
             const auto& hits = body->hits;
             for (Index k = 0; k < hits.count; ++k) {
-                Vector x, v;
+                const Index from = k * Register::width, to = hits.block[k] * Register::width;
+                const Index place = body->solo.first[hits.block[k]];
                 for (int d = 0; d < Dim; ++d) {
-                    x[d] = hits.x[d][k];
-                    v[d] = hits.v[d][k];
+                    const Register x = Register::load(hits.x[d].data() + from);
+                    const Register v = Register::load(hits.v[d].data() + from);
+                    moving.x.set_row(d, place, x);
+                    moving.v.set_row(d, place, v);
+                    if (penalty_.ahead > 0)
+                        moving.spring_x.set_row(d, place, x + Register(penalty_.ahead) * v);
                 }
-                set(hits.place[k], x, v);
-                body->solo.depth[hits.pair[k]] = hits.depth[k];
-                body->solo.cap[hits.pair[k]] = hits.cap[k];
+                Register::load(hits.depth.data() + from).store(body->solo.depth.data() + to);
+                Register::load(hits.cap.data() + from).store(body->solo.cap.data() + to);
             }
         }
         auto old = old_pairs_.begin();
@@ -332,6 +349,9 @@ private:
     void look_up(const Access& x, Index count, Scalar time, Scalar margin) {
         ++lookups_;
         near_.build(bodies_, known_, mass_, x, count, margin, longest_ / 2, drift_, time);
+    }
+    static int place_of(const contact_detail::SoloPairs<Scalar, Dim>& solo, Index k) {
+        return solo.first[k / Register::width] + static_cast<int>(k % Register::width);
     }
     static double sum(const Buffer<double>& of) {
         double sum = 0;
@@ -357,7 +377,7 @@ private:
     contact_detail::NearList<Scalar, Dim> near_;
     contact_detail::ParticleSolve<Scalar, Dim> solve_;
     Buffer<Scalar> mass_;   // by place, kg; 0 if pinned
-    Buffer<double> work_;   // by place, J
+    Buffer<Scalar> work_;   // by place, J
     Buffer<int> particle_;  // at each place
     std::vector<contact_detail::KnownPair> known_;
     std::vector<contact_detail::KnownPair> next_known_;

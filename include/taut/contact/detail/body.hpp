@@ -22,46 +22,25 @@ struct BodyOptions {
 
 namespace contact_detail {
 
-/// Particles near one body and no other, at the start of a step: arrays padded by a register.
+/// Particles near one body and no other, at the start of a step: a register of places in a row for
+/// each block, some lanes of which are near. The mass of the others is 0.
 template <class Scalar, int Dim>
 struct SoloPairs {
-    Index count = 0;
-    Buffer<int> place;
-    Buffer<Scalar> depth;  // p, m
+    Index blocks = 0;
+    Buffer<int> first;     // place of each block
+    Buffer<Scalar> depth;  // p, m; < 0 of other lanes
     Buffer<Scalar> cap;    // p₁, m
     Buffer<Scalar> mass;   // kg
     detail::Few<Buffer<Scalar>, Dim> x, normal;
-
-    void resize(Index size) {
-        count = size;
-        const Index padded = size + step_detail::max_width;
-        place.resize(padded);
-        for (auto* of : {&depth, &cap, &mass}) of->resize(padded);
-        for (int d = 0; d < Dim; ++d) {
-            x[d].resize(padded);
-            normal[d].resize(padded);
-        }
-    }
 };
 
-/// Those solo pairs that touch at the start of a step or would at its end: what they were without
-/// contact, and what it did. Arrays padded by a register.
+/// Blocks that are touched in a step: what they were without contact, for undo.
 template <class Scalar, int Dim>
 struct Hits {
     Index count = 0;
-    Buffer<int> pair, place;
-    Buffer<Scalar> depth, cap, mass, work;  // at the start, m; kg; Σ h ū·f of the step, J
-    detail::Few<Buffer<Scalar>, Dim> from, normal, x, v;
-
-    void clear(Index most) {
-        count = 0;
-        const Index padded = most + step_detail::max_width;
-        for (auto* of : {&pair, &place}) of->resize(padded);
-        for (auto* of : {&depth, &cap, &mass, &work}) of->resize(padded);
-        for (auto* of : {&from, &normal, &x, &v}) {
-            for (int d = 0; d < Dim; ++d) (*of)[d].resize(padded);
-        }
-    }
+    Buffer<int> block;
+    Buffer<Scalar> depth, cap, touched, work;  // the last is h ū·f, J
+    detail::Few<Buffer<Scalar>, Dim> x, v;
 };
 
 /// How many pairs touch, and the deepest, m.
@@ -70,9 +49,9 @@ struct Touching {
     Index count = 0;
     Scalar deepest = 0;
 
-    void see(Scalar depth) {
+    void see(Scalar depth, Index pairs = 1) {
         if (!(depth > 0)) return;
-        ++count;
+        count += pairs;
         deepest = (std::max)(deepest, depth);
     }
 };
@@ -143,26 +122,29 @@ public:
     void step(const Penalty<Scalar>& penalty, const Moving<Scalar, Dim>& moving,
               Touching<Scalar>& touching) override {
         SoloPairs<Scalar, Dim>& pairs = this->solo;
-        this->hits.clear(pairs.count);
-        for (Index i = 0; i < pairs.count; i += Register::width) {
-            const int* places = pairs.place.data() + i;
+        const Register zero(Scalar(0)), one(Scalar(1));
+        Register count = zero, deepest = zero;
+        make_room();
+        for (Index block = 0; block < pairs.blocks; ++block) {
+            const Index at = block * Register::width;
+            const Register mass = Register::load(pairs.mass.data() + at);
+            const Register before = Register::load(pairs.depth.data() + at);
             Vectors x, normal;
-            for (int d = 0; d < Dim; ++d) x[d] = moving.x.gather(d, places);
-            const Register before = Register::load(pairs.depth.data() + i);
-            const Register depth = query(x, this->motion.next, normal);
-            const Register deepest = larger(before, depth);
-            if (largest_lane(deepest) > 0) keep(i, deepest);
-            depth.store(pairs.depth.data() + i);
+            for (int d = 0; d < Dim; ++d) x[d] = moving.x.row(d, pairs.first[block]);
+            Register depth = query(x, this->motion.next, normal);
+            depth = where_less(zero, mass, depth, -one);
+            if (largest_lane(larger(before, depth)) > 0) {
+                resolve(block, penalty, moving, before, x, depth, normal);
+                count += where_less(zero, depth, one, zero);
+                deepest = larger(deepest, depth);
+            }
+            depth.store(pairs.depth.data() + at);
             for (int d = 0; d < Dim; ++d) {
-                x[d].store(pairs.x[d].data() + i);
-                normal[d].store(pairs.normal[d].data() + i);
+                x[d].store(pairs.x[d].data() + at);
+                normal[d].store(pairs.normal[d].data() + at);
             }
         }
-        Hits<Scalar, Dim>& hits = this->hits;
-        for (Index i = 0; hits.count > 0 && i < step_detail::max_width; ++i)
-            copy(hits.count - 1, hits.count + i);
-        for (Index i = 0; i < hits.count; i += Register::width)
-            resolve(i, penalty, moving, touching);
+        touching.see(largest_lane(deepest), static_cast<Index>(sum_of_lanes(count)));
     }
 
 private:
@@ -178,70 +160,53 @@ private:
         normal = times(pose.rotation, normal);
         return Register(this->thickness()) - distance;
     }
-    /// Of a register of pairs those lanes that touch, as they were at the start.
-    void keep(Index i, const Register& deepest) {
-        const SoloPairs<Scalar, Dim>& pairs = this->solo;
+    void make_room() {
         Hits<Scalar, Dim>& hits = this->hits;
-        detail::Few<Scalar, Register::width> lanes;
-        deepest.store(lanes.data());
-        const Index end = (std::min)(Index(Register::width), pairs.count - i);
-        for (Index k = 0; k < end; ++k) {
-            if (!(lanes[static_cast<int>(k)] > 0)) continue;
-            const Index hit = hits.count++;
-            hits.pair[hit] = static_cast<int>(i + k);
-            hits.place[hit] = pairs.place[i + k];
-            hits.depth[hit] = pairs.depth[i + k];
-            hits.cap[hit] = pairs.cap[i + k];
-            hits.mass[hit] = pairs.mass[i + k];
-            for (int d = 0; d < Dim; ++d) {
-                hits.from[d][hit] = pairs.x[d][i + k];
-                hits.normal[d][hit] = pairs.normal[d][i + k];
-            }
+        const Index size = this->solo.blocks * Register::width;
+        hits.count = 0;
+        hits.block.resize(this->solo.blocks);
+        for (auto* of : {&hits.depth, &hits.cap, &hits.touched, &hits.work}) of->resize(size);
+        for (auto* of : {&hits.x, &hits.v}) {
+            for (int d = 0; d < Dim; ++d) (*of)[d].resize(size);
         }
     }
-    void copy(Index from, Index to) {
+    /// Contact of a block: x, depth and normal with it, from those without.
+    void resolve(Index block, const Penalty<Scalar>& penalty, const Moving<Scalar, Dim>& moving,
+                 const Register& before, Vectors& x, Register& depth, Vectors& normal) {
+        SoloPairs<Scalar, Dim>& pairs = this->solo;
         Hits<Scalar, Dim>& hits = this->hits;
-        for (auto* of : {&hits.pair, &hits.place}) (*of)[to] = (*of)[from];
-        for (auto* of : {&hits.depth, &hits.cap, &hits.mass}) (*of)[to] = (*of)[from];
-        for (int d = 0; d < Dim; ++d) {
-            hits.from[d][to] = hits.from[d][from];
-            hits.normal[d][to] = hits.normal[d][from];
-        }
-    }
-    /// Contact of a register of hits.
-    void resolve(Index i, const Penalty<Scalar>& penalty, const Moving<Scalar, Dim>& moving,
-                 Touching<Scalar>& touching) {
-        Hits<Scalar, Dim>& hits = this->hits;
-        const Register zero(Scalar(0)), one(Scalar(1)), h(penalty.h);
         const Motion<Scalar, Dim>& motion = this->motion;
-        const int* places = hits.place.data() + i;
-        const Register before = Register::load(hits.depth.data() + i);
-        Vectors from, n, x, v, u, w;
+        const Register zero(Scalar(0)), one(Scalar(1)), h(penalty.h);
+        const Index at = block * Register::width, place = pairs.first[block];
+        const Index kept = hits.count++ * Register::width;
+        hits.block[kept / Register::width] = static_cast<int>(block);
+        Vectors from, n, v, u, w;
         for (int d = 0; d < Dim; ++d) {
-            from[d] = Register::load(hits.from[d].data() + i);
-            n[d] = Register::load(hits.normal[d].data() + i);
-            x[d] = moving.x.gather(d, places);
-            v[d] = moving.v.gather(d, places);
-            x[d].store(hits.x[d].data() + i);
-            v[d].store(hits.v[d].data() + i);
+            from[d] = Register::load(pairs.x[d].data() + at);
+            n[d] = Register::load(pairs.normal[d].data() + at);
+            v[d] = moving.v.row(d, place);
+            x[d].store(hits.x[d].data() + kept);
+            v[d].store(hits.v[d].data() + kept);
         }
-        Vectors normal;
-        Register depth = query(x, motion.next, normal);
+        before.store(hits.depth.data() + kept);
+        Register cap = Register::load(pairs.cap.data() + at);
+        cap.store(hits.cap.data() + kept);
         n = times(motion.turn, n);
         const Vectors carried = times(motion.turn, from);
         for (int d = 0; d < Dim; ++d) {
             u[d] = (carried[d] + Register(motion.shift[d]) - from[d]) * Register(1 / penalty.h);
             w[d] = v[d] - u[d];
         }
-        Register cap = Register::load(hits.cap.data() + i);
         const Register deep = larger(before, zero);
         const Register push = Register(penalty.by_mass) * where_less(deep, cap, deep, cap);
         const Register into = dot(w, n);
         const Register out = (into + h * push) * Register(1 / (1 + penalty.block()));
         const Register impulse = out - into;  // hλ/m
         // A pair that would pull is left out if it goes no deeper so.
-        const Register pulls = where_less(impulse, zero, where_less(zero, before, one, zero), zero);
-        const Register touches = where_less(zero, pulls, where_less(before, depth, one, zero), one);
+        Register touches = where_less(zero, larger(before, depth), one, zero);
+        const Register pulls = where_less(impulse, zero, deep, zero);
+        touches = where_less(zero, pulls, where_less(before, depth, touches, zero), touches);
+        touches.store(hits.touched.data() + kept);
         Vectors along;
         for (int d = 0; d < Dim; ++d) along[d] = w[d] - into * n[d];
         const Register by_sliding = reciprocal_sqrt(
@@ -250,51 +215,25 @@ private:
             larger(zero, one - Register(static_cast<Scalar>(this->options.friction)) *
                                    larger(impulse, zero) * by_sliding);
         Register work = zero;
-        const Register mass = Register::load(hits.mass.data() + i);
         for (int d = 0; d < Dim; ++d) {
             const Register after = u[d] + out * n[d] + keep * along[d];
-            work += mass * u[d] * (after - v[d]);
+            work += u[d] * (after - v[d]);
             x[d] = where_less(zero, touches, from[d] + h * after, x[d]);
             v[d] = where_less(zero, touches, after, v[d]);
-        }
-        where_less(zero, touches, work, zero).store(hits.work.data() + i);
-        depth = query(x, motion.next, normal);
-        cap = where_less(zero, depth, cap, Register(std::numeric_limits<Scalar>::infinity()));
-        put_back(i, penalty, moving, touching, x, v, depth, cap, normal);
-    }
-    /// Into the pairs and the planes.
-    void put_back(Index i, const Penalty<Scalar>& penalty, const Moving<Scalar, Dim>& moving,
-                  Touching<Scalar>& touching, const Vectors& x, const Vectors& v,
-                  const Register& depth, const Register& cap, const Vectors& normal) {
-        SoloPairs<Scalar, Dim>& pairs = this->solo;
-        const Hits<Scalar, Dim>& hits = this->hits;
-        using Lanes = detail::Few<Scalar, Register::width>;
-        Lanes depths, caps;
-        detail::Few<Lanes, Dim> xs, vs, ys, normals;
-        depth.store(depths.data());
-        cap.store(caps.data());
-        for (int d = 0; d < Dim; ++d) {
-            x[d].store(xs[d].data());
-            v[d].store(vs[d].data());
-            (x[d] + Register(penalty.ahead) * v[d]).store(ys[d].data());
-            normal[d].store(normals[d].data());
-        }
-        const auto lanes = static_cast<int>((std::min)(Index(Register::width), hits.count - i));
-        for (int k = 0; k < lanes; ++k) {
-            const int pair = hits.pair[i + k], place = hits.place[i + k];
-            touching.see(depths[k]);
-            pairs.depth[pair] = depths[k];
-            pairs.cap[pair] = caps[k];
-            for (int d = 0; d < Dim; ++d) {
-                pairs.x[d][pair] = xs[d][k];
-                pairs.normal[d][pair] = normals[d][k];
-                moving.x(d, place) = xs[d][k];
-                moving.v(d, place) = vs[d][k];
-            }
+            moving.x.set_row(d, place, x[d]);
+            moving.v.set_row(d, place, v[d]);
             if (penalty.ahead > 0) {
-                for (int d = 0; d < Dim; ++d) moving.spring_x(d, place) = ys[d][k];
+                const Register ahead = x[d] + Register(penalty.ahead) * v[d];
+                moving.spring_x.set_row(
+                    d, place, where_less(zero, touches, ahead, moving.spring_x.row(d, place)));
             }
         }
+        const Register mass = Register::load(pairs.mass.data() + at);
+        where_less(zero, touches, mass * work, zero).store(hits.work.data() + kept);
+        depth = query(x, motion.next, normal);
+        depth = where_less(zero, mass, depth, -one);
+        where_less(zero, depth, cap, Register(std::numeric_limits<Scalar>::infinity()))
+            .store(pairs.cap.data() + at);
     }
 
     Obstacle shape_;

@@ -69,11 +69,11 @@ public:
         for (int k = 0; k < Register::width; ++k) lanes[k] = (*this)(d, place + k);
         return Register::load(lanes.data());
     }
-    /// Those of a register's worth of places.
-    EIGEN_ALWAYS_INLINE Register gather(int d, const int* places) const {
+    EIGEN_ALWAYS_INLINE void set_row(int d, Index place, const Register& to) const {
+        if (grain_ == 1) return to.store(first_ + d * axis_ + place);
         detail::Few<Scalar, Register::width> lanes;
-        for (int k = 0; k < Register::width; ++k) lanes[k] = (*this)(d, places[k]);
-        return Register::load(lanes.data());
+        to.store(lanes.data());
+        for (int k = 0; k < Register::width; ++k) (*this)(d, place + k) = lanes[k];
     }
 
 private:
@@ -85,6 +85,11 @@ private:
 template <class Scalar, int most>
 EIGEN_ALWAYS_INLINE Scalar largest_lane(const step_detail::VectorRegister<Scalar, most>& a) {
     return Eigen::internal::predux_max(a.packet);
+}
+
+template <class Scalar, int most>
+EIGEN_ALWAYS_INLINE Scalar sum_of_lanes(const step_detail::VectorRegister<Scalar, most>& a) {
+    return Eigen::internal::predux(a.packet);
 }
 
 /// M y of vectors, a lane each.

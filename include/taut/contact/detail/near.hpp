@@ -33,6 +33,7 @@ public:
     using Access = PlaneAccess<Scalar, Dim>;
 
     using Leeway = std::pair<Scalar, Vector>;
+    using Register = step_detail::VectorRegister<Scalar>;
 
     std::vector<Pair>& shared() { return shared_; }
     const std::vector<Pair>& shared() const { return shared_; }
@@ -49,8 +50,10 @@ public:
         };
         for (std::size_t b = 0; b < bodies.size(); ++b) {
             const auto& solo = bodies[b]->solo;
-            for (Index k = 0; k < solo.count; ++k)
-                add(solo.place[k], b, solo.depth[k], solo.cap[k]);
+            for (Index k = 0; k < solo.blocks * Register::width; ++k) {
+                const auto lane = static_cast<int>(k % Register::width);
+                add(solo.first[k / Register::width] + lane, b, solo.depth[k], solo.cap[k]);
+            }
         }
         for (const Pair& pair : shared_)
             add(pair.place, static_cast<std::size_t>(pair.body), pair.depth, pair.cap);
@@ -91,10 +94,8 @@ public:
         shared_.clear();
         for (std::size_t b = 0; b < bodies.size(); ++b) {
             Body<Scalar, Dim>& body = *bodies[b];
-            Index solos = 0;
-            for (const int place : found_[b]) solos += near_[place] == 1;
-            body.solo.resize(solos);
-            Index next = 0;
+            int end = -1;  // of the last block
+            body.solo.blocks = 0;
             for (const int place : found_[b]) {
                 Pair pair{place, static_cast<int>(b), x.vector(place), {}, 0, infinity};
                 pair.depth = body.depth(pair.x, body.motion.next, pair.normal);
@@ -105,10 +106,12 @@ public:
                     shared_.push_back(pair);
                     continue;
                 }
-                set(body.solo, next++, pair, mass[place]);
-            }
-            for (Index k = next; next > 0 && k < next + step_detail::max_width; ++k) {
-                copy(body.solo, next - 1, k);
+                if (place >= end) {
+                    const int first = place / Register::width * Register::width;
+                    end = first + Register::width;
+                    add_block(body.solo, first, x);
+                }
+                set(body.solo, body.solo.blocks * Register::width + place - end, pair, mass[place]);
             }
         }
         std::stable_sort(shared_.begin(), shared_.end(),
@@ -141,19 +144,22 @@ public:
     bool holds(const Bodies& bodies, const Access& x, Index count, Scalar time) const {
         if (!built_) return false;
         const auto [moved, gone] = leeway(bodies, time);
-        const Register zero(Scalar(0)), by(moved);
         Register worst(-std::numeric_limits<Scalar>::infinity());
-        for (Index i = 0; i < count; i += Register::width) {
-            Register way2 = zero;
-            for (int d = 0; d < Dim; ++d) {
-                const Register way =
-                    x.row(d, i) - Register::load(x_[d].data() + i) - Register(gone[d]);
-                way2 += way * way;
-            }
-            const Register room = larger(Register::load(slack_.data() + i) - by, zero);
-            worst = larger(worst, way2 - room * room);
-        }
+        for (Index i = 0; i < count; i += Register::width)
+            worst = larger(worst, beyond(moved, gone, x, i));
         return largest_lane(worst) < 0;
+    }
+    /// ≥ 0 where that may be so, of a register of places.
+    EIGEN_ALWAYS_INLINE Register beyond(Scalar moved, const Vector& gone, const Access& x,
+                                        Index i) const {
+        const Register zero(Scalar(0));
+        Register way2 = zero;
+        for (int d = 0; d < Dim; ++d) {
+            const Register way = x.row(d, i) - Register::load(x_[d].data() + i) - Register(gone[d]);
+            way2 += way * way;
+        }
+        const Register room = larger(Register::load(slack_.data() + i) - Register(moved), zero);
+        return way2 - room * room;
     }
     /// The same of one particle, by place.
     bool holds(const Leeway& leeway, const Access& x, int place) const {
@@ -168,28 +174,29 @@ public:
     }
 
 private:
-    using Register = step_detail::VectorRegister<Scalar>;
-
     static bool was_outside(const std::vector<KnownPair>& known, const Pair& pair) {
         return std::binary_search(known.begin(), known.end(), KnownPair{pair.place, pair.body});
     }
+    static void add_block(SoloPairs<Scalar, Dim>& solo, int first, const Access& x) {
+        const Index at = solo.blocks++ * Register::width, size = at + Register::width;
+        solo.first.resize(solo.blocks, first);
+        solo.first[solo.blocks - 1] = first;
+        for (auto* of : {&solo.depth, &solo.cap, &solo.mass}) of->resize(size, Scalar(0));
+        Register(Scalar(-1)).store(solo.depth.data() + at);
+        Register(std::numeric_limits<Scalar>::infinity()).store(solo.cap.data() + at);
+        Register(Scalar(0)).store(solo.mass.data() + at);
+        for (int d = 0; d < Dim; ++d) {
+            solo.x[d].resize(size, Scalar(0));
+            solo.normal[d].resize(size, Scalar(0));
+            x.row(d, first).store(solo.x[d].data() + at);
+            Register(Scalar(0)).store(solo.normal[d].data() + at);
+        }
+    }
     static void set(SoloPairs<Scalar, Dim>& solo, Index k, const Pair& pair, Scalar mass) {
-        solo.place[k] = pair.place;
         solo.depth[k] = pair.depth;
         solo.cap[k] = pair.cap;
         solo.mass[k] = mass;
-        for (int d = 0; d < Dim; ++d) {
-            solo.x[d][k] = pair.x[d];
-            solo.normal[d][k] = pair.normal[d];
-        }
-    }
-    static void copy(SoloPairs<Scalar, Dim>& solo, Index from, Index to) {
-        solo.place[to] = solo.place[from];
-        for (auto* of : {&solo.depth, &solo.cap, &solo.mass}) (*of)[to] = (*of)[from];
-        for (int d = 0; d < Dim; ++d) {
-            solo.x[d][to] = solo.x[d][from];
-            solo.normal[d][to] = solo.normal[d][from];
-        }
+        for (int d = 0; d < Dim; ++d) solo.normal[d][k] = pair.normal[d];
     }
 
     std::vector<Pair> shared_;        // by place
