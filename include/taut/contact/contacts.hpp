@@ -175,17 +175,19 @@ public:
         for (const auto& body : bodies_) {
             body->motion.go_to(contact_detail::between(body->begin, body->end, share));
         }
-        bool known = near_.holds(bodies_, moving.x, count, time);
+        near_.go_to(bodies_, time);
+        bool known = near_.holds(moving.x, count);
         for (Scalar margin = margin_;; margin *= 4) {
             if (!known) {
                 look_back(layout, planes, time, margin);
-                known = near_.holds(bodies_, moving.x, count, time);
+                near_.go_to(bodies_, time);
+                known = near_.holds(moving.x, count);
                 if (!known) continue;
             }
             touch(moving);
             known = true;
             for (const auto& touched : tally_.touched)
-                known = known && near_.holds_of(bodies_, moving.x, touched.place, time);
+                known = known && near_.holds_of(moving.x, touched.place);
             if (known) break;
             undo(moving);
         }

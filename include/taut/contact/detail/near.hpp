@@ -122,17 +122,30 @@ public:
         for (const auto& body : bodies) at_.push_back(body->motion.next);
     }
 
-    /// Whether no particle can have met a body that does not list it, at places x and motion.next.
-    bool holds(const Bodies& bodies, const Access& x, Index count, Scalar time) const {
+    /// The bodies are at motion.next, at that time, s: what holds() asks about.
+    void go_to(const Bodies& bodies, Scalar time) {
+        if (!built_) return;
+        moved_ = 0;
+        gone_ = (time - time_) * drift_;
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+            const Pose<Scalar, Dim>& pose = bodies[b]->motion.next;
+            const Scalar turned = (pose.rotation - at_[b].rotation).norm();
+            Scalar most = (pose.position - at_[b].position - gone_).norm();
+            if (turned > 0) most += turned * bodies[b]->extent();
+            moved_ = (std::max)(moved_, most);
+        }
+        moved_ = (std::min)(moved_, (std::numeric_limits<Scalar>::max)());
+    }
+    /// Whether no particle can have met a body that does not list it, at places x.
+    bool holds(const Access& x, Index count) const {
         if (!built_) return false;
-        const auto [moved, gone] = moves(bodies, time);
-        const Register zero(Scalar(0)), by(moved);
+        const Register zero(Scalar(0)), by(moved_);
         Register worst(-std::numeric_limits<Scalar>::infinity());
         for (Index i = 0; i < count; i += Register::width) {
             Register way2 = zero;
             for (int d = 0; d < Dim; ++d) {
                 const Register way =
-                    x.row(d, i) - Register::load(x_[d].data() + i) - Register(gone[d]);
+                    x.row(d, i) - Register::load(x_[d].data() + i) - Register(gone_[d]);
                 way2 += way * way;
             }
             const Register room = larger(Register::load(slack_.data() + i) - by, zero);
@@ -141,33 +154,19 @@ public:
         return largest_lane(worst) < 0;
     }
     /// The same of one particle, by place.
-    bool holds_of(const Bodies& bodies, const Access& x, int place, Scalar time) const {
-        const auto [moved, gone] = moves(bodies, time);
+    bool holds_of(const Access& x, int place) const {
         Scalar way2 = 0;
         for (int d = 0; d < Dim; ++d) {
-            const Scalar way = x(d, place) - x_[d][place] - gone[d];
+            const Scalar way = x(d, place) - x_[d][place] - gone_[d];
             way2 += way * way;
         }
-        const Scalar room = (std::max)(slack_[place] - moved, Scalar(0));
+        const Scalar room = (std::max)(slack_[place] - moved_, Scalar(0));
         return way2 < room * room;
     }
 
 private:
     using Register = step_detail::VectorRegister<Scalar>;
 
-    /// How far a body's points have gone at most, beside the drift, and that, m.
-    std::pair<Scalar, Vector> moves(const Bodies& bodies, Scalar time) const {
-        Scalar moved = 0;
-        const Vector gone = (time - time_) * drift_;
-        for (std::size_t b = 0; b < bodies.size(); ++b) {
-            const Pose<Scalar, Dim>& pose = bodies[b]->motion.next;
-            const Scalar turned = (pose.rotation - at_[b].rotation).norm();
-            Scalar most = (pose.position - at_[b].position - gone).norm();
-            if (turned > 0) most += turned * bodies[b]->extent();
-            moved = (std::max)(moved, most);
-        }
-        return {(std::min)(moved, (std::numeric_limits<Scalar>::max)()), gone};
-    }
     static bool was_outside(const std::vector<KnownPair>& known, const Pair& pair) {
         return std::binary_search(known.begin(), known.end(), KnownPair{pair.place, pair.body});
     }
@@ -199,6 +198,8 @@ private:
     std::vector<Pose<Scalar, Dim>> at_;
     Vector drift_ = Vector::Zero();
     Scalar time_ = 0;
+    Scalar moved_ = 0;  // how far a body's points have gone at most, beside the drift, m
+    Vector gone_ = Vector::Zero();  // and that, m
     bool built_ = false;
 };
 
