@@ -100,9 +100,9 @@ public:
     /// In the body's frame.
     virtual Surface<Scalar, Dim> surface(const Vector& y) const = 0;
     virtual Scalar extent() const = 0;
-    /// depth(place) of `count` places, m, at a pose.
-    virtual void depths(const PlaneAccess<Scalar, Dim>& x, Index count, const Place& pose,
-                        Scalar* depth) const = 0;
+    /// The depths of registers of places, m, at a pose. @param first  the first place of each
+    virtual void depths(const PlaneAccess<Scalar, Dim>& x, const Buffer<int>& first,
+                        const Place& pose, Scalar* depth) const = 0;
     /// A step of solo pairs: from what is at v, x without contact to what is with it.
     virtual void step(SoloPairs<Scalar, Dim>& pairs, const Penalty<Scalar>& penalty,
                       const Moving<Scalar, Dim>& moving, Tally<Scalar, Dim>& tally) const = 0;
@@ -133,12 +133,13 @@ public:
 
     Surface<Scalar, Dim> surface(const Vector& y) const override { return shape_.surface(y); }
     Scalar extent() const override { return shape_.extent(); }
-    void depths(const PlaneAccess<Scalar, Dim>& x, Index count, const Place& pose,
+    void depths(const PlaneAccess<Scalar, Dim>& x, const Buffer<int>& first, const Place& pose,
                 Scalar* depth) const override {
-        for (Index i = 0; i < count; i += Register::width) {
+        for (const int place : first) {
             Vectors at, normal;
-            for (int d = 0; d < Dim; ++d) at[d] = x.row(d, i);
-            query(at, pose, normal).store(depth + i);
+            for (int d = 0; d < Dim; ++d) at[d] = x.row(d, place);
+            query(at, pose, normal).store(depth);
+            depth += Register::width;
         }
     }
     void step(SoloPairs<Scalar, Dim>& pairs, const Penalty<Scalar>& penalty,

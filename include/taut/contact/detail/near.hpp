@@ -65,26 +65,37 @@ public:
         const Index padded = count + step_detail::max_width;
         const Scalar infinity = std::numeric_limits<Scalar>::infinity();
         slack_.assign(padded, infinity);
-        depth_.resize(padded);
         near_.assign(count, 0);
         found_.resize(bodies.size());
+        cluster(x, count);
         for (std::size_t b = 0; b < bodies.size(); ++b) {
             found_[b].clear();
-            bodies[b]->depths(x, count, bodies[b]->motion.next, depth_.data());
-            for (Index i = 0; i < count; i += Register::width) {
-                const Register away = -Register::load(depth_.data() + i);
-                const Register listed = Register(margin);
+            look_at_clusters(*bodies[b], 2 * margin);
+            depth_.resize(static_cast<Index>(close_.size()) * Register::width);
+            bodies[b]->depths(x, close_, bodies[b]->motion.next, depth_.data());
+            const Scalar* depth = depth_.data();
+            for (const int i : close_) {
+                const Register away = -Register::load(depth);
                 const Register slack = Register::load(slack_.data() + i);
-                const Register room = where_less(away, listed, Register(infinity), away);
+                const Register room = where_less(away, Register(margin), Register(infinity), away);
                 where_less(room, slack, room, slack).store(slack_.data() + i);
-                if (!(largest_lane(-away) > -margin)) continue;
-                const Index end = (std::min)(count, i + Register::width);
-                for (Index k = i; k < end; ++k) {
-                    if (!(-depth_[k] < margin) || !(mass[k] > 0)) continue;
-                    found_[b].push_back(static_cast<int>(k));
-                    ++near_[k];
+                const Index end = (std::min)(count - i, Index(Register::width));
+                if (!(largest_lane(-away) > -margin)) {
+                    depth += Register::width;
+                    continue;
                 }
+                for (Index k = 0; k < end; ++k) {
+                    if (!(-depth[k] < margin) || !(mass[i + k] > 0)) continue;
+                    found_[b].push_back(i + static_cast<int>(k));
+                    ++near_[i + k];
+                }
+                depth += Register::width;
             }
+        }
+        for (Index i = 0; i < count; i += Register::width) {
+            const Register slack = Register::load(slack_.data() + i);
+            const Register all(cluster_slack_[i / Register::width]);
+            where_less(all, slack, all, slack).store(slack_.data() + i);
         }
         shared_.clear();
         for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -167,6 +178,51 @@ public:
 private:
     using Register = step_detail::VectorRegister<Scalar>;
 
+    /// A ball around each register's worth of places.
+    void cluster(const Access& x, Index count) {
+        clusters_ = (count + Register::width - 1) / Register::width;
+        stride_ = (clusters_ + 2 * step_detail::max_width) / Register::width * Register::width;
+        centre_.assign(Dim * stride_, 0);
+        radius_.assign(stride_, 0);
+        cluster_slack_.assign(stride_, std::numeric_limits<Scalar>::infinity());
+        cluster_depth_.resize(stride_);
+        every_.clear();
+        for (Index c = 0; c < clusters_; c += Register::width)
+            every_.push_back(static_cast<int>(c));
+        for (Index c = 0; c < clusters_; ++c) {
+            const Index first = c * Register::width;
+            const Index last = (std::min)(count, first + Register::width) - 1;
+            Register radius2(Scalar(0));
+            for (int d = 0; d < Dim; ++d) {
+                const Scalar middle = (x(d, first) + x(d, last)) / 2;
+                centre_[d * stride_ + c] = middle;
+                const Register way = x.row(d, first) - Register(middle);
+                radius2 += way * way;
+            }
+            radius_[c] = std::sqrt(largest_lane(radius2));
+        }
+    }
+    /// Lists the clusters that may be within `far` of a body, m, and how far the others are.
+    void look_at_clusters(const Body<Scalar, Dim>& body, Scalar far) {
+        body.depths(Access(centre_.data(), stride_), every_, body.motion.next,
+                    cluster_depth_.data());
+        close_.clear();
+        for (Index c = 0; c < clusters_; c += Register::width) {
+            const Register away =
+                -(Register::load(cluster_depth_.data() + c) + Register::load(radius_.data() + c));
+            away.store(cluster_depth_.data() + c);
+            const Register slack = Register::load(cluster_slack_.data() + c);
+            const Register room = where_less(Register(far), away, away, slack);
+            where_less(room, slack, room, slack).store(cluster_slack_.data() + c);
+            if (!(largest_lane(-away) >= -far)) continue;
+            const Index end = (std::min)(clusters_, c + Register::width);
+            for (Index k = c; k < end; ++k) {
+                if (far < cluster_depth_[k]) continue;
+                close_.push_back(static_cast<int>(k * Register::width));
+            }
+        }
+    }
+
     static bool was_outside(const std::vector<KnownPair>& known, const Pair& pair) {
         return std::binary_search(known.begin(), known.end(), KnownPair{pair.place, pair.body});
     }
@@ -192,7 +248,13 @@ private:
     std::vector<Pair> shared_;        // by place
     std::vector<Buffer<int>> found_;  // of each body
     Buffer<Scalar> slack_;            // of each place, m
-    Buffer<Scalar> depth_;
+    Buffer<Scalar> depth_;            // of close_
+    Index clusters_ = 0, stride_ = 0;
+    Buffer<Scalar> centre_;               // planes, m
+    Buffer<Scalar> radius_;               // m
+    Buffer<Scalar> cluster_slack_;        // m
+    Buffer<Scalar> cluster_depth_;        // of one body, m
+    Buffer<int> every_, close_;           // first clusters of registers, first places of clusters
     Buffer<int> near_;                    // bodies that list it
     detail::Few<Buffer<Scalar>, Dim> x_;  // where they were, m
     std::vector<Pose<Scalar, Dim>> at_;
