@@ -256,7 +256,19 @@ private:
         for (std::size_t first = 0, end; first < shared.size(); first = end) {
             const int place = shared[first].place;
             for (end = first; end < shared.size() && shared[end].place == place;) ++end;
+            if (near_.away(moving.x, &shared[first], end - first)) {
+                shared[first].old = true;
+                continue;
+            }
             Vector x = moving.x.vector(place), v = moving.v.vector(place);
+            if (std::exchange(shared[first].old, false)) {
+                for (std::size_t k = first; k < end; ++k) {
+                    auto& pair = shared[k];
+                    const auto& body = *bodies_[static_cast<std::size_t>(pair.body)];
+                    pair.x = x - penalty_.h * v;
+                    pair.depth = body.depth(pair.x, body.motion.now, pair.normal);
+                }
+            }
             const Vector old_x = x, old_v = v;
             Scalar work = 0;
             if (solve_(bodies_, &shared[first], end - first, penalty_, x, v, work)) {

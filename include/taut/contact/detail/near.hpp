@@ -105,8 +105,9 @@ public:
             body.solo.resize(solos);
             Index next = 0;
             for (const int place : found_[b]) {
-                Pair pair{place, static_cast<int>(b), x.vector(place), {}, 0, infinity};
+                Pair pair{place, static_cast<int>(b), x.vector(place), {}, 0, infinity, 0, false};
                 pair.depth = body.depth(pair.x, body.motion.next, pair.normal);
+                pair.room = -pair.depth;
                 if (pair.depth > 0 && !was_outside(known, pair)) {
                     pair.cap = push_time * static_cast<Scalar>(body.options.push_out);
                 }
@@ -137,12 +138,14 @@ public:
     void go_to(const Bodies& bodies, Scalar time) {
         if (!built_) return;
         moved_ = 0;
+        moves_.resize(bodies.size());
         gone_ = (time - time_) * drift_;
         for (std::size_t b = 0; b < bodies.size(); ++b) {
             const Pose<Scalar, Dim>& pose = bodies[b]->motion.next;
             const Scalar turned = (pose.rotation - at_[b].rotation).norm();
             Scalar most = (pose.position - at_[b].position - gone_).norm();
             if (turned > 0) most += turned * bodies[b]->extent();
+            moves_[b] = most;
             moved_ = (std::max)(moved_, most);
         }
         moved_ = (std::min)(moved_, (std::numeric_limits<Scalar>::max)());
@@ -166,17 +169,32 @@ public:
     }
     /// The same of one particle, by place.
     bool holds_of(const Access& x, int place) const {
-        Scalar way2 = 0;
-        for (int d = 0; d < Dim; ++d) {
-            const Scalar way = x(d, place) - x_[d][place] - gone_[d];
-            way2 += way * way;
-        }
         const Scalar room = (std::max)(slack_[place] - moved_, Scalar(0));
-        return way2 < room * room;
+        return way2(x, place) < room * room;
+    }
+    /// Whether a particle has met none of the bodies that list it, by what was when they did.
+    /// @param pairs  all of the particle
+    bool away(const Access& x, const Pair* pairs, std::size_t count) const {
+        const Scalar way = way2(x, pairs->place);
+        for (std::size_t k = 0; k < count; ++k) {
+            const Scalar room = pairs[k].room - moves_[static_cast<std::size_t>(pairs[k].body)];
+            if (pairs[k].depth > 0 || !(room > 0) || !(way < room * room)) return false;
+        }
+        return true;
     }
 
 private:
     using Register = step_detail::VectorRegister<Scalar>;
+
+    /// The square of how far a particle has gone beside the drift, m².
+    Scalar way2(const Access& x, int place) const {
+        Scalar sum = 0;
+        for (int d = 0; d < Dim; ++d) {
+            const Scalar way = x(d, place) - x_[d][place] - gone_[d];
+            sum += way * way;
+        }
+        return sum;
+    }
 
     /// A ball around each register's worth of places.
     void cluster(const Access& x, Index count) {
@@ -260,7 +278,8 @@ private:
     std::vector<Pose<Scalar, Dim>> at_;
     Vector drift_ = Vector::Zero();
     Scalar time_ = 0;
-    Scalar moved_ = 0;  // how far a body's points have gone at most, beside the drift, m
+    Scalar moved_ = 0;      // how far a body's points have gone at most, beside the drift, m
+    Buffer<Scalar> moves_;  // of each body
     Vector gone_ = Vector::Zero();  // and that, m
     bool built_ = false;
 };

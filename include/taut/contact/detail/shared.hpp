@@ -20,6 +20,8 @@ struct SharedPair {
     Vector normal;  // n
     Scalar depth;   // p, m
     Scalar cap;     // p₁, m
+    Scalar room;    // how far the body was when it was listed, m
+    bool old;       // of a particle's first pair: x, normals and depths are of an earlier step
 };
 
 /// Contact of one particle with several bodies in one step: rounds of one block, m I + ½h²κ n′n′ᵀ
