@@ -76,6 +76,7 @@ public:
         drift_ = Vector::Zero();
         for (const auto& body : bodies_) {
             body->motion.go_to(body->begin);
+            body->way = {body->begin, body->end};
             drift_ += (body->end.position - body->begin.position) /
                       (frame * static_cast<Scalar>(bodies_.size()));
         }
@@ -173,7 +174,7 @@ public:
         penalty_.ahead = ahead;
         const Scalar share = (std::min)((time - begun_) / frame_, Scalar(1));
         for (const auto& body : bodies_) {
-            body->motion.go_to(contact_detail::between(body->begin, body->end, share));
+            body->motion.go_to(body->way(share));
         }
         near_.go_to(bodies_, time);
         bool known = near_.holds(moving.x, count);

@@ -116,7 +116,8 @@ public:
     }
 
     BodyOptions options;
-    Place begin, end;  // of the frame
+    Place begin, end;      // of the frame
+    Way<Scalar, Dim> way;  // from one to the other
     Motion<Scalar, Dim> motion;
     SoloPairs<Scalar, Dim> solo;
 };
