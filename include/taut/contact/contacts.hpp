@@ -80,6 +80,10 @@ public:
             drift_ += (body->end.position - body->begin.position) /
                       (frame * static_cast<Scalar>(bodies_.size()));
         }
+        // Far enough for some part of a frame in which bodies hurry, and a short list where not.
+        Scalar most = 0;
+        for (const auto& body : bodies_) most = (std::max)(most, body->far(frame * drift_));
+        margin_ = (std::min)((std::max)(most / 8, Scalar(0.004)), Scalar(0.01));
     }
     /// What the last try of a frame came to: keeps it, as try 0 or 1.
     void end(int which) {
@@ -324,7 +328,7 @@ private:
     const System* system_;
     std::uint64_t revision_ = 0;    // of what longest_ belongs to, and one
     Scalar longest_ = 0;            // step of energy_limit, s
-    Scalar margin_ = Scalar(0.01);  // m
+    Scalar margin_ = 0;             // m, of the frame
     Scalar frame_ = 0, begun_ = 0;  // s
     contact_detail::Penalty<Scalar> penalty_{};
     Vector drift_ = Vector::Zero();

@@ -115,6 +115,13 @@ public:
         return thickness() - found.distance;
     }
 
+    /// How far a point of it goes at most in the frame, beside a way of everything, m.
+    Scalar far(const Vector& beside) const {
+        const Scalar turned = (end.rotation - begin.rotation).norm();
+        return (end.position - begin.position - beside).norm() +
+               (turned > 0 ? turned * extent() : Scalar(0));
+    }
+
     BodyOptions options;
     Place begin, end;      // of the frame
     Way<Scalar, Dim> way;  // from one to the other
