@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "../../step/layout.hpp"
 #include "../pose.hpp"
@@ -73,6 +74,14 @@ public:
     }
     /// Those of a register's worth of places.
     EIGEN_ALWAYS_INLINE Register gather(int d, const int* places) const {
+#if defined(EIGEN_VECTORIZE_AVX512)
+        if constexpr (std::is_same_v<Scalar, float> && Register::width == 16) {
+            if (grain_ == 1) {
+                return Register::of(_mm512_i32gather_ps(_mm512_loadu_si512(places),
+                                                        first_ + d * axis_, sizeof(float)));
+            }
+        }
+#endif
         detail::Few<Scalar, Register::width> lanes;
         for (int k = 0; k < Register::width; ++k) lanes[k] = (*this)(d, places[k]);
         return Register::load(lanes.data());
