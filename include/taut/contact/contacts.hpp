@@ -76,9 +76,14 @@ public:
         drift_ = Vector::Zero();
         for (const auto& body : bodies_) {
             body->motion.go_to(body->begin);
+            body->way = {body->begin, body->end};
             drift_ += (body->end.position - body->begin.position) /
                       (frame * static_cast<Scalar>(bodies_.size()));
         }
+        // Far enough for some part of a frame in which bodies hurry, and a short list where not.
+        Scalar most = 0;
+        for (const auto& body : bodies_) most = (std::max)(most, body->far(frame * drift_));
+        margin_ = (std::min)((std::max)(most / 8, Scalar(0.004)), Scalar(0.01));
     }
     /// What the last try of a frame came to: keeps it, as try 0 or 1.
     void end(int which) {
@@ -174,17 +179,19 @@ public:
         penalty_.ahead = ahead;
         const Scalar share = (std::min)((time - begun_) / frame_, Scalar(1));
         for (const auto& body : bodies_) {
-            body->motion.go_to(contact_detail::between(body->begin, body->end, share));
+            body->motion.go_to(body->way(share));
         }
-        bool known = near_.holds(bodies_, moving.x, count, time);
+        near_.go_to(bodies_, time);
+        bool known = near_.holds(moving.x, count);
         for (Scalar margin = margin_;; margin *= 4) {
             if (!known) {
                 look_back(layout, planes, time, margin);
-                known = near_.holds(bodies_, moving.x, count, time);
+                near_.go_to(bodies_, time);
+                known = near_.holds(moving.x, count);
                 if (!known) continue;
             }
             touch(moving);
-            if (pushed_in_reach(moving.x, time)) break;
+            if (pushed_in_reach(moving.x)) break;
             undo(moving);
             known = false;
         }
@@ -263,8 +270,7 @@ private:
         for (const auto& body : bodies_) std::swap(body->motion.now, body->motion.next);
     }
     /// Whether those that were touched have met no body that does not list them.
-    bool pushed_in_reach(const Access& x, Scalar time) const {
-        const auto leeway = near_.leeway(bodies_, time);
+    bool pushed_in_reach(const Access& x) const {
         const Register zero(Scalar(0)), below(Scalar(-1));
         for (const auto& body : bodies_) {
             const auto& hits = body->hits;
@@ -272,13 +278,13 @@ private:
             for (Index k = 0; k < hits.count; ++k) {
                 const Register touched = Register::load(hits.touched.data() + k * Register::width);
                 const Index place = body->solo.first[hits.block[k]];
-                const Register beyond = near_.beyond(leeway.first, leeway.second, x, place);
+                const Register beyond = near_.beyond(x, place);
                 worst = larger(worst, where_less(zero, touched, beyond, below));
             }
             if (!(contact_detail::largest_lane(worst) < 0)) return false;
         }
         for (const auto& touched : touched_) {
-            if (!near_.holds(leeway, x, touched.place)) return false;
+            if (!near_.holds_of(x, touched.place)) return false;
         }
         return true;
     }
@@ -292,8 +298,20 @@ private:
         for (std::size_t first = 0, end; first < shared.size(); first = end) {
             const int place = shared[first].place;
             for (end = first; end < shared.size() && shared[end].place == place;) ++end;
+            if (near_.away(moving.x, &shared[first], end - first)) {
+                shared[first].old = true;
+                continue;
+            }
             Touched touched{place, moving.x.vector(place), moving.v.vector(place), 0, {}};
             Vector x = touched.x, v = touched.v;
+            if (std::exchange(shared[first].old, false)) {
+                for (std::size_t k = first; k < end; ++k) {
+                    auto& pair = shared[k];
+                    const auto& body = *bodies_[static_cast<std::size_t>(pair.body)];
+                    pair.x = x - penalty_.h * v;
+                    pair.depth = body.depth(pair.x, body.motion.now, pair.normal);
+                }
+            }
             Scalar work = 0;
             const bool touches = solve_(bodies_, &shared[first], end - first, penalty_, x, v, work);
             if (touches) {
@@ -368,7 +386,7 @@ private:
     const System* system_;
     std::uint64_t revision_ = 0;    // of what longest_ belongs to, and one
     Scalar longest_ = 0;            // step of energy_limit, s
-    Scalar margin_ = Scalar(0.01);  // m
+    Scalar margin_ = 0;             // m, of the frame
     Scalar frame_ = 0, begun_ = 0;  // s
     contact_detail::Penalty<Scalar> penalty_{};
     Vector drift_ = Vector::Zero();

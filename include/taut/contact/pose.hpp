@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "../core/types.hpp"
 
@@ -25,25 +26,44 @@ struct Pose {
 
 namespace contact_detail {
 
-/// The pose a share of the way from one to another: along the straight line, about one axis.
-template <class Scalar>
-Pose<Scalar, 3> between(const Pose<Scalar, 3>& from, const Pose<Scalar, 3>& to, Scalar share) {
-    using Quaternion = Eigen::Quaternion<Scalar>;
-    const Quaternion rotation =
-        Quaternion(from.rotation).slerp(share, Quaternion(to.rotation)).normalized();
-    return {from.position + share * (to.position - from.position), rotation.toRotationMatrix()};
-}
-template <class Scalar>
-Pose<Scalar, 2> between(const Pose<Scalar, 2>& from, const Pose<Scalar, 2>& to, Scalar share) {
-    const Eigen::Matrix<Scalar, 2, 2> turn = to.rotation * from.rotation.transpose();
-    const Scalar angle = share * std::atan2(turn(1, 0), turn(0, 0));
-    return {from.position + share * (to.position - from.position),
-            Eigen::Rotation2D<Scalar>(angle).toRotationMatrix() * from.rotation};
-}
-template <class Scalar>
-Pose<Scalar, 1> between(const Pose<Scalar, 1>& from, const Pose<Scalar, 1>& to, Scalar share) {
-    return {from.position + share * (to.position - from.position), from.rotation};
-}
+/// The way from one pose to another, along the straight line and about one axis: what depends on
+/// these two alone is computed once.
+template <class Scalar, int Dim>
+class Way {
+public:
+    using Place = Pose<Scalar, Dim>;
+
+    Way() = default;
+    Way(const Place& from, const Place& to) : from_(from), shift_(to.position - from.position) {
+        const typename Place::Rotation turn = to.rotation * from.rotation.transpose();
+        if constexpr (Dim == 2) angle_ = std::atan2(turn(1, 0), turn(0, 0));
+        if constexpr (Dim == 3) {
+            const Eigen::AngleAxis<Scalar> by(turn);
+            angle_ = by.angle();
+            axis_ = by.axis();
+        }
+    }
+    /// @param share  of the way
+    Place operator()(Scalar share) const {
+        Place place{from_.position + share * shift_, from_.rotation};
+        if (angle_ == 0) return place;
+        if constexpr (Dim == 2) {
+            place.rotation =
+                Eigen::Rotation2D<Scalar>(share * angle_).toRotationMatrix() * from_.rotation;
+        }
+        if constexpr (Dim == 3) {
+            place.rotation =
+                Eigen::AngleAxis<Scalar>(share * angle_, axis_).toRotationMatrix() * from_.rotation;
+        }
+        return place;
+    }
+
+private:
+    Place from_;
+    typename Place::Vector shift_ = Place::Vector::Zero();  // m
+    typename Place::Vector axis_ = Place::Vector::Unit(0);
+    Scalar angle_ = 0;
+};
 
 }  // namespace contact_detail
 }  // namespace taut

@@ -77,9 +77,9 @@ public:
     /// In the body's frame.
     virtual Surface<Scalar, Dim> surface(const Vector& y) const = 0;
     virtual Scalar extent() const = 0;
-    /// depth(place) of `count` places, m, at a pose.
-    virtual void depths(const PlaneAccess<Scalar, Dim>& x, Index count, const Place& pose,
-                        Scalar* depth) const = 0;
+    /// The depths of registers of places, m, at a pose. @param first  the first place of each
+    virtual void depths(const PlaneAccess<Scalar, Dim>& x, const Buffer<int>& first,
+                        const Place& pose, Scalar* depth) const = 0;
     /// A step of solo pairs: from what is at v, x without contact to what is with it.
     virtual void step(const Penalty<Scalar>& penalty, const Moving<Scalar, Dim>& moving,
                       Touching<Scalar>& touching) = 0;
@@ -92,8 +92,16 @@ public:
         return thickness() - found.distance;
     }
 
+    /// How far a point of it goes at most in the frame, beside a way of everything, m.
+    Scalar far(const Vector& beside) const {
+        const Scalar turned = (end.rotation - begin.rotation).norm();
+        return (end.position - begin.position - beside).norm() +
+               (turned > 0 ? turned * extent() : Scalar(0));
+    }
+
     BodyOptions options;
-    Place begin, end;  // of the frame
+    Place begin, end;      // of the frame
+    Way<Scalar, Dim> way;  // from one to the other
     Motion<Scalar, Dim> motion;
     SoloPairs<Scalar, Dim> solo;
     Hits<Scalar, Dim> hits;
@@ -111,12 +119,13 @@ public:
 
     Surface<Scalar, Dim> surface(const Vector& y) const override { return shape_.surface(y); }
     Scalar extent() const override { return shape_.extent(); }
-    void depths(const PlaneAccess<Scalar, Dim>& x, Index count, const Place& pose,
+    void depths(const PlaneAccess<Scalar, Dim>& x, const Buffer<int>& first, const Place& pose,
                 Scalar* depth) const override {
-        for (Index i = 0; i < count; i += Register::width) {
+        for (const int place : first) {
             Vectors at, normal;
-            for (int d = 0; d < Dim; ++d) at[d] = x.row(d, i);
-            query(at, pose, normal).store(depth + i);
+            for (int d = 0; d < Dim; ++d) at[d] = x.row(d, place);
+            query(at, pose, normal).store(depth);
+            depth += Register::width;
         }
     }
     void step(const Penalty<Scalar>& penalty, const Moving<Scalar, Dim>& moving,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "../../step/layout.hpp"
 #include "../pose.hpp"
@@ -52,6 +53,8 @@ public:
         : first_(planes.first),
           axis_(layout.has_stars() ? 1 : planes.stride),
           grain_(layout.grain()) {}
+    /// Planes side by side. @param axis  from one plane to the next
+    PlaneAccess(Scalar* first, Index axis) : first_(first), axis_(axis), grain_(1) {}
 
     Scalar& operator()(int d, Index place) const { return first_[d * axis_ + place * grain_]; }
     Eigen::Matrix<Scalar, Dim, 1> vector(Index place) const {

@@ -32,7 +32,6 @@ public:
     using Pair = SharedPair<Scalar, Dim>;
     using Access = PlaneAccess<Scalar, Dim>;
 
-    using Leeway = std::pair<Scalar, Vector>;
     using Register = step_detail::VectorRegister<Scalar>;
 
     std::vector<Pair>& shared() { return shared_; }
@@ -70,26 +69,37 @@ public:
         const Index padded = count + step_detail::max_width;
         const Scalar infinity = std::numeric_limits<Scalar>::infinity();
         slack_.assign(padded, infinity);
-        depth_.resize(padded);
         near_.assign(count, 0);
         found_.resize(bodies.size());
+        cluster(x, count);
         for (std::size_t b = 0; b < bodies.size(); ++b) {
             found_[b].clear();
-            bodies[b]->depths(x, count, bodies[b]->motion.next, depth_.data());
-            for (Index i = 0; i < count; i += Register::width) {
-                const Register away = -Register::load(depth_.data() + i);
-                const Register listed = Register(margin);
+            look_at_clusters(*bodies[b], 2 * margin);
+            depth_.resize(static_cast<Index>(close_.size()) * Register::width);
+            bodies[b]->depths(x, close_, bodies[b]->motion.next, depth_.data());
+            const Scalar* depth = depth_.data();
+            for (const int i : close_) {
+                const Register away = -Register::load(depth);
                 const Register slack = Register::load(slack_.data() + i);
-                const Register room = where_less(away, listed, Register(infinity), away);
+                const Register room = where_less(away, Register(margin), Register(infinity), away);
                 where_less(room, slack, room, slack).store(slack_.data() + i);
-                if (!(largest_lane(-away) > -margin)) continue;
-                const Index end = (std::min)(count, i + Register::width);
-                for (Index k = i; k < end; ++k) {
-                    if (!(-depth_[k] < margin) || !(mass[k] > 0)) continue;
-                    found_[b].push_back(static_cast<int>(k));
-                    ++near_[k];
+                const Index end = (std::min)(count - i, Index(Register::width));
+                if (!(largest_lane(-away) > -margin)) {
+                    depth += Register::width;
+                    continue;
                 }
+                for (Index k = 0; k < end; ++k) {
+                    if (!(-depth[k] < margin) || !(mass[i + k] > 0)) continue;
+                    found_[b].push_back(i + static_cast<int>(k));
+                    ++near_[i + k];
+                }
+                depth += Register::width;
             }
+        }
+        for (Index i = 0; i < count; i += Register::width) {
+            const Register slack = Register::load(slack_.data() + i);
+            const Register all(cluster_slack_[i / Register::width]);
+            where_less(all, slack, all, slack).store(slack_.data() + i);
         }
         shared_.clear();
         for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -97,8 +107,9 @@ public:
             int end = -1;  // of the last block
             body.solo.blocks = 0;
             for (const int place : found_[b]) {
-                Pair pair{place, static_cast<int>(b), x.vector(place), {}, 0, infinity};
+                Pair pair{place, static_cast<int>(b), x.vector(place), {}, 0, infinity, 0, false};
                 pair.depth = body.depth(pair.x, body.motion.next, pair.normal);
+                pair.room = -pair.depth;
                 if (pair.depth > 0 && !was_outside(known, pair)) {
                     pair.cap = push_time * static_cast<Scalar>(body.options.push_out);
                 }
@@ -127,53 +138,113 @@ public:
         for (const auto& body : bodies) at_.push_back(body->motion.next);
     }
 
-    /// How far a body's points have gone at most, beside the drift, and that, m.
-    Leeway leeway(const Bodies& bodies, Scalar time) const {
-        Scalar moved = 0;
-        const Vector gone = (time - time_) * drift_;
+    /// The bodies are at motion.next, at that time, s: what holds() asks about.
+    void go_to(const Bodies& bodies, Scalar time) {
+        if (!built_) return;
+        moved_ = 0;
+        moves_.resize(bodies.size());
+        gone_ = (time - time_) * drift_;
         for (std::size_t b = 0; b < bodies.size(); ++b) {
             const Pose<Scalar, Dim>& pose = bodies[b]->motion.next;
             const Scalar turned = (pose.rotation - at_[b].rotation).norm();
-            Scalar most = (pose.position - at_[b].position - gone).norm();
+            Scalar most = (pose.position - at_[b].position - gone_).norm();
             if (turned > 0) most += turned * bodies[b]->extent();
-            moved = (std::max)(moved, most);
+            moves_[b] = most;
+            moved_ = (std::max)(moved_, most);
         }
-        return {(std::min)(moved, (std::numeric_limits<Scalar>::max)()), gone};
+        moved_ = (std::min)(moved_, (std::numeric_limits<Scalar>::max)());
     }
-    /// Whether no particle can have met a body that does not list it, at places x and motion.next.
-    bool holds(const Bodies& bodies, const Access& x, Index count, Scalar time) const {
+    /// Whether no particle can have met a body that does not list it, at places x.
+    bool holds(const Access& x, Index count) const {
         if (!built_) return false;
-        const auto [moved, gone] = leeway(bodies, time);
         Register worst(-std::numeric_limits<Scalar>::infinity());
-        for (Index i = 0; i < count; i += Register::width)
-            worst = larger(worst, beyond(moved, gone, x, i));
+        for (Index i = 0; i < count; i += Register::width) worst = larger(worst, beyond(x, i));
         return largest_lane(worst) < 0;
     }
     /// ≥ 0 where that may be so, of a register of places.
-    EIGEN_ALWAYS_INLINE Register beyond(Scalar moved, const Vector& gone, const Access& x,
-                                        Index i) const {
+    EIGEN_ALWAYS_INLINE Register beyond(const Access& x, Index i) const {
         const Register zero(Scalar(0));
         Register way2 = zero;
         for (int d = 0; d < Dim; ++d) {
-            const Register way = x.row(d, i) - Register::load(x_[d].data() + i) - Register(gone[d]);
+            const Register way =
+                x.row(d, i) - Register::load(x_[d].data() + i) - Register(gone_[d]);
             way2 += way * way;
         }
-        const Register room = larger(Register::load(slack_.data() + i) - Register(moved), zero);
+        const Register room = larger(Register::load(slack_.data() + i) - Register(moved_), zero);
         return way2 - room * room;
     }
     /// The same of one particle, by place.
-    bool holds(const Leeway& leeway, const Access& x, int place) const {
-        const auto& [moved, gone] = leeway;
-        Scalar way2 = 0;
-        for (int d = 0; d < Dim; ++d) {
-            const Scalar way = x(d, place) - x_[d][place] - gone[d];
-            way2 += way * way;
+    bool holds_of(const Access& x, int place) const {
+        const Scalar room = (std::max)(slack_[place] - moved_, Scalar(0));
+        return way2(x, place) < room * room;
+    }
+    /// Whether a particle has met none of the bodies that list it, by what was when they did.
+    /// @param pairs  all of the particle
+    bool away(const Access& x, const Pair* pairs, std::size_t count) const {
+        const Scalar way = way2(x, pairs->place);
+        for (std::size_t k = 0; k < count; ++k) {
+            const Scalar room = pairs[k].room - moves_[static_cast<std::size_t>(pairs[k].body)];
+            if (pairs[k].depth > 0 || !(room > 0) || !(way < room * room)) return false;
         }
-        const Scalar room = (std::max)(slack_[place] - moved, Scalar(0));
-        return way2 < room * room;
+        return true;
     }
 
 private:
+    /// The square of how far a particle has gone beside the drift, m².
+    Scalar way2(const Access& x, int place) const {
+        Scalar sum = 0;
+        for (int d = 0; d < Dim; ++d) {
+            const Scalar way = x(d, place) - x_[d][place] - gone_[d];
+            sum += way * way;
+        }
+        return sum;
+    }
+
+    /// A ball around each register's worth of places.
+    void cluster(const Access& x, Index count) {
+        clusters_ = (count + Register::width - 1) / Register::width;
+        stride_ = (clusters_ + 2 * step_detail::max_width) / Register::width * Register::width;
+        centre_.assign(Dim * stride_, 0);
+        radius_.assign(stride_, 0);
+        cluster_slack_.assign(stride_, std::numeric_limits<Scalar>::infinity());
+        cluster_depth_.resize(stride_);
+        every_.clear();
+        for (Index c = 0; c < clusters_; c += Register::width)
+            every_.push_back(static_cast<int>(c));
+        for (Index c = 0; c < clusters_; ++c) {
+            const Index first = c * Register::width;
+            const Index last = (std::min)(count, first + Register::width) - 1;
+            Register radius2(Scalar(0));
+            for (int d = 0; d < Dim; ++d) {
+                const Scalar middle = (x(d, first) + x(d, last)) / 2;
+                centre_[d * stride_ + c] = middle;
+                const Register way = x.row(d, first) - Register(middle);
+                radius2 += way * way;
+            }
+            radius_[c] = std::sqrt(largest_lane(radius2));
+        }
+    }
+    /// Lists the clusters that may be within `far` of a body, m, and how far the others are.
+    void look_at_clusters(const Body<Scalar, Dim>& body, Scalar far) {
+        body.depths(Access(centre_.data(), stride_), every_, body.motion.next,
+                    cluster_depth_.data());
+        close_.clear();
+        for (Index c = 0; c < clusters_; c += Register::width) {
+            const Register away =
+                -(Register::load(cluster_depth_.data() + c) + Register::load(radius_.data() + c));
+            away.store(cluster_depth_.data() + c);
+            const Register slack = Register::load(cluster_slack_.data() + c);
+            const Register room = where_less(Register(far), away, away, slack);
+            where_less(room, slack, room, slack).store(cluster_slack_.data() + c);
+            if (!(largest_lane(-away) >= -far)) continue;
+            const Index end = (std::min)(clusters_, c + Register::width);
+            for (Index k = c; k < end; ++k) {
+                if (far < cluster_depth_[k]) continue;
+                close_.push_back(static_cast<int>(k * Register::width));
+            }
+        }
+    }
+
     static bool was_outside(const std::vector<KnownPair>& known, const Pair& pair) {
         return std::binary_search(known.begin(), known.end(), KnownPair{pair.place, pair.body});
     }
@@ -202,12 +273,21 @@ private:
     std::vector<Pair> shared_;        // by place
     std::vector<Buffer<int>> found_;  // of each body
     Buffer<Scalar> slack_;            // of each place, m
-    Buffer<Scalar> depth_;
+    Buffer<Scalar> depth_;            // of close_
+    Index clusters_ = 0, stride_ = 0;
+    Buffer<Scalar> centre_;               // planes, m
+    Buffer<Scalar> radius_;               // m
+    Buffer<Scalar> cluster_slack_;        // m
+    Buffer<Scalar> cluster_depth_;        // of one body, m
+    Buffer<int> every_, close_;           // first clusters of registers, first places of clusters
     Buffer<int> near_;                    // bodies that list it
     detail::Few<Buffer<Scalar>, Dim> x_;  // where they were, m
     std::vector<Pose<Scalar, Dim>> at_;
     Vector drift_ = Vector::Zero();
     Scalar time_ = 0;
+    Scalar moved_ = 0;      // how far a body's points have gone at most, beside the drift, m
+    Buffer<Scalar> moves_;  // of each body
+    Vector gone_ = Vector::Zero();  // and that, m
     bool built_ = false;
 };
 

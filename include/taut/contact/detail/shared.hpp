@@ -20,6 +20,8 @@ struct SharedPair {
     Vector normal;  // n
     Scalar depth;   // p, m
     Scalar cap;     // p₁, m
+    Scalar room;    // how far the body was when it was listed, m
+    bool old;       // of a particle's first pair: x, normals and depths are of an earlier step
 };
 
 /// Contact of one particle with several bodies in one step: rounds of one block, m I + ½h²κ n′n′ᵀ
@@ -105,6 +107,21 @@ private:
         return penalty.by_mass * (a.push - penalty.h / 2 * a.normal.dot(v - a.speed));
     }
     Vector solved(const Penalty<Scalar>& penalty, const Vector& before) const {
+        const Active* only = nullptr;
+        int pushing = 0;
+        for (const Active& a : active_) {
+            if (!a.in) continue;
+            only = &a;
+            ++pushing;
+        }
+        if (pushing == 1) {  // along n′ and across it
+            const Vector w = before - only->speed;
+            const Scalar into = only->normal.dot(w);
+            const Scalar out =
+                (into + penalty.h * penalty.by_mass * only->push) / (1 + penalty.block());
+            return only->speed + out * only->normal +
+                   (w - into * only->normal) / (1 + penalty.h * only->drag);
+        }
         Matrix A = Matrix::Identity();
         Vector b = before;
         for (const Active& a : active_) {
