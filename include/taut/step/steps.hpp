@@ -27,12 +27,30 @@ public:
 
     /// Whether a force asks for the whole state before every step.
     bool asks_for_state() const { return static_cast<bool>(forces_->whole); }
-    /// What that force and the constant ones are at a state, N; empty planes for none.
-    Planes<Scalar> at_state(const Layout<Scalar>& layout, const StatePlanes<Scalar>& planes);
+    /// Asks that force, where there is one, and adds the constant ones.
+    /// @param first  whether planes may have changed since the last step
+    void ask(const Layout<Scalar>& layout, const StatePlanes<Scalar>& planes, bool first);
+    /// What ask() found on a tile's places, N; empty planes for nothing.
+    /// @param room  for planes of a tile
+    Planes<Scalar> on_tile(const Layout<Scalar>& layout, Places of,
+                           const Planes<Scalar>& room) const {
+        if (!by_tile_) return found_.first ? found_.at(of.first * layout.grain()) : found_;
+        layout.to_planes(force_, room, of);
+        return room;
+    }
+    /// Takes what the force sees next of a tile's places, while they are in the first cache.
+    /// @returns whether that is known to be finite
+    bool moved(const Layout<Scalar>& layout, Places of, const StatePlanes<Scalar>& planes) {
+        if (!by_tile_) return false;
+        layout.from_planes(planes.new_x.at(of.first), state_.x, of);
+        layout.from_planes(planes.new_v.at(of.first), state_.v, of);
+        return detail::all_finite(state_.x.data() + Dim * of.first, Dim * of.count) &&
+               detail::all_finite(state_.v.data() + Dim * of.first, Dim * of.count);
+    }
 
     /// What the force of the whole state was last asked at; null without one.
     const State<Scalar, Dim>* state() const { return asks_for_state() ? &state_ : nullptr; }
-    /// All that at_state() last gave, N; null where a force is missing in it.
+    /// All that ask() last found, N; null where a force is missing in it.
     const Points<Scalar, Dim>* force() const {
         return asks_for_state() && !forces_->outside ? &force_ : nullptr;
     }
@@ -42,6 +60,8 @@ private:
     State<Scalar, Dim> state_;                             // what a force of the whole state sees
     Points<Scalar, Dim> force_;                            // N
     Buffer<Scalar> planes_;                                // N
+    Planes<Scalar> found_;  // these, if there is something and not by_tile_
+    bool by_tile_ = false;  // whether state_ and force_ have copies in planes tile by tile
 };
 
 /// Sees the states between the steps of a sweep, from the first to the last.
@@ -121,12 +141,15 @@ private:
     static constexpr Index steps_between_checks = 64;
     /// A register may begin before its block or end behind it.
     static constexpr Index scratch_stride = most_of_block + most_of_block / 16;
+    /// Three vectors of a block's places, and the external forces on those of a tile.
+    static constexpr Index tile_stride = tile_size + 2 * max_width;
+    static constexpr Index scratch_size = Dim * (3 * scratch_stride + tile_stride);
 
     /// Puts the state back after `count` steps.
     template <class AnyState>
     void store(const Layout<Scalar>& layout, Scalar h, Index count, AnyState& state) const {
-        layout.from_planes(state_.planes().x, state.x);
-        layout.from_planes(state_.planes().v, state.v);
+        layout.from_planes(state_.planes().x, state.x, layout.all());
+        layout.from_planes(state_.planes().v, state.v, layout.all());
         for (Index i = 0; i < count; ++i) state.time += h;
     }
     void show(const Layout<Scalar>& layout, const State<Scalar, Dim>* state,
@@ -138,9 +161,10 @@ private:
     }
     /// @returns whether all is finite
     bool steps(const Forces& forces, Scalar h, Index count, int threads, Move move);
-    void some_steps(const Forces& forces, Scalar h, Index count, int threads, Move move);
-    void step_block(const Forces& forces, const StatePlanes<Scalar>& planes, int block, Scalar h,
-                    Scalar* scratch, Move move) const;
+    /// @returns whether the last state is known to be finite
+    bool some_steps(const Forces& forces, Scalar h, Index count, int threads, Move move);
+    bool step_block(const Forces& forces, const StatePlanes<Scalar>& planes, int block, Scalar h,
+                    Scalar* scratch, Move move);
 
     StateMemory<Scalar> state_;
     PlaceUpdate<Scalar> update_;
@@ -173,8 +197,8 @@ void Steps<Scalar, Dim>::load(const Surroundings<Scalar, Dim>& surroundings,
         update_.load_masses(layout, surroundings.inverse_mass);
         masses_ = surroundings.revision;
     }
-    layout.to_planes(state.x, state_.planes().x);
-    layout.to_planes(state.v, state_.planes().v);
+    layout.to_planes(state.x, state_.planes().x, layout.all());
+    layout.to_planes(state.v, state_.planes().v, layout.all());
     ahead_ = ahead;
     if (ahead > 0) state_.look_ahead(ahead);
     outside_.begin(surroundings.external, static_cast<Scalar>(state.time));
@@ -238,7 +262,7 @@ bool Steps<Scalar, Dim>::run_corrected(const Forces& forces, AnyState& state, Sc
     if (places_.empty()) places_ = forces.layout().places();
     for (Index i = 1; i <= count; ++i) {
         if (Ahead && i > 1) state_.look_ahead(h);
-        update_.set_external(outside_.at_state(forces.layout(), state_.planes()));
+        outside_.ask(forces.layout(), state_.planes(), true);
         some_steps(forces, h, 1, threads,
                    &PlaceUpdate<Scalar>::template move<VerletUpdate<0, true>>);
         const StatePlanes<Scalar> planes = state_.planes();
