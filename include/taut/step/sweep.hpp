@@ -2,22 +2,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The explicit steps of springs, as this folder takes them. The page goes from what a step costs to
-// what becomes of each spring, and ends with the folder's words.
-//
+// The explicit steps of springs, from what a step costs to what becomes of each spring.
 //
 // 1. What a step costs
-//
 // A spring takes some dozens of operations. A vector register does several of each at once, if the
 // numbers lie side by side in memory. In a plain loop over springs they do not: both ends are
-// looked up by index, a coordinate at a time, and each addition to a force may
-// wait for the store of the one before. So particles lie in planes, one array a coordinate (but see
-// 7), and springs are sorted once so that a step reads memory forwards: a plan, which lasts until
-// the springs change. A state is converted once a call, however many steps it takes.
-//
+// looked up by index, a coordinate at a time, and each addition to a force may wait for the store
+// of the one before. So particles lie in planes, one array a coordinate (but see 7), and springs
+// are sorted once so that a step reads memory forwards: a plan, which lasts until the springs
+// change. A state is converted once a call, however many steps it takes.
 //
 // 2. Places, tiles, blocks
-//
 //   place  0        256      512           1792                          3584
 //          +--------+--------+---     -----+--------+---        ---------+---
 //   x  x0  | tile 0 | tile 1 |     ...     | tile 7 |        ...         |  ...
@@ -35,9 +30,7 @@
 // spring that touches it has been computed: its own and those of tiles before. One that comes from
 // an earlier block goes with the first tile of the block.
 //
-//
 // 3. Runs, gaps, segments
-//
 //    0---1---2---3---4     offset 1   a   0  1  2  3  .  5  6  7  8  .  10 11 12 13
 //    |   |   |   |   |                b   1  2  3  4  .  6  7  8  9  .  11 12 13 14
 //    5---6---7---8---9
@@ -51,9 +44,7 @@
 // Where springs leave their block there are two: one adds the forces on the ends a, in the tile of
 // a; the other those on the ends b, in the block of b.
 //
-//
 // 4. What a thread reads and writes
-//
 //        spring_x, v of the old step, of any place        the plan
 //                                |                           |
 //                                v                           v
@@ -79,25 +70,19 @@
 // other forces reach have taken the last one. So a large scene comes from memory once in several
 // steps.
 //
-//
 // 5. What a register holds
-//
 // One quantity of consecutive springs, a lane each: a coordinate of dx, a rest length, a stiffness.
 // In the update, one of consecutive places. Its width is what the compiler's flags allow. A law
 // that is plain arithmetic (Law::vectorizable) takes a register for its Scalar; another one is
 // asked lane by lane. Whole registers touch some scalars beyond the last place: the padding.
 //
-//
 // 6. Springs that fit no run
-//
 // Scattered springs come in batches, each of which touches few places. Those are gathered, copied
 // to where one load finds all coordinates; coefficients are computed by whole registers, and forces
 // are summed for each copy and added to the block at the end. Where too many are scattered,
 // particles get an order that brings ends together before runs are sought again.
 //
-//
 // 7. Stars
-//
 //           tip                   point    x  y  z  0
 //            |                    hub      .  .  .  .
 //     tip---hub---tip             tips     .  .  .  .     four differences, twelve squares;
@@ -114,14 +99,10 @@
 // and forces on other blocks go behind the block's last place. The others go with a tile that none
 // of their places comes before, in the order of hubs. Registers are no wider than 32 bytes here.
 //
-//
 // 8. What is compiled once
-//
 // Plans are made of indices alone (Planner), places are the same for all laws (Layout, PlaceUpdate,
 // Steps), and a law has its table and loops (LawPlan). They meet at a tile's forces: a virtual
-// call. Taut::Compiled has some functions (TAUT_BY_KERNEL) for wider registers, too, and takes
-// those of the processor, so its plans fit these (planned_width).
-//
+// call. Taut::Compiled has what asks TAUT_BY_KERNEL for wider registers, too.
 //
 // Words, each for one thing
 //
