@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include "by_kernel.hpp"
 #include "kernels.hpp"
 
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <cstring>
 #include <iterator>
 #include <taut/kernels.hpp>
@@ -89,16 +91,29 @@ const Kernels& current() {
 
 }  // namespace
 
-template <>
-int planned_width<float>() {
-    return (std::max)(VectorRegister<float>::width, widest().bytes / 4);
-}
-template <>
-int planned_width<double>() {
-    return (std::max)(VectorRegister<double>::width, widest().bytes / 8);
-}
+int planned_width(float) { return (std::max)(VectorRegister<float>::width, widest().bytes / 4); }
+int planned_width(double) { return (std::max)(VectorRegister<double>::width, widest().bytes / 8); }
 
 }  // namespace step_detail
+
+// A cache line's alignment, so that no register lies across two, for Eigen's aligned_free.
+void* detail::regrow(void* old, std::size_t used, std::size_t bytes) {
+    [[maybe_unused]] constexpr std::size_t line = 64;
+    void* grown = nullptr;
+    if (bytes > 0) {
+#if EIGEN_DEFAULT_ALIGN_BYTES != 0 && !EIGEN_MALLOC_ALREADY_ALIGNED
+        grown = Eigen::internal::handmade_aligned_malloc(bytes, line);
+#elif defined(TAUT_KERNELS)
+        grown = std::aligned_alloc(line, (bytes + line - 1) / line * line);
+#else
+        grown = Eigen::internal::aligned_malloc(bytes);
+#endif
+        if (!grown) Eigen::internal::throw_std_bad_alloc();
+    }
+    if (used > 0) std::memcpy(grown, old, used);
+    Eigen::internal::aligned_free(old);
+    return grown;
+}
 
 const taut_kernels::Table<float>* detail::chosen_kernels(float) {
     return step_detail::current().of_float;

@@ -4,8 +4,7 @@
 
 #include "kernel_numbers.hpp"
 
-// The kernels of this processor, for the library's own units: where TAUT_KERNELS is defined,
-// TAUT_BY_KERNEL asks here.
+// The kernels of this processor, for the library's own units: by_kernel.hpp.
 
 namespace taut::detail {
 
