@@ -89,7 +89,7 @@ public:
     }
 
     /// Of each particle.
-    Buffer<int> places() const {
+    EIGEN_ALWAYS_INLINE Buffer<int> places() const {
         Buffer<int> result(static_cast<std::size_t>(size_));
         for_each_place(all(), [&](Index i, Index place) { result[i] = static_cast<int>(place); });
         return result;

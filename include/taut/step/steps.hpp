@@ -76,10 +76,8 @@ public:
                      const Points<Scalar, Dim>* force) = 0;
     /// After a step, not of velocity Verlet: may change the planes.
     /// @param places  as of PlaceVectors   @param time, ahead  s   @returns whether to go on
-    virtual bool passed(const Layout<Scalar>&, const Buffer<int>& /*places*/, StateMemory<Scalar>&,
-                        Scalar /*time*/, Scalar /*ahead*/) {
-        return true;
-    }
+    virtual bool passed(const Layout<Scalar>& layout, const Buffer<int>& places,
+                        StateMemory<Scalar>& memory, Scalar time, Scalar ahead) = 0;
 
 protected:
     ~StepWatch() = default;
@@ -156,7 +154,6 @@ private:
     void show(const Layout<Scalar>& layout, const State<Scalar, Dim>* state,
               const Points<Scalar, Dim>* force) {
         if (!watch_) return;
-        if (places_.empty()) places_ = layout.places();
         watch_->see({layout, places_, state_.planes().x}, {layout, places_, state_.planes().v},
                     outside_.time(), state, force);
     }
@@ -188,6 +185,7 @@ void Steps<Scalar, Dim>::load(const Surroundings<Scalar, Dim>& surroundings,
                               Scalar ahead, const ReadAnywhere& read) {
     alpha_ = static_cast<Scalar>(surroundings.rayleigh.stiffness_proportional);
     if (new_plan) places_.clear();
+    if (watch_ && places_.empty()) places_ = layout.places();
     // A new plan may have other places for what is discarded.
     if (new_plan) scratch_.assign(scratch_.size(), Scalar(0));
     state_.resize(layout.planes(), layout.size() * layout.grain(), layout.stride(), ahead > 0,
