@@ -43,7 +43,8 @@
 #define TAUT_NOINLINE
 #endif
 
-#ifndef TAUT_BY_KERNEL  // of what Taut::Compiled may do otherwise on this processor: by_kernel.hpp
+/// Of what Taut::Compiled may do otherwise on this processor: compiled/by_kernel.hpp.
+#ifndef TAUT_BY_KERNEL
 #define TAUT_BY_KERNEL(find, ...) static_cast<void>(0)
 #endif
 
