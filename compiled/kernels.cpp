@@ -50,7 +50,7 @@ bool same_classes(const taut_kernels::Table<Scalar>* table) {
     return std::equal(std::begin(here.sizes), std::end(here.sizes), table->sizes);
 }
 /// The kernels, if a name (null: any) is theirs, and unit and processor are as they should be.
-const Kernels* if_taken(const Kernels& kernels, const char* name, bool can) {
+[[maybe_unused]] const Kernels* if_taken(const Kernels& kernels, const char* name, bool can) {
     return can && (!name || std::strcmp(name, kernels.name) == 0) &&
                    same_classes(kernels.of_float) && same_classes(kernels.of_double)
                ? &kernels
