@@ -7,6 +7,7 @@
 
 #include "../core/error.hpp"
 #include "../core/types.hpp"
+#include "obstacle_concept.hpp"
 
 namespace taut {
 
