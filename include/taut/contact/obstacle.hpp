@@ -10,6 +10,7 @@
 #include "../core/buffer.hpp"
 #include "../core/error.hpp"
 #include "../core/types.hpp"
+#include "obstacle_concept.hpp"
 
 namespace taut {
 
