@@ -179,7 +179,7 @@ public:
             if (!listed) {
                 if (!detail::is_finite(margin)) return !(failed_ = true);
                 if (step_.near.built()) step_.near.remember(step_.bodies, step_.known);
-                step_.look_back(layout, planes, margin, longest_ / 2, drift_, time);
+                step_.look_back(layout, planes, margin, longest_, drift_, time);
                 step_.near.go_to(step_.bodies, time);
                 listed = step_.near.holds(moving.x, layout.size());
                 if (!listed) continue;
@@ -214,7 +214,7 @@ private:
         if (system_->is_pinned(i)) return sum;
         for (const auto& body : step_.bodies) {
             Vector normal;
-            const Scalar cap = longest_ / 2 * static_cast<Scalar>(body->options.push_out);
+            const Scalar cap = longest_ * static_cast<Scalar>(body->options.push_out);
             sum +=
                 step_.penalty.energy(body->depth(x, (*body).*pose, normal), cap, system_->mass(i));
         }

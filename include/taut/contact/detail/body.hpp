@@ -280,7 +280,8 @@ private:
         const Register deep = larger(before, zero);
         const Register push = Register(penalty.by_mass) * where_less(deep, cap, deep, cap);
         const Register into = dot(w, n);
-        const Register out = (into + h * push) * Register(1 / (1 + penalty.block()));
+        const Register by_block(1 / (1 + penalty.block()));
+        const Register out = rest(into * by_block, h * push * by_block);
         const Register impulse = out - into;  // hλ/m
         // A pair that would pull is left out if it goes no deeper so.
         Register touches = where_less(zero, meets, one, zero);

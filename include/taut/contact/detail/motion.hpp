@@ -47,6 +47,18 @@ struct Penalty {
     }
 };
 
+/// The speed out of a body with contact, m/s, from what it is at no depth, and what all of φ′ adds.
+/// As much of φ′ acts as brings what goes in to rest, but at least half of it where it goes out:
+/// what rests stays at rest under a kick and half a kick, the first one of a frame.
+template <class Scalar, int most>
+EIGEN_ALWAYS_INLINE step_detail::VectorRegister<Scalar, most> rest(
+    const step_detail::VectorRegister<Scalar, most>& in,
+    const step_detail::VectorRegister<Scalar, most>& push) {
+    using Register = step_detail::VectorRegister<Scalar, most>;
+    const Register zero(Scalar(0)), all = in + push, half = in + Register(Scalar(0.5)) * push;
+    return where_less(zero, half, half, where_less(zero, all, zero, all));
+}
+
 /// Vectors by place, one or a register of them.
 template <class Scalar, int Dim>
 class PlaneAccess {

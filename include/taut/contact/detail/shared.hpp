@@ -81,6 +81,7 @@ private:
         Vector normal;    // n′
         Vector speed;     // ū, m/s
         Scalar push;      // φ′(p)/κ, m
+        Scalar share;     // of it that acts
         Scalar friction;  // μ
         Scalar drag;      // c/m, 1/s
         bool in;          // whether it pushes
@@ -102,13 +103,13 @@ private:
             const Body<Scalar, Dim>& body = *bodies[static_cast<std::size_t>(pair.body)];
             const Vector carried = body.motion.turn * pair.x + body.motion.shift;
             active_.push_back({body.motion.turn * pair.normal, (carried - pair.x) / h,
-                               (std::min)((std::max)(pair.depth, Scalar(0)), pair.cap),
+                               (std::min)((std::max)(pair.depth, Scalar(0)), pair.cap), 1,
                                static_cast<Scalar>(body.options.friction), 0, pair.depth > 0,
                                false});
         }
     }
     static Scalar force(const Penalty<Scalar>& penalty, const Active& a, const Vector& v) {
-        return penalty.by_mass * (a.push - penalty.h / 2 * a.normal.dot(v - a.speed));
+        return penalty.by_mass * (a.share * a.push - penalty.h / 2 * a.normal.dot(v - a.speed));
     }
     Vector solved(const Penalty<Scalar>& penalty, const Vector& before) const {
         const Active* only = nullptr;
@@ -121,8 +122,8 @@ private:
         if (pushing == 1) {  // along n′ and across it
             const Vector w = before - only->speed;
             const Scalar into = only->normal.dot(w);
-            const Scalar out =
-                (into + penalty.h * penalty.by_mass * only->push) / (1 + penalty.block());
+            const Scalar push = penalty.h * penalty.by_mass * only->share * only->push;
+            const Scalar out = (into + push) / (1 + penalty.block());
             return only->speed + out * only->normal +
                    (w - into * only->normal) / (1 + penalty.h * only->drag);
         }
@@ -134,21 +135,43 @@ private:
             const Matrix block =
                 penalty.block() * nn + penalty.h * a.drag * (Matrix::Identity() - nn);
             A += block;
-            b += penalty.h * penalty.by_mass * a.push * a.normal + block * a.speed;
+            b += penalty.h * penalty.by_mass * a.share * a.push * a.normal + block * a.speed;
         }
         return A.inverse() * b;
     }
+    /// As rest(): half of φ′ where a pair goes out by it, and more where it goes in.
+    Vector settled(const Penalty<Scalar>& penalty, const Vector& before) {
+        for (;;) {
+            const Vector v = solved(penalty, before);
+            bool more = false;
+            for (Active& a : active_) {
+                if (!a.in || !(a.push > 0) || !(a.share < 1)) continue;
+                if (!(a.normal.dot(v - a.speed) < 0)) continue;
+                const Scalar into = a.normal.dot(before - a.speed);
+                const Scalar all = penalty.h * penalty.by_mass * a.push;
+                const bool alone = std::count_if(active_.begin(), active_.end(),
+                                                 [](const Active& b) { return b.in; }) == 1;
+                const Scalar enough = alone ? (std::min)(-into / all, Scalar(1)) : Scalar(1);
+                more = more || enough > a.share;
+                a.share = enough;
+            }
+            if (!more) return v;
+        }
+    }
     /// The velocity for the pairs that push now: normal forces first, then friction by them.
     Vector solve(const Penalty<Scalar>& penalty, const Vector& before) {
-        for (Active& a : active_) a.drag = 0;
-        Vector v = solved(penalty, before);
+        for (Active& a : active_) {
+            a.drag = 0;
+            a.share = Scalar(0.5);
+        }
+        Vector v = settled(penalty, before);
         bool pulled = false;
         for (Active& a : active_) {
             if (!a.in || a.stays || !(a.push > 0) || !(force(penalty, a, v) < 0)) continue;
             a.in = false;
             pulled = true;
         }
-        if (pulled) v = solved(penalty, before);
+        if (pulled) v = settled(penalty, before);
         bool slides = false;
         for (Active& a : active_) {
             const Scalar push = a.in ? force(penalty, a, v) : Scalar(0);
@@ -160,7 +183,7 @@ private:
             a.drag = rest > 0 ? (std::min)(most, a.friction * push / rest) : most;
             slides = true;
         }
-        return slides ? solved(penalty, before) : v;
+        return slides ? settled(penalty, before) : v;
     }
 
     std::vector<Active> active_;
