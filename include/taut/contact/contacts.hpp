@@ -37,17 +37,40 @@ public:
 
     /// @param shape  HalfSpace, Sphere, Capsule, Box, in the body's frame
     /// @returns the body's index
+    /// Fails by name unless options and pose are in range.
     template <class Obstacle>
     Index add(Obstacle shape, const BodyOptions& options = {}, const Place& pose = {}) {
         require_obstacle<Obstacle, Vector>();
+        require_non_negative("Contacts::add", "friction", options.friction);
+        require_held<Scalar>("Contacts::add", "thickness", options.thickness);
+        require_positive("Contacts::add", "push_out", options.push_out);
+        require_rigid("Contacts::add", pose);
         using Own = contact_detail::BodyOf<Scalar, Dim, Obstacle>;
         step_.bodies.push_back(std::make_unique<Own>(std::move(shape), options, pose));
         settled_x_.resize(Dim, 0);
         return static_cast<Index>(step_.bodies.size()) - 1;
     }
-    /// Where a body is at the end of the next frame; it is carried there rigidly.
+    /// Where a body is at the end of the next frame; it is carried there rigidly, on a straight
+    /// line and about one axis. However far: what is in its way is pushed, not passed. Fails by
+    /// name unless the pose is finite and its rotation one.
     void move_to(Index body, const Place& pose) {
+        if (body < 0 || body >= static_cast<Index>(step_.bodies.size()))
+            fail("Contacts::move_to: there is no body ", body);
+        require_rigid("Contacts::move_to", pose);
         step_.bodies[static_cast<std::size_t>(body)]->end = pose;
+    }
+
+    /// κ of a particle over its mass, 1/s²: how stiff contact is. It costs no step [T39].
+    Scalar stiffness() {
+        renew();
+        return step_.penalty.by_mass;
+    }
+    /// Sets it, > 0; else it is 100/h², with h of energy_limit, s: so at speed v a particle comes
+    /// h·v/10 deep. What touches holds more energy, or less, from then on: an edit between frames.
+    void set_stiffness(Scalar by_mass) {
+        require_positive("Contacts::set_stiffness", "by_mass", by_mass);
+        set_ = by_mass;
+        revision_ = 0;
     }
 
     /// What the bodies did on the particles in the last frame, Σ h ū·f, J.
@@ -66,12 +89,7 @@ public:
     /// First in a frame. @returns φ of each particle, J: at `state`, later at the end of the last
     /// try, and then of what was chosen
     const Buffer<double>& open(const State& state) {
-        if (revision_ != system_->revision() + 1) {
-            revision_ = system_->revision() + 1;
-            longest_ = energy_limit(*system_).certified;
-            step_.penalty.by_mass = 100 / (longest_ * longest_);
-            settled_x_.resize(Dim, 0);
-        }
+        renew();
         tries_ = 0;
         begun_.clear();
         if (settled_x_.cols() == state.x.cols() && settled_x_ == state.x) {
@@ -142,7 +160,9 @@ public:
     }
     /// The frame is over, and left this state.
     void settle(const State& state) {
-        settled_ = {work_, held_, known_};
+        settled_.work = work_;
+        settled_.energy = held_;
+        settled_.known = known_;
         settled_x_ = state.x;
         for (const auto& body : step_.bodies) body->begin = body->end;
     }
@@ -196,6 +216,22 @@ public:
 private:
     using Body = contact_detail::Body<Scalar, Dim>;
 
+    static void require_rigid(const char* function, const Place& pose) {
+        const Scalar off =
+            (pose.rotation.transpose() * pose.rotation - Place::Rotation::Identity()).norm();
+        if (!detail::all_finite(pose.position) || !(off < Scalar(1e-3)) ||
+            !(pose.rotation.determinant() > 0)) {
+            fail(function, ": the pose is not finite, or does more than turn and shift");
+        }
+    }
+    /// Follows edits of the system.
+    void renew() {
+        if (revision_ == system_->revision() + 1) return;
+        revision_ = system_->revision() + 1;
+        longest_ = energy_limit(*system_).certified;
+        step_.penalty.by_mass = set_ > 0 ? set_ : 100 / (longest_ * longest_);
+        settled_x_.resize(Dim, 0);
+    }
     /// Before the first step.
     void know(const Buffer<int>& places) {
         step_.mass.assign(system_->size() + step_detail::max_width, 0);
@@ -229,6 +265,7 @@ private:
     const System* system_;
     std::uint64_t revision_ = 0;  // of what longest_ belongs to, and one
     Scalar longest_ = 0;          // step of energy_limit, s
+    Scalar set_ = 0;              // κ/m, 1/s², if > 0
     contact_detail::ContactStep<Scalar, Dim> step_;
     // Of a try.
     int tries_ = 0;

@@ -281,11 +281,20 @@ private:
         const Register push = Register(penalty.by_mass) * where_less(deep, cap, deep, cap);
         const Register into = dot(w, n);
         const Register by_block(1 / (1 + penalty.block()));
-        const Register out = rest(into * by_block, h * push * by_block);
+        Register out = rest(into * by_block, h * push * by_block);
+        // What began inside leaves no faster than is asked, and comes to rest at the surface: less
+        // of φ′ will do where it goes out.
+        const Register infinity(std::numeric_limits<Scalar>::infinity());
+        const Register most(static_cast<Scalar>(this->options.push_out));
+        Register asked = deep * Register(1 / (2 * penalty.h));
+        asked = where_less(asked, most, asked, most);
+        const Register slow = larger(where_less(out, asked, out, asked), into * by_block);
+        out = where_less(cap, infinity, slow, out);
         const Register impulse = out - into;  // hλ/m
-        // A pair that would pull is left out if it goes no deeper so.
+        // A pair that would pull is left out if it goes no deeper so; what began inside is braked.
         Register touches = where_less(zero, meets, one, zero);
-        const Register pulls = where_less(impulse, zero, deep, zero);
+        const Register pulls =
+            where_less(cap, infinity, zero, where_less(impulse, zero, deep, zero));
         touches = where_less(zero, pulls, where_less(before, depth, touches, zero), touches);
         touches.store(met.touched.data() + kept);
         Vectors along;
@@ -313,7 +322,8 @@ private:
         where_less(zero, touches, mass * work, zero).store(met.work.data() + kept);
         depth = query(x, moved.next, normal);
         depth = where_less(zero, mass, depth, -one);
-        where_less(zero, depth, cap, Register(std::numeric_limits<Scalar>::infinity()))
+        // φ does not change by that: it is the same on this side of p₁.
+        where_less(cap * Register(Scalar(1) / 16), depth, cap, infinity)
             .store(pairs.cap.data() + at);
     }
 

@@ -195,7 +195,7 @@ private:
             const auto& body = *bodies[static_cast<std::size_t>(pair.body)];
             pair.x = x;
             pair.depth = body.depth(x, body.motion.next, pair.normal);
-            if (!(pair.depth > 0)) pair.cap = std::numeric_limits<Scalar>::infinity();
+            if (!(pair.depth > pair.cap / 16)) pair.cap = std::numeric_limits<Scalar>::infinity();
             touching.see(pair.depth);
         }
     }

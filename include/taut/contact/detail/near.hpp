@@ -124,8 +124,9 @@ public:
                 set(body.solo, body.solo.blocks * Register::width + place - end, pair, mass[place]);
             }
         }
-        std::stable_sort(shared_.begin(), shared_.end(),
-                         [](const Pair& a, const Pair& b) { return a.place < b.place; });
+        std::sort(shared_.begin(), shared_.end(), [](const Pair& a, const Pair& b) {
+            return a.place != b.place ? a.place < b.place : a.body < b.body;
+        });
         for (int d = 0; d < Dim; ++d) {
             x_[d].resize(padded);
             for (Index i = 0; i < count; i += Register::width) x.row(d, i).store(x_[d].data() + i);
