@@ -23,6 +23,15 @@ auto turn(Random& random, double most) {
     return pose;
 }
 
+/// A sphere as an engine may have it: it answers for one point alone.
+template <class Scalar, int Dim>
+struct OwnSphere {
+    Scalar radius;
+    taut::Surface<Scalar, Dim> surface(const Eigen::Matrix<Scalar, Dim, 1>& x) const {
+        return taut::Sphere<Scalar, Dim>(0 * x, radius).surface(x);
+    }
+};
+
 /// A body of any kind, with or without friction and thickness.
 template <class System>
 void add_some_body(Random& random, taut::Contacts<System>& contacts,
@@ -34,7 +43,7 @@ void add_some_body(Random& random, taut::Contacts<System>& contacts,
     if (random.below(2) > 0) options.friction = random.uniform(0, 2);
     if (random.below(2) > 0) options.thickness = random.uniform(0, 0.1);
     const auto radius = static_cast<Scalar>(random.uniform(0.05, 0.6));
-    switch (random.below(4)) {
+    switch (random.below(5)) {
         case 0:
             if constexpr (Dim > 1) {
                 const Vector a = random.vector<Scalar, Dim>(-0.5, 0.5);
@@ -46,6 +55,7 @@ void add_some_body(Random& random, taut::Contacts<System>& contacts,
         case 1:
             contacts.add(taut::Sphere<Scalar, Dim>(Vector::Zero(), radius), options, pose);
             break;
+        case 3: contacts.add(OwnSphere<Scalar, Dim>{radius}, options, pose); break;
         case 2:
             contacts.add(taut::Box<Scalar, Dim>(random.vector<Scalar, Dim>(0.05, 0.6)), options,
                          pose);

@@ -11,6 +11,7 @@
 #include "../integrator/energy_stable_euler.hpp"
 #include "../proof/energy_limit.hpp"
 #include "detail/tries.hpp"
+#include "obstacle_concept.hpp"
 
 namespace taut {
 
@@ -35,20 +36,17 @@ public:
     explicit Contacts(const System& system) : system_(&system) {}
     explicit Contacts(const System&&) = delete;
 
-    /// @param shape  HalfSpace, Sphere, Capsule, Box, in the body's frame
+    /// @param shape  in the body's frame: HalfSpace, Sphere, Capsule, Box, or a class of yours with
+    ///               `Surface surface(point) const` of a convex body, which is asked point by point
     /// @returns the body's index
     /// Fails by name unless options and pose are in range.
     template <class Obstacle>
     Index add(Obstacle shape, const BodyOptions& options = {}, const Place& pose = {}) {
-        require_obstacle<Obstacle, Vector>();
-        require_non_negative("Contacts::add", "friction", options.friction);
-        require_held<Scalar>("Contacts::add", "thickness", options.thickness);
-        require_positive("Contacts::add", "push_out", options.push_out);
-        require_rigid("Contacts::add", pose);
-        using Own = contact_detail::BodyOf<Scalar, Dim, Obstacle>;
-        step_.bodies.push_back(std::make_unique<Own>(std::move(shape), options, pose));
-        settled_x_.resize(Dim, 0);
-        return static_cast<Index>(step_.bodies.size()) - 1;
+        if constexpr (!detail::ObstacleHas<Obstacle, Vector>::all) {
+            require_obstacle<Obstacle, Vector>();
+        } else {
+            return add_body(std::move(shape), options, pose);
+        }
     }
     /// Where a body is at the end of the next frame; it is carried there rigidly, on a straight
     /// line and about one axis. However far: what is in its way is pushed, not passed. Fails by
@@ -216,6 +214,17 @@ public:
 private:
     using Body = contact_detail::Body<Scalar, Dim>;
 
+    template <class Obstacle>
+    Index add_body(Obstacle&& shape, const BodyOptions& options, const Place& pose) {
+        require_non_negative("Contacts::add", "friction", options.friction);
+        require_held<Scalar>("Contacts::add", "thickness", options.thickness);
+        require_positive("Contacts::add", "push_out", options.push_out);
+        require_rigid("Contacts::add", pose);
+        using Own = contact_detail::BodyOf<Scalar, Dim, Obstacle>;
+        step_.bodies.push_back(std::make_unique<Own>(std::move(shape), options, pose));
+        settled_x_.resize(Dim, 0);
+        return static_cast<Index>(step_.bodies.size()) - 1;
+    }
     static void require_rigid(const char* function, const Place& pose) {
         const Scalar off =
             (pose.rotation.transpose() * pose.rotation - Place::Rotation::Identity()).norm();

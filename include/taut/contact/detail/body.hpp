@@ -153,9 +153,18 @@ public:
     BodyOf(Obstacle shape, const BodyOptions& how, const Place& pose)
         : Base(how, pose), shape_(std::move(shape)) {}
 
-    Surface<Scalar, Dim> surface(const Vector& y) const override { return shape_.surface(y); }
-    Scalar extent() const override { return shape_.extent(); }
-    Scalar inner() const override { return shape_.inner(); }
+    Surface<Scalar, Dim> surface(const Vector& y) const override {
+        const auto found = shape_.surface(y);
+        return {found.distance, found.normal};
+    }
+    Scalar extent() const override {
+        if constexpr (in_registers) return shape_.extent();
+        return std::numeric_limits<Scalar>::infinity();
+    }
+    Scalar inner() const override {
+        if constexpr (in_registers) return shape_.inner();
+        return 0;
+    }
     void depths(const PlaneAccess<Scalar, Dim>& x, const Buffer<int>& first, const Place& pose,
                 Scalar* depth) const override {
         for (const int place : first) {
@@ -211,14 +220,40 @@ private:
     using Register = step_detail::VectorRegister<Scalar>;
     using Vectors = detail::Few<Register, Dim>;
 
+    template <class Shape>
+    using query_of = decltype(std::declval<const Shape&>().template query<Register>(
+        std::declval<const Vectors&>(), std::declval<Vectors&>()));
+    static constexpr bool in_registers = detail::is_detected_v<query_of, Obstacle>;
+
     /// p, and n in the world, of a lane each.
     EIGEN_ALWAYS_INLINE Register query(const Vectors& x, const Place& pose, Vectors& normal) const {
         Vectors from;
         for (int d = 0; d < Dim; ++d) from[d] = x[d] - Register(pose.position[d]);
-        const Register distance =
-            shape_.template query<Register>(times(pose.rotation.transpose(), from), normal);
+        from = times(pose.rotation.transpose(), from);
+        Register distance(Scalar(0));
+        if constexpr (in_registers) {
+            distance = shape_.template query<Register>(from, normal);
+        } else {
+            distance = one_by_one(from, normal);
+        }
         normal = times(pose.rotation, normal);
         return Register(this->thickness()) - distance;
+    }
+    /// Of a shape that answers for one point alone.
+    Register one_by_one(const Vectors& y, Vectors& normal) const {
+        using Lanes = detail::Few<Scalar, Register::width>;
+        detail::Few<Lanes, Dim> at, out;
+        Lanes distance;
+        for (int d = 0; d < Dim; ++d) y[d].store(at[d].data());
+        for (int k = 0; k < Register::width; ++k) {
+            Vector point;
+            for (int d = 0; d < Dim; ++d) point[d] = at[d][k];
+            const Surface<Scalar, Dim> found = surface(point);
+            distance[k] = found.distance;
+            for (int d = 0; d < Dim; ++d) out[d][k] = found.normal[d];
+        }
+        for (int d = 0; d < Dim; ++d) normal[d] = Register::load(out[d].data());
+        return Register::load(distance.data());
     }
     void make_room() {
         Hits<Scalar, Dim>& met = this->hits;
