@@ -11,7 +11,8 @@
 #include <cstring>
 #include <string>
 #include <taut/bdf2/bdf2.hpp>
-#include <taut/contact/contact.hpp>
+#include <taut/contact/contacts.hpp>
+#include <taut/guard/guard.hpp>
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/modal/modal_analysis.hpp>
 #include <taut/modal/modal_dynamics.hpp>
@@ -268,11 +269,11 @@ void contacts(const std::string& folder) {
         cloth.set_rayleigh({1, 0});
         const taut::Sphere<double, 3> sphere({0.5, 0.45, -0.32}, 0.3);
         auto state = cloth.initial_state();
-        taut::SymplecticEuler stepper(cloth);
-        const double h = 0.95 * taut::any_pose_limit(cloth).certified;
-        while (state.time < 0.7) {
-            if (!stepper.step(state, h)) std::exit(1);
-            taut::resolve_contacts(cloth, sphere, state, {friction, 0.002});
+        taut::Contacts bodies(cloth);
+        bodies.add(sphere, {friction, 0.002});
+        taut::Guarded guard(cloth);
+        for (int frame = 0; frame < 42; ++frame) {
+            if (!guard.advance(state, 1.0 / 60, bodies)) std::exit(1);
         }
         for (Index r = 0; r < 33; ++r) {
             const auto x = state.x.col(r * 33 + 16);

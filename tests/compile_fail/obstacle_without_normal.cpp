@@ -4,7 +4,7 @@
 // ERRORS: 1
 
 #include <taut/network/spring_system.hpp>
-#include <taut/contact/contact.hpp>
+#include <taut/contact/contacts.hpp>
 
 struct Depth {
     double distance;
@@ -13,6 +13,4 @@ struct Ground {
     Depth surface(const Eigen::Vector3d& x) const { return {x.z()}; }
 };
 
-void step(const taut::SpringSystem<double, 3>& system, taut::State<double, 3>& state) {
-    taut::resolve_contacts(system, Ground{}, state);
-}
+void add(taut::Contacts<taut::SpringSystem<double, 3>>& contacts) { contacts.add(Ground{}); }

@@ -4,7 +4,7 @@
 // ERRORS: 1
 
 #include <taut/network/spring_system.hpp>
-#include <taut/contact/contact.hpp>
+#include <taut/contact/contacts.hpp>
 
 struct Ground {
     taut::Surface<double, 3> surface(const Eigen::Vector3d& x) {  // not const
@@ -12,6 +12,4 @@ struct Ground {
     }
 };
 
-void step(const taut::SpringSystem<double, 3>& system, taut::State<double, 3>& state) {
-    taut::resolve_contacts(system, Ground{}, state);
-}
+void add(taut::Contacts<taut::SpringSystem<double, 3>>& contacts) { contacts.add(Ground{}); }

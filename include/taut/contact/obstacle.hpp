@@ -22,7 +22,7 @@ struct Surface {
 };
 
 // An obstacle is any class with `Surface<Scalar, Dim> surface(point) const`, so an engine's own
-// collision query fits resolve_contacts as well as these two; require_obstacle names what it lacks.
+// collision query fits Contacts as well as these; require_obstacle names what it lacks.
 
 namespace contact_detail {
 

@@ -34,7 +34,7 @@ struct ObstacleHas<Obstacle, Vector, false> {
 }  // namespace detail
 
 /// The Obstacle concept (docs/concepts.md), for points of the type Vector: one readable sentence
-/// for each missing member. resolve_contacts asks it.
+/// for each missing member. Contacts ask it.
 template <class Obstacle, class Vector>
 constexpr void require_obstacle() {
     using Has = detail::ObstacleHas<Obstacle, Vector>;
