@@ -167,7 +167,8 @@ private:
     bool stiff_by_code();
     bool resolved(std::size_t part) const;
     void settle_again(std::size_t part, GuardedReport<Scalar>& report);
-    void freeze(State& state);
+    template <class Respond>
+    void freeze(State& state, Respond& respond);
     Index strongest_spring(std::size_t part) const;
     const char* force_name() const;
     void close(const State& state, GuardedReport<Scalar>& report);
@@ -182,6 +183,12 @@ private:
     }
     void measure(const State& state, std::vector<guard_detail::Energy>& energies) {
         meter_.measure(*system_, state, parts_, shortest_, energies);
+        for (Index i = 0; held_ && i < system_->size(); ++i) {
+            if (parts_.of(i) < 0) continue;
+            auto& energy = energies[static_cast<std::size_t>(parts_.of(i))];
+            energy.total += (*held_)[i];
+            energy.terms += (*held_)[i];
+        }
     }
 
     const System* system_;
@@ -197,6 +204,7 @@ private:
     State start_, again_, touched_;                     // of the frame; taken again; responses
     std::vector<guard_detail::Energy> begin_, end_;     // of each part, like all that follows
     std::vector<guard_detail::Energy> before_, after_;  // a response
+    const Buffer<double>* held_ = nullptr;              // by contacts, of each particle, J
     const char* blamed_ = nullptr;                      // what the user gave that was not finite
     bool too_stiff_ = false;      // whether a code force asked for shorter steps
     Index where_ = -1;            // and of which particle

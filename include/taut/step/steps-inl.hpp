@@ -64,9 +64,7 @@ bool Steps<Scalar, Dim>::steps(const Forces& forces, Scalar h, Index count, int 
         const bool check = asks || done == count || done % steps_between_checks == 0;
         if (check && !finite && !state_.finite()) return false;
         outside_.pass(h);
-        if (watch_ && !watch_->passed(forces.layout(), places_, state_, outside_.time(), ahead_)) {
-            return false;
-        }
+        if (!passed(forces.layout())) return false;
     }
     return true;
 }

@@ -74,7 +74,8 @@ public:
     virtual void see(const PlaceVectors<Scalar, Dim>& x, const PlaceVectors<Scalar, Dim>& v,
                      Scalar time, const State<Scalar, Dim>* state,
                      const Points<Scalar, Dim>* force) = 0;
-    /// After a step, or a sweep of velocity Verlet, which must leave the planes as they are.
+    /// After a step: may change the planes. Of velocity Verlet after every drift, and after the
+    /// last half kick, where accelerations are in the place of x.
     /// @param places  as of PlaceVectors   @param time, ahead  s   @returns whether to go on
     virtual bool passed(const Layout<Scalar>& layout, const Buffer<int>& places,
                         StateMemory<Scalar>& memory, Scalar time, Scalar ahead) = 0;
@@ -157,6 +158,9 @@ private:
         watch_->see({layout, places_, state_.planes().x}, {layout, places_, state_.planes().v},
                     outside_.time(), state, force);
     }
+    bool passed(const Layout<Scalar>& layout) {
+        return !watch_ || watch_->passed(layout, places_, state_, outside_.time(), ahead_);
+    }
     /// @returns whether all is finite
     bool steps(const Forces& forces, Scalar h, Index count, int threads, Move move);
     /// @returns whether the last state is known to be finite
@@ -236,7 +240,7 @@ bool Steps<Scalar, Dim>::run_verlet(const Forces& forces, AnyState& state, Scala
             (Register::load(x + i) + Register(h) * half).store(x + i);
         });
         outside_.pass(h);
-        if (!state_.finite()) return false;
+        if (!state_.finite() || !passed(forces.layout())) return false;
     } else if (!steps(forces, h, 1, threads, &Update::template move<VerletUpdate<1, false>>)) {
         return false;
     }

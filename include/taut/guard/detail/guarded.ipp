@@ -79,14 +79,23 @@ template <class Stepper, class System>
 template <class By, class Take, class Respond>
 bool Guarded<Stepper, System>::run(State& state, Frame frame, Kind kind, By& by, Take&& take,
                                    Respond& respond) {
-    constexpr bool responds = !std::is_same_v<std::decay_t<Respond>, guard_detail::NoResponse>;
+    constexpr bool touches = guard_detail::is_contacts_v<Respond>;
+    constexpr bool responds =
+        !touches && !std::is_same_v<std::decay_t<Respond>, guard_detail::NoResponse>;
     constexpr bool held = detail::is_detected_v<guard_detail::constraint_forces_of, Stepper>;
     constexpr bool shows = detail::is_detected_v<guard_detail::watch_of, By>;
     const bool seen = work_.start(*system_, state, parts_, frame.h, kind);
     const bool stepwise = responds || held || (seen && !shows);
     const Index at_once = stepwise ? 1 : frame.steps;
     if (stepwise && !shows) work_.see(state);
-    const guard_detail::Watching watching(by, seen ? &work_ : nullptr);
+    step_detail::StepWatch<Scalar, System::Dim>* watch = seen ? &work_ : nullptr;
+    if constexpr (touches) {
+        static_assert(shows && !held,
+                      "taut::Guarded: contacts need a trial by VelocityVerlet, SymplecticEuler or "
+                      "EnergyStableEuler");
+        respond.begin(frame.h, frame.steps, std::exchange(watch, &respond));
+    }
+    const guard_detail::Watching watching(by, watch);
     for (Index done = 0; done < frame.steps; done += at_once) {
         if (shows && stepwise && done > 0) work_.repeat();  // where a call of its own begins
         if (!take(state, frame.h, at_once)) return false;
@@ -117,6 +126,7 @@ bool Guarded<Stepper, System>::run(State& state, Frame frame, Kind kind, By& by,
         }
     }
     work_.add_swing(state);
+    if constexpr (touches) work_.add_each(respond.end());
     return stepwise || !seen || work_.seen() == frame.steps + 1;
 }
 
@@ -224,6 +234,9 @@ bool Guarded<Stepper, System>::take_again(State& state, Scalar span, bool tried,
             state.x.col(i) = again_.x.col(i);
             state.v.col(i) = again_.v.col(i);
         }
+        if constexpr (guard_detail::is_contacts_v<Respond>) {
+            respond.choose([&](Index i) { return !tried || taken_of(i, tried) == Taken::again; });
+        }
         measure(state, end_);
         bool stiff = false;
         for (std::size_t p = 0; p < parts_.count(); ++p) {
@@ -238,7 +251,7 @@ bool Guarded<Stepper, System>::take_again(State& state, Scalar span, bool tried,
     for (std::size_t p = 0; p < parts_.count(); ++p) {
         if (taken_[p] == Taken::again) settle_again(p, report);
     }
-    freeze(state);
+    freeze(state, respond);
     return true;
 }
 
@@ -276,12 +289,14 @@ void Guarded<Stepper, System>::settle_again(std::size_t part, GuardedReport<Scal
 
 /// Stops the frozen parts where the frame began: what then moves their energy is pins.
 template <class Stepper, class System>
-void Guarded<Stepper, System>::freeze(State& state) {
+template <class Respond>
+void Guarded<Stepper, System>::freeze(State& state, [[maybe_unused]] Respond& respond) {
     if (!any(Taken::frozen)) return;
     for (Index i = 0; i < system_->size(); ++i) {
         if (taken_of(i, true) != Taken::frozen) continue;
         state.x.col(i) = start_.x.col(i);
         state.v.col(i).setZero();
+        if constexpr (guard_detail::is_contacts_v<Respond>) respond.stay(i, start_.x.col(i));
     }
     measure(state, end_);
     for (std::size_t p = 0; p < parts_.count(); ++p) {
@@ -351,6 +366,8 @@ auto Guarded<Stepper, System>::advance(State& state, Scalar frame, Respond&& res
     -> GuardedReport<Scalar> {
     GuardedReport<Scalar> report;
     renew();
+    held_ = nullptr;
+    if constexpr (guard_detail::is_contacts_v<Respond>) held_ = &respond.open(state);
     const Scalar longest = trial_step();
     report.status = open(state, frame, longest, report);
     if (!report) return report;
@@ -389,6 +406,7 @@ auto Guarded<Stepper, System>::advance(State& state, Scalar frame, Respond&& res
         }
         return report;
     }
+    if constexpr (guard_detail::is_contacts_v<Respond>) respond.settle(state);
     state.time = start_.time + span;
     report.advanced = span;
     close(state, report);

@@ -92,6 +92,10 @@ public:
         add_held(system_->external_forces().constant, state);
         x_ = state.x;
     }
+    /// The work of contacts on each particle, J.
+    void add_each(const Buffer<double>& work) {
+        for (Index i = 0; i < system_->size(); ++i) add(parts_->of(i), work[i]);
+    }
     /// By whatever changed the state between two steps: the next one begins at `state`.
     void add_change(const std::vector<Energy>& before, const std::vector<Energy>& after,
                     const State& state) {

@@ -1,0 +1,268 @@
+// SPDX-FileCopyrightText: 2026 Taut contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "../integrator/energy_stable_euler.hpp"
+#include "../proof/energy_limit.hpp"
+#include "detail/tries.hpp"
+
+namespace taut {
+
+/// Convex bodies that move, and the particles of a SpringSystem that touch them, inside the step
+/// [T39]: contact takes nothing off the certified step, however stiff it is, and the energy of a
+/// scene rises by no more than the work of the bodies.
+///
+///     taut::Contacts contacts(cloth);
+///     const auto ball = contacts.add(taut::Sphere<float, 3>({0, 0, 0}, 0.3f));
+///     contacts.move_to(ball, pose);               // where it is at the end of the frame
+///     guard.advance(state, 1.0f / 60, contacts);  // or step_through(stepper, ...)
+template <class System>
+class Contacts final : public step_detail::StepWatch<typename System::Scalar, System::Dim> {
+public:
+    using Scalar = typename System::Scalar;
+    static constexpr int Dim = System::Dim;
+    using Vector = Eigen::Matrix<Scalar, Dim, 1>;
+    using Place = Pose<Scalar, Dim>;
+    using State = taut::State<Scalar, Dim>;
+
+    /// Keeps a reference: the system must outlive this.
+    explicit Contacts(const System& system) : system_(&system) {}
+    explicit Contacts(const System&&) = delete;
+
+    /// @param shape  HalfSpace, Sphere, Capsule, Box, in the body's frame
+    /// @returns the body's index
+    template <class Obstacle>
+    Index add(Obstacle shape, const BodyOptions& options = {}, const Place& pose = {}) {
+        require_obstacle<Obstacle, Vector>();
+        using Own = contact_detail::BodyOf<Scalar, Dim, Obstacle>;
+        step_.bodies.push_back(std::make_unique<Own>(std::move(shape), options, pose));
+        settled_x_.resize(Dim, 0);
+        return static_cast<Index>(step_.bodies.size()) - 1;
+    }
+    /// Where a body is at the end of the next frame; it is carried there rigidly.
+    void move_to(Index body, const Place& pose) {
+        step_.bodies[static_cast<std::size_t>(body)]->end = pose;
+    }
+
+    /// What the bodies did on the particles in the last frame, Σ h ū·f, J.
+    double work() const { return sum(settled_.work); }
+    /// What touching pairs hold at its end, J.
+    double energy() const { return sum(settled_.energy); }
+    /// Particles and bodies that touch, at the end of the last step.
+    Index touching() const { return step_.touching.count; }
+    /// m.
+    Scalar deepest() const { return step_.touching.deepest; }
+    /// How often what is near was looked up anew.
+    Index lookups() const { return step_.lookups; }
+
+    // What follows is for steppers.
+
+    /// First in a frame. @returns φ of each particle, J: at `state`, later at the end of the last
+    /// try, and then of what was chosen
+    const Buffer<double>& open(const State& state) {
+        if (revision_ != system_->revision() + 1) {
+            revision_ = system_->revision() + 1;
+            longest_ = energy_limit(*system_).certified;
+            step_.penalty.by_mass = 100 / (longest_ * longest_);
+            settled_x_.resize(Dim, 0);
+        }
+        tries_ = 0;
+        begun_.clear();
+        if (settled_x_.cols() == state.x.cols() && settled_x_ == state.x) {
+            begun_ = settled_.known;
+            held_ = settled_.energy;
+            return held_;
+        }
+        held_.assign(system_->size(), 0);
+        for (Index i = 0; i < (std::min)(system_->size(), Index(state.x.cols())); ++i)
+            held_[i] = energy_at(i, state.x.col(i), &Body::begin);
+        return held_;
+    }
+    /// The first, or another, try of a frame of `count` steps of h, s.
+    /// @param books  sees the states between steps, too; may be null
+    void begin(Scalar h, Index count, step_detail::StepWatch<Scalar, Dim>* books) {
+        ++tries_;
+        books_ = books;
+        count_ = count;
+        passed_ = 0;
+        waits_ = false;
+        failed_ = false;
+        step_.penalty.h = h;
+        step_.near.clear();
+        step_.work.assign(system_->size() + step_detail::max_width, Scalar(0));
+        const Scalar frame = h * static_cast<Scalar>(count);
+        drift_ = Vector::Zero();
+        for (const auto& body : step_.bodies) {
+            body->motion.go_to(body->begin);
+            body->way = {body->begin, body->end};
+            drift_ += (body->end.position - body->begin.position) /
+                      (frame * static_cast<Scalar>(step_.bodies.size()));
+        }
+        // Far enough for some part of a frame in which bodies hurry, and a short list where not.
+        Scalar most = 0;
+        for (const auto& body : step_.bodies) most = (std::max)(most, body->far(frame * drift_));
+        margin_ = (std::min)((std::max)(most / 8, Scalar(0.004)), Scalar(0.01));
+    }
+    /// After all its steps. @returns the work on each particle, J
+    const Buffer<double>& end() {
+        contact_detail::Outcome& outcome = outcomes_[tries_ > 1];
+        outcome.take(step_, particle_);
+        if (tries_ == 1) choose([](Index) { return false; });
+        return outcome.work;
+    }
+    /// Takes for each particle the first or the last try; after one try this is done.
+    /// @param last  last(i): whether the last one
+    template <class Last>
+    void choose(const Last& last) {
+        const auto of = [&](Index i) { return tries_ > 1 && last(i); };
+        work_.resize(system_->size());
+        for (Index i = 0; i < system_->size(); ++i) {
+            work_[i] = outcomes_[of(i)].work[i];
+            held_[i] = outcomes_[of(i)].energy[i];
+        }
+        known_.clear();
+        for (int each = 0; each < 2; ++each) {
+            for (const auto& pair : outcomes_[each].known) {
+                if (of(pair.at) == bool(each)) known_.push_back(pair);
+            }
+        }
+    }
+    /// Particle i stays at x, where the frame began, m.
+    void stay(Index i, const Vector& x) {
+        work_[i] = 0;
+        held_[i] = energy_at(i, x, &Body::end);
+        const auto of_it = [&](const auto& pair) { return pair.at == i; };
+        known_.erase(std::remove_if(known_.begin(), known_.end(), of_it), known_.end());
+    }
+    /// The frame is over, and left this state.
+    void settle(const State& state) {
+        settled_ = {work_, held_, known_};
+        settled_x_ = state.x;
+        for (const auto& body : step_.bodies) body->begin = body->end;
+    }
+
+    /// The state between two steps.
+    void see(const step_detail::PlaceVectors<Scalar, Dim>& x,
+             const step_detail::PlaceVectors<Scalar, Dim>& v, Scalar time, const State* state,
+             const Points<Scalar, Dim>* force) override {
+        // A stepper that seeks a step that failed shows where it began once more.
+        failed_ = failed_ || std::exchange(waits_, true);
+        if (books_) books_->see(x, v, time, state, force);
+    }
+    /// Contact of a step, on what it came to without.
+    bool passed(const step_detail::Layout<Scalar>& layout, const Buffer<int>& places,
+                step_detail::StateMemory<Scalar>& memory, Scalar, Scalar ahead) override {
+        waits_ = false;
+        if (failed_) return false;
+        const auto& planes = memory.planes();
+        const contact_detail::Moving<Scalar, Dim> moving{
+            {layout, planes.x}, {layout, planes.v}, {layout, planes.spring_x}};
+        if (passed_ == count_) {
+            step_.stop(moving.v);
+            return true;
+        }
+        if (passed_ == 0) know(places);
+        step_.penalty.ahead = ahead;
+        ++passed_;
+        const Scalar share = static_cast<Scalar>(passed_) / static_cast<Scalar>(count_);
+        const Scalar time = static_cast<Scalar>(passed_) * step_.penalty.h;
+        for (const auto& body : step_.bodies) body->motion.go_to(body->way(share));
+        step_.near.go_to(step_.bodies, time);
+        bool listed = step_.near.holds(moving.x, layout.size());
+        for (Scalar margin = margin_;; margin *= 4) {
+            if (!listed) {
+                if (!detail::is_finite(margin)) return !(failed_ = true);
+                if (step_.near.built()) step_.near.remember(step_.bodies, step_.known);
+                step_.look_back(layout, planes, margin, longest_ / 2, drift_, time);
+                step_.near.go_to(step_.bodies, time);
+                listed = step_.near.holds(moving.x, layout.size());
+                if (!listed) continue;
+            }
+            step_.touch(moving);
+            if (step_.pushed_in_reach(moving.x)) break;
+            step_.undo(moving);
+            listed = false;
+        }
+        step_.book();
+        return true;
+    }
+
+private:
+    using Body = contact_detail::Body<Scalar, Dim>;
+
+    /// Before the first step.
+    void know(const Buffer<int>& places) {
+        step_.mass.assign(system_->size() + step_detail::max_width, 0);
+        particle_.resize(system_->size());
+        for (Index i = 0; i < system_->size(); ++i) {
+            particle_[places[i]] = static_cast<int>(i);
+            if (!system_->is_pinned(i)) step_.mass[places[i]] = system_->mass(i);
+        }
+        step_.known = begun_;
+        for (auto& pair : step_.known) pair.at = places[pair.at];
+        std::sort(step_.known.begin(), step_.known.end());
+    }
+    /// φ of a particle that comes new to x, m, where bodies are at a pose, J.
+    double energy_at(Index i, const Vector& x, Place Body::*pose) const {
+        double sum = 0;
+        if (system_->is_pinned(i)) return sum;
+        for (const auto& body : step_.bodies) {
+            Vector normal;
+            const Scalar cap = longest_ / 2 * static_cast<Scalar>(body->options.push_out);
+            sum +=
+                step_.penalty.energy(body->depth(x, (*body).*pose, normal), cap, system_->mass(i));
+        }
+        return sum;
+    }
+    static double sum(const Buffer<double>& of) {
+        double sum = 0;
+        for (const double each : of) sum += each;
+        return sum;
+    }
+
+    const System* system_;
+    std::uint64_t revision_ = 0;  // of what longest_ belongs to, and one
+    Scalar longest_ = 0;          // step of energy_limit, s
+    contact_detail::ContactStep<Scalar, Dim> step_;
+    // Of a try.
+    int tries_ = 0;
+    step_detail::StepWatch<Scalar, Dim>* books_ = nullptr;
+    Index count_ = 0, passed_ = 0;         // steps
+    bool waits_ = false, failed_ = false;  // for the end of a step; since a step that did
+    Scalar margin_ = 0;                    // m
+    Vector drift_ = Vector::Zero();        // of the bodies, m/s
+    Buffer<int> particle_;                 // at each place
+    detail::Few<contact_detail::Outcome, 2> outcomes_;
+    // Of frames.
+    Buffer<double> held_, work_;  // J
+    std::vector<contact_detail::KnownPair> begun_, known_;
+    contact_detail::Outcome settled_;
+    Points<Scalar, Dim> settled_x_;  // m
+};
+
+/// Takes `count` steps of h, s, one frame for the bodies.
+template <class System>
+Report step_through(EnergyStableEuler<System>& stepper, typename System::State& state,
+                    typename System::Scalar h, Index count, Contacts<System>& contacts) {
+    if (count <= 0) return stepper.step(state, h, count);
+    contacts.open(state);
+    contacts.begin(h, count, nullptr);
+    const struct Watching {
+        EnergyStableEuler<System>& stepper;
+        ~Watching() { stepper.watch(nullptr); }
+    } watching{stepper};
+    stepper.watch(&contacts);
+    const Report report = stepper.step(state, h, count);
+    if (!report) return report;
+    contacts.end();
+    contacts.settle(state);
+    return report;
+}
+
+}  // namespace taut
