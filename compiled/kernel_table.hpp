@@ -28,8 +28,9 @@ struct Table {
                               const void* places);
     using FromPlanes = void (*)(const void* layout, const void* planes, Scalar* points,
                                 const void* places);
-    /// StateMemory::look_ahead.
+    /// StateMemory::look_ahead, drift and kick.
     using LookAhead = void (*)(void* memory, Scalar ahead);
+    using Kick = void (*)(void* memory, const Scalar* a, Scalar by);
     /// detail::all_finite.
     using Finite = bool (*)(const Scalar* numbers, std::ptrdiff_t count);
 
@@ -37,7 +38,8 @@ struct Table {
     Move move[updates];
     ToPlanes to_planes[3];  // dimension − 1
     FromPlanes from_planes[3];
-    LookAhead look_ahead;
+    LookAhead look_ahead, drift;
+    Kick kick;
     Finite finite;
     std::size_t sizes[4];  // of LawPlan, PlaceUpdate, Layout, StateMemory: the same in all units
 };

@@ -54,6 +54,14 @@ struct Kernels {
         const Table* table = chosen_kernels(Scalar());
         return table ? table->look_ahead : nullptr;
     }
+    static typename Table::LookAhead drift() {
+        const Table* table = chosen_kernels(Scalar());
+        return table ? table->drift : nullptr;
+    }
+    static typename Table::Kick kick() {
+        const Table* table = chosen_kernels(Scalar());
+        return table ? table->kick : nullptr;
+    }
     static typename Table::Finite finite() {
         const Table* table = chosen_kernels(Scalar());
         return table ? table->finite : nullptr;

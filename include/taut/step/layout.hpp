@@ -237,14 +237,11 @@ public:
         planes_ = {vector(old_x), vector(new_x), vector(0), vector(1), vector(2), vector(new_v)};
     }
     /// Sets spring_x to x + ahead·v, with `ahead` in s.
-    void look_ahead(Scalar ahead) {
-        TAUT_BY_KERNEL(look_ahead(), this, ahead);
-        const Register step(ahead);
-        for_each_register([&](Index i) {
-            const Register x = Register::load(planes_.x.first + i);
-            (x + step * Register::load(planes_.v.first + i)).store(planes_.spring_x.first + i);
-        });
-    }
+    void look_ahead(Scalar ahead);
+    /// v ← v + by·a. @param a  planes, m/s²   @param by  s
+    void kick(const Scalar* a, Scalar by);
+    /// x ← x + h v, with h in s.
+    void drift(Scalar h);
     /// The length of a vector's planes one after another, padding included.
     Index whole() const { return planes_of_vector_ * stride_; }
     /// visit(i) for the first scalar of each register of these.

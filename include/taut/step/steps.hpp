@@ -219,22 +219,16 @@ bool Steps<Scalar, Dim>::run_verlet(const Forces& forces, AnyState& state, Scala
                                     int threads, bool go_on) {
     using Update = PlaceUpdate<Scalar>;
     if (go_on) {
-        Scalar *x = state_.planes().x.first, *v = state_.planes().v.first;
-        const auto kicked = [&](Index i, Scalar by) {
-            return Register::load(v + i) + Register(by) * Register::load(acceleration_.data() + i);
-        };
         if (watch_) {  // the forces here were taken at the last step's v½
+            Scalar* v = state_.planes().v.first;
             end_v_.resize(static_cast<std::size_t>(state_.whole()));
             std::copy_n(v, state_.whole(), end_v_.data());
-            state_.for_each_register([&](Index i) { kicked(i, -last_h_ / 2).store(v + i); });
+            state_.kick(acceleration_.data(), -last_h_ / 2);
             show(forces.layout(), nullptr, nullptr);
             std::copy_n(end_v_.data(), state_.whole(), v);
         }
-        state_.for_each_register([&](Index i) {
-            const Register half = kicked(i, h / 2);
-            half.store(v + i);
-            (Register::load(x + i) + Register(h) * half).store(x + i);
-        });
+        state_.kick(acceleration_.data(), h / 2);
+        state_.drift(h);
         outside_.pass(h);
         if (!state_.finite()) return false;
     } else if (!steps(forces, h, 1, threads, &Update::template move<VerletUpdate<1, false>>)) {
