@@ -74,7 +74,9 @@ const Kernels* find(const char* name) {
     const bool has_2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
     if (const auto* found = if_taken(avx2, name, has_2)) return found;
 #endif
-    static constexpr Kernels own = {detail::kernels_of_flags(), 0, nullptr, nullptr};
+    static constexpr taut_kernels::Table<float> no_float{};
+    static constexpr taut_kernels::Table<double> no_double{};
+    static constexpr Kernels own = {detail::kernels_of_flags(), 0, &no_float, &no_double};
     return !name || std::strcmp(name, own.name) == 0 ? &own : nullptr;
 }
 
@@ -120,11 +122,11 @@ void* detail::regrow(void* old, std::size_t used, std::size_t bytes) {
     return grown;
 }
 
-const taut_kernels::Table<float>* detail::chosen_kernels(float) {
-    return step_detail::current().of_float;
+const taut_kernels::Table<float>& detail::chosen_kernels(float) {
+    return *step_detail::current().of_float;
 }
-const taut_kernels::Table<double>* detail::chosen_kernels(double) {
-    return step_detail::current().of_double;
+const taut_kernels::Table<double>& detail::chosen_kernels(double) {
+    return *step_detail::current().of_double;
 }
 
 const char* kernels() { return step_detail::current().name; }

@@ -74,7 +74,7 @@ public:
     virtual void see(const PlaceVectors<Scalar, Dim>& x, const PlaceVectors<Scalar, Dim>& v,
                      Scalar time, const State<Scalar, Dim>* state,
                      const Points<Scalar, Dim>* force) = 0;
-    /// After a step, not of velocity Verlet: may change the planes.
+    /// After a step, or a sweep of velocity Verlet, which must leave the planes as they are.
     /// @param places  as of PlaceVectors   @param time, ahead  s   @returns whether to go on
     virtual bool passed(const Layout<Scalar>& layout, const Buffer<int>& places,
                         StateMemory<Scalar>& memory, Scalar time, Scalar ahead) = 0;
