@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
-#include <cstdlib>
 #include <cstring>
 #include <iterator>
 #include <taut/kernels.hpp>
@@ -83,9 +82,11 @@ const Kernels* find(const char* name) {
 /// What plans are made for, whatever is chosen later: all that can be chosen may run them.
 const Kernels& widest() {
     static const Kernels* const found = [] {
+#if defined(TAUT_KERNELS)
         const char* asked = std::getenv("TAUT_KERNELS");
-        const Kernels* named = asked ? find(asked) : nullptr;
-        return named ? named : find(nullptr);
+        if (const Kernels* named = asked ? find(asked) : nullptr) return named;
+#endif
+        return find(nullptr);
     }();
     return *found;
 }

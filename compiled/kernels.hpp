@@ -46,9 +46,7 @@ struct Kernels {
     static void (*from_planes(const Matrix&))(...) {
         return nullptr;
     }
-    static typename Table::LookAhead look_ahead() { return chosen_kernels(Scalar()).look_ahead; }
-    static typename Table::LookAhead drift() { return chosen_kernels(Scalar()).drift; }
-    static typename Table::Kick kick() { return chosen_kernels(Scalar()).kick; }
+    static typename Table::AddScaled add_scaled() { return chosen_kernels(Scalar()).add_scaled; }
     static typename Table::Finite finite() { return chosen_kernels(Scalar()).finite; }
 };
 

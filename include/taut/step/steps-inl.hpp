@@ -15,33 +15,13 @@
 
 namespace taut::step_detail {
 
-// Not seen by programs with Taut::Compiled: all that steps by the same rounding is there.
 template <class Scalar>
-void StateMemory<Scalar>::look_ahead(Scalar ahead) {
-    TAUT_BY_KERNEL(look_ahead(), this, ahead);
-    const Register step(ahead);
-    for_each_register([&](Index i) {
-        const Register x = Register::load(planes_.x.first + i);
-        (x + step * Register::load(planes_.v.first + i)).store(planes_.spring_x.first + i);
-    });
-}
-template <class Scalar>
-void StateMemory<Scalar>::kick(const Scalar* a, Scalar by) {
-    TAUT_BY_KERNEL(kick(), this, a, by);
-    const Register step(by);
-    for_each_register([&](Index i) {
-        Scalar* v = planes_.v.first + i;
-        (Register::load(v) + step * Register::load(a + i)).store(v);
-    });
-}
-template <class Scalar>
-void StateMemory<Scalar>::drift(Scalar h) {
-    TAUT_BY_KERNEL(drift(), this, h);
-    const Register step(h);
-    for_each_register([&](Index i) {
-        Scalar* x = planes_.x.first + i;
-        (Register::load(x) + step * Register::load(planes_.v.first + i)).store(x);
-    });
+void add_scaled(const Scalar* a, Scalar by, const Scalar* b, Scalar* sum, Index count) {
+    TAUT_BY_KERNEL(add_scaled(), a, by, b, sum, count);
+    using Register = VectorRegister<Scalar>;
+    for (Index i = 0; i < count; i += Register::width) {
+        (Register::load(a + i) + Register(by) * Register::load(b + i)).store(sum + i);
+    }
 }
 
 template <class Scalar, int Dim>
