@@ -14,7 +14,8 @@ namespace taut::network_detail {
 ///     G(λ) = −½w′ = w/(sinc √w − cos √w),  from π² (ends touch) to 3 (flat),
 ///
 /// is r₀ + Σ r/(λ + q) with r, q > 0, whose sums and integrals lose nothing to cancellation. These
-/// are the best of their number: within 5.5e-9 of G for float, 9.5e-19 for double, 1.1e-20 beyond.
+/// are the best of their number by Remez's exchange of the relative error: 5.5e-9 for float,
+/// 9.5e-19 for double, 1.1e-20 beyond, where G′ is good to 96 roundings.
 /// @returns r₀, then q and r of each pole
 template <int digits>
 constexpr auto arc_poles() {
