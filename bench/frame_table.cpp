@@ -117,10 +117,7 @@ private:
 void law_table() {
     std::printf(
         "\n## Laws that do not push, beside Hooke's: n steps of SymplecticEuler together\n\n"
-        "ns a spring and step. Buckling is solved for in every spring that is pushed beyond 3.6 "
-        "%%, "
-        "so "
-        "its time\ndepends on the pose.\n\n"
+        "ns a spring and step.\n\n"
         "| cloth | Hookean | TensionOnly | ratio | Buckling | ratio |\n"
         "|---|---|---|---|---|---|\n");
     for (const Index side : {16, 64, 100}) {

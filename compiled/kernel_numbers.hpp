@@ -30,7 +30,6 @@ constexpr void set_sizes(taut_kernels::Table<Scalar>& table) {
     table.sizes[0] = sizeof(LawPlan<Scalar, 3, Buckling>);
     table.sizes[1] = sizeof(PlaceUpdate<Scalar>);
     table.sizes[2] = sizeof(Layout<Scalar>);
-    table.sizes[3] = sizeof(StateMemory<Scalar>);
 }
 
 }  // namespace taut::step_detail

@@ -28,8 +28,9 @@ struct Table {
                               const void* places);
     using FromPlanes = void (*)(const void* layout, const void* planes, Scalar* points,
                                 const void* places);
-    /// StateMemory::look_ahead.
-    using LookAhead = void (*)(void* memory, Scalar ahead);
+    /// add_scaled.
+    using AddScaled = void (*)(const Scalar* a, Scalar by, const Scalar* b, Scalar* sum,
+                               std::ptrdiff_t count);
     /// detail::all_finite.
     using Finite = bool (*)(const Scalar* numbers, std::ptrdiff_t count);
 
@@ -37,9 +38,9 @@ struct Table {
     Move move[updates];
     ToPlanes to_planes[3];  // dimension − 1
     FromPlanes from_planes[3];
-    LookAhead look_ahead;
+    AddScaled add_scaled;
     Finite finite;
-    std::size_t sizes[4];  // of LawPlan, PlaceUpdate, Layout, StateMemory: the same in all units
+    std::size_t sizes[3];  // of LawPlan, PlaceUpdate, Layout: the same in all units
 };
 
 }  // namespace taut_kernels

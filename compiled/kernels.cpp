@@ -81,7 +81,13 @@ const Kernels* find(const char* name) {
 
 /// What plans are made for, whatever is chosen later: all that can be chosen may run them.
 const Kernels& widest() {
-    static const Kernels* const found = find(nullptr);
+    static const Kernels* const found = [] {
+#if defined(TAUT_KERNELS)
+        const char* asked = std::getenv("TAUT_KERNELS");
+        if (const Kernels* named = asked ? find(asked) : nullptr) return named;
+#endif
+        return find(nullptr);
+    }();
     return *found;
 }
 std::atomic<const Kernels*> chosen{nullptr};  // null: the widest
@@ -128,6 +134,7 @@ const char* kernels() { return step_detail::current().name; }
 
 bool set_kernels(const char* name) {
     const step_detail::Kernels* found = step_detail::find(name);
+    if (found && found->bytes > step_detail::widest().bytes) found = nullptr;
     if (found) step_detail::chosen.store(found, std::memory_order_relaxed);
     return found != nullptr;
 }

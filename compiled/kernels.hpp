@@ -46,7 +46,7 @@ struct Kernels {
     static void (*from_planes(const Matrix&))(...) {
         return nullptr;
     }
-    static typename Table::LookAhead look_ahead() { return chosen_kernels(Scalar()).look_ahead; }
+    static typename Table::AddScaled add_scaled() { return chosen_kernels(Scalar()).add_scaled; }
     static typename Table::Finite finite() { return chosen_kernels(Scalar()).finite; }
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 
-// A cloth falls on a sphere, with friction. docs/systems/contact.md reads along.
+// A cloth falls on a sphere, with friction. docs/contact.md reads along.
 
 #include <cstdio>
 #include <taut/contact/contacts.hpp>

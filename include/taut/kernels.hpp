@@ -34,18 +34,18 @@ constexpr const char* kernels_of_flags() {
 
 }  // namespace detail
 
-/// The widest kernels that Taut::Compiled has for this processor, "avx512" or "avx2" if it was
-/// built with TAUT_KERNELS, or those of its own flags, such as "sse2". By headers alone: those of
-/// the program's flags.
+/// The kernels that steps take: the widest that Taut::Compiled has for this processor, "avx512" or
+/// "avx2", or those that the environment variable TAUT_KERNELS names; where it has none, not on
+/// x86-64 or by the CMake option, and by headers alone, those of the flags, such as "sse2".
 ///
-/// Wide kernels fuse what the rest of the library rounds twice: n steps of velocity Verlet together
-/// and one by one, which differ by what lies between them, are the same to rounding only.
+/// Wide kernels fuse what narrow ones round twice: unlike processors give the same to rounding
+/// only, but with TAUT_SAME_BITS, where all kernels give the same bits.
 /// They are of the laws and scalars that compiled.hpp and compiled_laws.hpp list. A law of your own
 /// is compiled with your program, for the registers of your program's flags.
 TAUT_INLINE const char* kernels();
-/// Takes others, for all steps from now on: for tests, or for the same rounding on unlike
-/// processors. TAUT_SAME_BITS does without: all kernels give the same bits then.
-/// @returns whether there are such and the processor can; if not, nothing changes
+/// Takes others, for all steps from now on: for tests, or for the same rounding everywhere.
+/// @returns whether there are such, the processor can, and they are no wider than what kernels()
+///          said at first; if not, nothing changes
 TAUT_INLINE bool set_kernels(const char* name);
 
 #if !defined(TAUT_COMPILED)

@@ -10,6 +10,7 @@
 #include "../core/error.hpp"
 #include "detail/arc.hpp"
 #include "detail/slope_range.hpp"
+#include "detail/where_less.hpp"
 
 namespace taut {
 
@@ -25,6 +26,7 @@ namespace taut {
 struct Buckling {
     static constexpr bool convex = false;
     static constexpr bool monotone = true;
+    static constexpr bool vectorizable = true;
 
     /// What one spring needs beside its rest length.
     template <class Scalar>
@@ -48,39 +50,36 @@ struct Buckling {
     };
 
     /// T(l), N; negative (pushing) when l < L.
-    template <class Scalar>
-    static Scalar tension(const Parameters<Scalar>& p, Scalar L, Scalar l) {
-        if (l >= L) return p.stiffness * (l - L);
-        const Scalar line = p.onset * (l - L);
-        if (line >= -12 * beam_unit(p, L)) return line;  // no arc pushes less
-        return (std::max)(line, -4 * beam_unit(p, L) / arc(L, l).lever);
+    template <class Real>
+    static Real tension(const Parameters<Real>& p, Real L, Real l) {
+        using network_detail::where_less;
+        const Real line = where_less(l, L, p.onset, p.stiffness) * (l - L);
+        const Real beam = beam_tension(p, L, l);
+        return where_less(line, beam, beam, line);
     }
     /// T′(l), N/m; at the kinks that of one side.
-    template <class Scalar>
-    static Scalar tension_slope(const Parameters<Scalar>& p, Scalar L, Scalar l) {
-        if (l >= L) return p.stiffness;
-        const Scalar line = p.onset * (l - L);
-        if (line >= -12 * beam_unit(p, L)) return p.onset;
-        const auto bent = arc(L, l);
-        if (line >= -4 * beam_unit(p, L) / bent.lever) return p.onset;
-        return arc_slope(p, L, bent);
+    template <class Real>
+    static Real tension_slope(const Parameters<Real>& p, Real L, Real l) {
+        using network_detail::where_less;
+        const Real slope = where_less(l, L, p.onset, p.stiffness);
+        return where_less(slope * (l - L), beam_tension(p, L, l), beam_slope(p, L, l), slope);
     }
     /// The least and the largest T′ between two lengths, N/m, on both sides of each kink.
     template <class Scalar>
     static std::pair<Scalar, Scalar> slope_range(const Parameters<Scalar>& p, Scalar L, Scalar low,
                                                  Scalar high) {
         auto range = network_detail::slopes_at_ends_and_rest<Buckling>(p, L, low, high);
-        if (!beam_shows(p, L)) return range;
+        if (!(onset_excess(p, L) > 0)) return range;
         // Along the arc T′ falls as l grows, so that its ends and those of the interval decide.
         const auto [from, to] = arc_ends(p, L);
-        for (const Scalar w : {from, to}) {
-            const auto bent = network_detail::Arc<Scalar>::at(w);
-            const Scalar l = L * (1 - w * bent.sag);
-            if (l >= low && l <= high) network_detail::widen(range, {arc_slope(p, L, bent)});
+        for (const Scalar delta : {from, to}) {
+            const Scalar l = L * (1 - delta);
+            if (l >= low && l <= high) network_detail::widen(range, {beam_slope(p, L, l)});
         }
         return range;
     }
-    /// Energy, J: 2k_b w/L + constant along the beam, w = (κL/2)², and that of the line beside it.
+    /// Energy, J: along the beam 4k_b/L·∫G + constant, that of bending, and that of the line beside
+    /// it.
     template <class Scalar>
     static Scalar energy(const Parameters<Scalar>& p, Scalar L, Scalar l) {
         if (l >= L) return Scalar(0.5) * p.stiffness * (l - L) * (l - L);
@@ -88,70 +87,85 @@ struct Buckling {
             return Scalar(0.5) * p.onset * L * L * shortening * shortening;
         };
         const Scalar delta = (L - l) / L;
-        if (!beam_shows(p, L)) return line(delta);
+        if (!(onset_excess(p, L) > 0)) return line(delta);
         const auto [from, to] = arc_ends(p, L);
-        const Scalar w = arc(L, l).w;
-        if (w <= from) return line(delta);
-        const auto shortening = [](Scalar at) {
-            return at * network_detail::Arc<Scalar>::at(at).sag;
-        };
-        const Scalar bent =
-            line(shortening(from)) + 2 * beam_unit(p, L) * L * ((std::min)(w, to) - from);
-        return w <= to ? bent : bent + line(delta) - line(shortening(to));
+        if (delta <= from) return line(delta);
+        const Scalar work = Arc<Scalar>::work(from, (std::min)(delta, to));
+        const Scalar bent = line(from) + beam_stiffness(p, L) * L * L * work;
+        return delta <= to ? bent : bent + line(delta) - line(to);
     }
     /// A bound ≥ max(T′(l), T(l)/l) over all l > 0, N/m [T3], [T23]: the beam is stiffest at l → 0,
     /// where T′ = 12π²k_b/L³.
-    template <class Scalar>
-    static Scalar stiffness_bound(const Parameters<Scalar>& p, Scalar L) {
-        const Scalar linear = (std::max)(p.stiffness, p.onset);
-        if (!beam_shows(p, L)) return linear;
-        return (std::max)(linear,
-                          12 * network_detail::Arc<Scalar>::touching * (beam_unit(p, L) / L));
+    template <class Real>
+    static Real stiffness_bound(const Parameters<Real>& p, Real L) {
+        using network_detail::where_less;
+        const Real linear = where_less(p.stiffness, p.onset, p.onset, p.stiffness);
+        const Real touching = Real(3 * Arc<Real>::touching) * beam_stiffness(p, L);
+        const Real larger = where_less(linear, touching, touching, linear);
+        return where_less(Real(0), onset_excess(p, L), larger, linear);
     }
 
 private:
-    /// k_b/L², N; infinite for L = 0, where the line is the law.
-    template <class Scalar>
-    static Scalar beam_unit(const Parameters<Scalar>& p, Scalar L) {
-        return p.bending / L / L;
+    template <class Real>
+    using Arc = network_detail::Arc<Real>;
+
+    /// 1/L, 1/m; 1 for L = 0, where the line is the law, and for a register's gaps.
+    template <class Real>
+    static Real inverse(const Real& L) {
+        using network_detail::where_less;
+        return Real(1) / where_less(Real(0), L, L, Real(1));
     }
-    /// Whether the beam pushes less than the line anywhere: c = c_b L³/(4k_b) above the least
-    /// 1/(w·A·B), which is 7.8678 at w = 5.782.
-    template <class Scalar>
-    static bool beam_shows(const Parameters<Scalar>& p, Scalar L) {
-        return L > 0 && p.onset > Scalar(31.4711) * (beam_unit(p, L) / L);
+    /// λ = l/L, 1 where it is more.
+    template <class Real>
+    static Real chord(const Real& L, const Real& l) {
+        using network_detail::where_less;
+        const Real lambda = l * inverse(L);
+        return where_less(lambda, Real(1), lambda, Real(1));
     }
-    template <class Scalar>
-    static network_detail::Arc<Scalar> arc(Scalar L, Scalar l) {
-        return network_detail::Arc<Scalar>::shortened((L - l) / L);
+    /// T along the beam, N; < 0 where l ≥ L, too.
+    template <class Real>
+    static Real beam_tension(const Parameters<Real>& p, const Real& L, const Real& l) {
+        return Real(-4) * p.bending * inverse(L) * inverse(L) * Arc<Real>::slope(chord(L, l));
     }
     /// T′ along the beam, N/m.
-    template <class Scalar>
-    static Scalar arc_slope(const Parameters<Scalar>& p, Scalar L,
-                            const network_detail::Arc<Scalar>& bent) {
-        const Scalar cube = bent.lever * bent.lever * bent.lever;
-        return -8 * (beam_unit(p, L) / L) * bent.lever_w / cube;
+    template <class Real>
+    static Real beam_slope(const Parameters<Real>& p, const Real& L, const Real& l) {
+        return beam_stiffness(p, L) * Arc<Real>::curvature(chord(L, l));
     }
-    /// The least and the largest w at which the beam is the law, where it shows.
+    /// 4k_b/L³, N/m.
+    template <class Real>
+    static Real beam_stiffness(const Parameters<Real>& p, const Real& L) {
+        return Real(4) * p.bending * inverse(L) * inverse(L) * inverse(L);
+    }
+    /// > 0 if the beam pushes less than the line anywhere: c = c_b L³/(4k_b) above the least
+    /// G(λ)/(1 − λ), which is 7.8678 at λ = 0.28.
+    template <class Real>
+    static Real onset_excess(const Parameters<Real>& p, const Real& L) {
+        using network_detail::where_less;
+        constexpr auto least = static_cast<typename Arc<Real>::Scalar>(7.867775);
+        return where_less(Real(0), L, p.onset - Real(least) * beam_stiffness(p, L), Real(0));
+    }
+    /// The least and the largest shortening δ = 1 − l/L at which the beam is the law, where it
+    /// shows.
     template <class Scalar>
     static std::pair<Scalar, Scalar> arc_ends(const Parameters<Scalar>& p, Scalar L) {
-        constexpr Scalar touching = network_detail::Arc<Scalar>::touching;
-        const Scalar c = p.onset / (4 * beam_unit(p, L) / L);
-        return {crossing(c, 18 / c), c < touching ? crossing(c, touching) : touching};
+        const Scalar c = p.onset / beam_stiffness(p, L);
+        const Scalar from = crossing(c, 3 / c, Scalar(-1));
+        const Scalar to = c < Arc<Scalar>::touching ? crossing(c, Scalar(1), Scalar(1)) : Scalar(1);
+        return {from, (std::max)(from, to)};
     }
-    /// The w where line and beam push alike, c·w·A·B = 1, by Newton from a w outside of the roots:
-    /// w·A·B is concave, so the iterates approach the nearer root from one side.
+    /// The δ where line and beam push alike, cδ = G, by Newton from a δ outside of the roots: G is
+    /// convex, so the iterates approach the nearer root from one side, or pass where there is none.
+    /// @param side  1 from above, −1 from below
     template <class Scalar>
-    static Scalar crossing(Scalar c, Scalar w) {
+    static Scalar crossing(Scalar c, Scalar delta, Scalar side) {
         for (int i = 0; i < 64; ++i) {
-            const auto at = network_detail::Arc<Scalar>::at(w);
-            const Scalar excess = w * at.sag * at.lever - 1 / c;
-            const Scalar slope = Scalar(0.5) * at.lever * at.lever + w * at.sag * at.lever_w;
-            const Scalar step = excess / slope;
-            if (!((std::abs)(step) > 4 * std::numeric_limits<Scalar>::epsilon() * w)) break;
-            w = std::clamp(w - step, Scalar(0), network_detail::Arc<Scalar>::touching);
+            const Scalar excess = c * delta - Arc<Scalar>::slope(1 - delta);
+            const Scalar step = excess / (c - Arc<Scalar>::curvature(1 - delta));
+            if (!(step * side > 4 * std::numeric_limits<Scalar>::epsilon() * delta)) break;
+            delta = std::clamp(delta - step, Scalar(0), Scalar(1));
         }
-        return w;
+        return delta;
     }
 };
 

@@ -211,6 +211,10 @@ struct ReadAnywhere {
     bool positions;   // by an outside force
 };
 
+/// sum ← a + by·b of whole planes, rounded as the steps do; defined in steps-inl.hpp.
+template <class Scalar>
+void add_scaled(const Scalar* a, Scalar by, const Scalar* b, Scalar* sum, Index count);
+
 /// The memory of StatePlanes.
 template <class Scalar>
 class StateMemory {
@@ -238,20 +242,10 @@ public:
     }
     /// Sets spring_x to x + ahead·v, with `ahead` in s.
     void look_ahead(Scalar ahead) {
-        TAUT_BY_KERNEL(look_ahead(), this, ahead);
-        const Register step(ahead);
-        for_each_register([&](Index i) {
-            const Register x = Register::load(planes_.x.first + i);
-            (x + step * Register::load(planes_.v.first + i)).store(planes_.spring_x.first + i);
-        });
+        add_scaled(planes_.x.first, ahead, planes_.v.first, planes_.spring_x.first, whole());
     }
     /// The length of a vector's planes one after another, padding included.
     Index whole() const { return planes_of_vector_ * stride_; }
-    /// visit(i) for the first scalar of each register of these.
-    template <class Visitor>
-    void for_each_register(Visitor&& visit) const {
-        for (Index i = 0; i < whole(); i += Register::width) visit(i);
-    }
     bool finite() {
         padded_ = finite(planes_.x) && finite(planes_.v);  // else what is not may have spread there
         return padded_;
@@ -262,8 +256,6 @@ public:
     void swap_positions() { planes_.swap_positions(); }
 
 private:
-    using Register = VectorRegister<Scalar>;
-
     bool finite(const Planes<Scalar>& of) const {
         for (int d = 0; d < planes_of_vector_; ++d) {
             if (!detail::all_finite(of[d], size_)) return false;

@@ -15,6 +15,15 @@
 
 namespace taut::step_detail {
 
+template <class Scalar>
+void add_scaled(const Scalar* a, Scalar by, const Scalar* b, Scalar* sum, Index count) {
+    TAUT_BY_KERNEL(add_scaled(), a, by, b, sum, count);
+    using Register = VectorRegister<Scalar>;
+    for (Index i = 0; i < count; i += Register::width) {
+        (Register::load(a + i) + Register(by) * Register::load(b + i)).store(sum + i);
+    }
+}
+
 template <class Scalar, int Dim>
 void Outside<Scalar, Dim>::ask(const Layout<Scalar>& layout, const StatePlanes<Scalar>& planes,
                                bool first) {

@@ -136,7 +136,6 @@ public:
                        const Correct& correct);
 
 private:
-    using Register = VectorRegister<Scalar>;
     /// Not finite is noticed after so many steps; until then they cost as much as others.
     static constexpr Index steps_between_checks = 64;
     /// A register may begin before its block or end behind it.
@@ -224,21 +223,15 @@ bool Steps<Scalar, Dim>::run_verlet(const Forces& forces, AnyState& state, Scala
     using Update = PlaceUpdate<Scalar>;
     if (go_on) {
         Scalar *x = state_.planes().x.first, *v = state_.planes().v.first;
-        const auto kicked = [&](Index i, Scalar by) {
-            return Register::load(v + i) + Register(by) * Register::load(acceleration_.data() + i);
-        };
         if (watch_) {  // the forces here were taken at the last step's v½
             end_v_.resize(static_cast<std::size_t>(state_.whole()));
             std::copy_n(v, state_.whole(), end_v_.data());
-            state_.for_each_register([&](Index i) { kicked(i, -last_h_ / 2).store(v + i); });
+            add_scaled(v, -last_h_ / 2, acceleration_.data(), v, state_.whole());
             show(forces.layout(), nullptr, nullptr);
             std::copy_n(end_v_.data(), state_.whole(), v);
         }
-        state_.for_each_register([&](Index i) {
-            const Register half = kicked(i, h / 2);
-            half.store(v + i);
-            (Register::load(x + i) + Register(h) * half).store(x + i);
-        });
+        add_scaled(v, h / 2, acceleration_.data(), v, state_.whole());
+        add_scaled(x, h, v, x, state_.whole());
         outside_.pass(h);
         if (!state_.finite() || !passed(forces.layout())) return false;
     } else if (!steps(forces, h, 1, threads, &Update::template move<VerletUpdate<1, false>>)) {

@@ -23,13 +23,9 @@ bool Steps<Scalar, Dim>::run_corrected(const Forces& forces, AnyState& state, Sc
         const StatePlanes<Scalar> planes = state_.planes();
         correct(PlaceVectors<Scalar, Dim>(forces.layout(), places_, planes.x),
                 PlaceVectors<Scalar, Dim>(forces.layout(), places_, planes.v));
-        const Register step(h);
-        state_.for_each_register([&](Index k) {
-            const Register a = Register::load(planes.x.first + k);
-            const Register v = Register::load(planes.v.first + k) + step * a;
-            v.store(planes.v.first + k);
-            (Register::load(planes.new_x.first + k) + step * v).store(planes.x.first + k);
-        });
+        Scalar *a = planes.x.first, *v = planes.v.first;
+        add_scaled(v, h, a, v, state_.whole());
+        add_scaled(planes.new_x.first, h, v, planes.x.first, state_.whole());
         const bool check = one_by_one || i == count || i % steps_between_checks == 0;
         if (check && !state_.finite()) return false;
         outside_.pass(h);
