@@ -10,7 +10,7 @@
 #include <exception>
 #include <random>
 #include <string>
-#include <taut/contact/contacts.hpp>
+#include <taut/contact/contact.hpp>
 #include <taut/network/tension_only.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/scene/with_law.hpp>

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <string>
 #include <taut/bdf2/bdf2.hpp>
-#include <taut/contact/contacts.hpp>
+#include <taut/contact/contact.hpp>
 #include <taut/guard/guard.hpp>
 #include <taut/integrator/implicit_euler.hpp>
 #include <taut/modal/modal_analysis.hpp>

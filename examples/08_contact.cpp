@@ -4,7 +4,7 @@
 // A cloth falls on a sphere, with friction. docs/contact.md reads along.
 
 #include <cstdio>
-#include <taut/contact/contacts.hpp>
+#include <taut/contact/contact.hpp>
 #include <taut/guard/guard.hpp>
 #include <taut/taut.hpp>
 

@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <taut/contact/contacts.hpp>
+#include <taut/contact/contact.hpp>
 #include <taut/guard/guard.hpp>
 #include <taut/mesh_files/mesh_files.hpp>
 #include <taut/network/tension_only.hpp>

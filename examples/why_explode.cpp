@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <taut/contact/contacts.hpp>
+#include <taut/contact/contact.hpp>
 #include <taut/equilibrium/equilibrium.hpp>
 #include <taut/guard/guard.hpp>
 #include <taut/taut.hpp>

@@ -10,7 +10,7 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <taut/contact/contacts.hpp>
+#include <taut/contact/contact.hpp>
 #include <taut/lattice/lattice.hpp>
 #include <taut/mesh_files/mesh_files.hpp>
 #include <taut/taut.hpp>

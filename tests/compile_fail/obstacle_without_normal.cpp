@@ -4,7 +4,7 @@
 // ERRORS: 1
 
 #include <taut/network/spring_system.hpp>
-#include <taut/contact/contacts.hpp>
+#include <taut/contact/contact.hpp>
 
 struct Depth {
     double distance;

@@ -4,7 +4,7 @@
 
 #include <taut/bdf2/bdf2.hpp>
 #include <taut/constraints/constraints.hpp>
-#include <taut/contact/contacts.hpp>
+#include <taut/contact/contact.hpp>
 #include <taut/guard/guard.hpp>
 #include <taut/conditions/visit.hpp>
 #include <taut/newton/newton.hpp>

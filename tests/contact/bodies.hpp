@@ -3,7 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <taut/contact/contacts.hpp>
+#include <taut/contact/contact.hpp>
 
 #include "../support/random_system.hpp"
 

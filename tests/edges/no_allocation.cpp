@@ -17,7 +17,7 @@ bool eigen_allocated = false;
 
 // Eigen asserts on every allocation while none is allowed.
 #define eigen_assert(condition) ((condition) ? void() : void(eigen_allocated = true))
-#include <taut/contact/contacts.hpp>
+#include <taut/contact/contact.hpp>
 #include <taut/guard/guard.hpp>
 #include <taut/taut.hpp>
 
