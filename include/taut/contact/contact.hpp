@@ -110,7 +110,7 @@ public:
         waits_ = false;
         failed_ = false;
         step_.penalty.h = h;
-        step_.near.clear();
+        step_.nearby.clear();
         step_.work.assign(system_->size() + step_detail::max_width, Scalar(0));
         const Scalar frame = h * static_cast<Scalar>(count);
         drift_ = Vector::Zero();
@@ -122,7 +122,7 @@ public:
         }
         // Far enough for some part of a frame in which bodies hurry, and a short list where not.
         Scalar most = 0;
-        for (const auto& body : step_.bodies) most = (std::max)(most, body->far(frame * drift_));
+        for (const auto& body : step_.bodies) most = (std::max)(most, body->reach(frame * drift_));
         margin_ = (std::min)((std::max)(most / 8, Scalar(0.004)), Scalar(0.01));
     }
     /// After all its steps. @returns the work on each particle, J
@@ -191,15 +191,15 @@ public:
         const Scalar share = static_cast<Scalar>(passed_) / static_cast<Scalar>(count_);
         const Scalar time = static_cast<Scalar>(passed_) * step_.penalty.h;
         for (const auto& body : step_.bodies) body->motion.go_to(body->way(share));
-        step_.near.go_to(step_.bodies, time);
-        bool listed = step_.near.holds(moving.x, layout.size());
+        step_.nearby.go_to(step_.bodies, time);
+        bool listed = step_.nearby.holds(moving.x, layout.size());
         for (Scalar margin = margin_;; margin *= 4) {
             if (!listed) {
                 if (!detail::is_finite(margin)) return !(failed_ = true);
-                if (step_.near.built()) step_.near.remember(step_.bodies, step_.known);
+                if (step_.nearby.built()) step_.nearby.remember(step_.bodies, step_.known);
                 step_.look_back(layout, planes, margin, longest_, drift_, time);
-                step_.near.go_to(step_.bodies, time);
-                listed = step_.near.holds(moving.x, layout.size());
+                step_.nearby.go_to(step_.bodies, time);
+                listed = step_.nearby.holds(moving.x, layout.size());
                 if (!listed) continue;
             }
             step_.touch(moving);

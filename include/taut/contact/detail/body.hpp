@@ -129,7 +129,7 @@ public:
     }
 
     /// How far a point of it goes at most in the frame, beside a way of everything, m.
-    Scalar far(const Vector& beside) const {
+    Scalar reach(const Vector& beside) const {
         const Scalar turned = (end.rotation - begin.rotation).norm();
         return (end.position - begin.position - beside).norm() +
                (turned > 0 ? turned * extent() : Scalar(0));

@@ -20,7 +20,7 @@ public:
     using Bodies = std::vector<std::unique_ptr<Body<Scalar, Dim>>>;
 
     Bodies bodies;
-    NearList<Scalar, Dim> near;
+    NearList<Scalar, Dim> nearby;
     Penalty<Scalar> penalty{};
     Buffer<Scalar> mass;           // by place, kg; 0 if pinned; padded
     Buffer<Scalar> work;           // by place, J; padded
@@ -34,11 +34,11 @@ public:
         touched_.clear();
         old_pairs_.clear();
         for (const auto& body : bodies) body->step(penalty, moving, touching);
-        auto& shared = near.shared();
+        auto& shared = nearby.shared();
         for (std::size_t first = 0, end; first < shared.size(); first = end) {
             const int place = shared[first].place;
             for (end = first; end < shared.size() && shared[end].place == place;) ++end;
-            if (near.away(moving.x, &shared[first], end - first)) {
+            if (nearby.away(moving.x, &shared[first], end - first)) {
                 shared[first].old = true;
                 continue;
             }
@@ -54,12 +54,12 @@ public:
             for (Index k = 0; k < hits.count; ++k) {
                 const Register pushed = Register::load(hits.touched.data() + k * Register::width);
                 const Index place = body->solo.first[hits.block[k]];
-                worst = larger(worst, where_less(zero, pushed, near.beyond(x, place), below));
+                worst = larger(worst, where_less(zero, pushed, nearby.beyond(x, place), below));
             }
             if (!(largest_lane(worst) < 0)) return false;
         }
         for (const auto& touched : touched_) {
-            if (!near.holds_of(x, touched.place)) return false;
+            if (!nearby.holds_of(x, touched.place)) return false;
         }
         return true;
     }
@@ -85,7 +85,7 @@ public:
         auto old = old_pairs_.begin();
         for (const auto& touched : touched_) {
             set(moving, touched.place, touched.x, touched.v);
-            for (std::size_t k = touched.first; k < touched.end; ++k) near.shared()[k] = *old++;
+            for (std::size_t k = touched.first; k < touched.end; ++k) nearby.shared()[k] = *old++;
         }
     }
     /// Books the work of the step.
@@ -110,8 +110,8 @@ public:
             old_[i] = planes.x.first[i] - penalty.h * planes.v.first[i];
         for (const auto& body : bodies) std::swap(body->motion.now, body->motion.next);
         ++lookups;
-        near.build(bodies, known, mass, Access(layout, {old_.data(), planes.x.stride}),
-                   layout.size(), margin, push_time, drift, time - penalty.h);
+        nearby.build(bodies, known, mass, Access(layout, {old_.data(), planes.x.stride}),
+                     layout.size(), margin, push_time, drift, time - penalty.h);
         for (const auto& body : bodies) std::swap(body->motion.now, body->motion.next);
     }
     /// In the last half kick of velocity Verlet: what touches goes no further in.
@@ -135,7 +135,7 @@ public:
                 visit(solo.place(k), b, x, normal);
             }
         }
-        for (const auto& pair : near.shared()) {
+        for (const auto& pair : nearby.shared()) {
             if (pair.depth > 0)
                 visit(pair.place, static_cast<std::size_t>(pair.body), pair.x, pair.normal);
         }
@@ -150,7 +150,7 @@ public:
                     visit(solo.place(k), penalty.energy(solo.depth[k], solo.cap[k], solo.mass[k]));
             }
         }
-        for (const auto& pair : near.shared()) {
+        for (const auto& pair : nearby.shared()) {
             if (pair.depth > 0)
                 visit(pair.place, penalty.energy(pair.depth, pair.cap, mass[pair.place]));
         }
@@ -172,7 +172,7 @@ private:
         if (penalty.ahead > 0) moving.spring_x.set(place, x + penalty.ahead * v);
     }
     void touch_shared(const Moving<Scalar, Dim>& moving, std::size_t first, std::size_t end) {
-        auto& shared = near.shared();
+        auto& shared = nearby.shared();
         const int place = shared[first].place;
         Touched touched{place, moving.x.vector(place), moving.v.vector(place), 0, first, end};
         Vector x = touched.x, v = touched.v;

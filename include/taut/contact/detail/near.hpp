@@ -224,8 +224,8 @@ private:
             radius_[c] = std::sqrt(largest_lane(radius2));
         }
     }
-    /// Lists the clusters that may be within `far` of a body, m, and how far the others are.
-    void look_at_clusters(const Body<Scalar, Dim>& body, Scalar far) {
+    /// Lists the clusters that may be within `reach` of a body, m, and how far the others are.
+    void look_at_clusters(const Body<Scalar, Dim>& body, Scalar reach) {
         body.depths(Access(centre_.data(), stride_), every_, body.motion.next,
                     cluster_depth_.data());
         close_.clear();
@@ -234,12 +234,12 @@ private:
                 -(Register::load(cluster_depth_.data() + c) + Register::load(radius_.data() + c));
             away.store(cluster_depth_.data() + c);
             const Register slack = Register::load(cluster_slack_.data() + c);
-            const Register room = where_less(Register(far), away, away, slack);
+            const Register room = where_less(Register(reach), away, away, slack);
             where_less(room, slack, room, slack).store(cluster_slack_.data() + c);
-            if (!(largest_lane(-away) >= -far)) continue;
+            if (!(largest_lane(-away) >= -reach)) continue;
             const Index end = (std::min)(clusters_, c + Register::width);
             for (Index k = c; k < end; ++k) {
-                if (far < cluster_depth_[k]) continue;
+                if (reach < cluster_depth_[k]) continue;
                 close_.push_back(static_cast<int>(k * Register::width));
             }
         }

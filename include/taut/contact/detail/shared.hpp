@@ -39,10 +39,10 @@ public:
     /// @returns whether anything was touched
     bool operator()(const Bodies& bodies, const Pair* pairs, std::size_t count,
                     const Penalty<Scalar>& penalty, Vector& x, Vector& speed, Scalar& work) {
-        bool near = false;
-        for (std::size_t j = 0; j < count && !near; ++j)
-            near = pairs[j].depth > 0 || meets(bodies, pairs[j], pairs[0].x, x, Scalar(0));
-        if (!near) return false;
+        bool nearby = false;
+        for (std::size_t j = 0; j < count && !nearby; ++j)
+            nearby = pairs[j].depth > 0 || meets(bodies, pairs[j], pairs[0].x, x, Scalar(0));
+        if (!nearby) return false;
         start(bodies, pairs, count, penalty.h);
         Vector v = speed;
         for (int round = 0; round < 64; ++round) {

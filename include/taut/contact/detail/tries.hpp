@@ -23,7 +23,7 @@ struct Outcome {
         energy.assign(size, 0);
         for (Index place = 0; place < size; ++place)
             work[particle[place]] = static_cast<double>(step.work[place]);
-        step.near.remember(step.bodies, known);
+        step.nearby.remember(step.bodies, known);
         for (auto& pair : known) pair.at = particle[pair.at];
         step.each_energy([&](int place, double held) { energy[particle[place]] += held; });
     }
