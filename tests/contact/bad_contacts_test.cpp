@@ -6,6 +6,7 @@
 #include <taut/scene/cloth.hpp>
 
 #include "../support/catch.hpp"
+#include "../support/random.hpp"
 #include "../support/tolerance.hpp"
 #include "bodies.hpp"
 
@@ -150,6 +151,75 @@ TEST_CASE("bad contacts: two bodies squeeze a cloth, and one holds a pin", "[con
                          Place{centre + Vector(apart, 0, apart), Place::Rotation::Identity()});
     });
     CHECK(state.x.cwiseAbs().maxCoeff() < 10);
+}
+
+TEMPLATE_TEST_CASE("bad contacts: a step that is taken anew has no contact of the first time in it",
+                   "[contact]", float, double) {
+    // Two particles in one register, pushed by a ball each, the first one onto a third ball that
+    // the lists do not have: H may rise by the balls' work alone.
+    using System = taut::SpringSystem<TestType, 2>;
+    using Place2 = taut::Pose<TestType, 2>;
+    using Vector2 = Eigen::Matrix<TestType, 2, 1>;
+    Random random(5);
+    for (int scene = 0; scene < 50; ++scene) {
+        System system;
+        system.add_particle({0, 0}, 1);
+        system.add_particle({5, 0}, 1);
+        system.add_spring(0, 1, {100});
+        taut::Contacts contacts(system);
+        taut::EnergyStableEuler stepper(system);
+        const auto at = [](double x, double y) {
+            Place2 pose;
+            pose.position = Vector2(TestType(x), TestType(y));
+            return pose;
+        };
+        const taut::Sphere<TestType, 2> ball({0, 0}, TestType(0.3));
+        contacts.add(ball, {}, at(0, -0.301));
+        contacts.add(ball, {}, at(5, -0.2999));
+        contacts.add(ball, {}, at(0, 0.3 + random.uniform(0.1, 0.2)));
+        auto state = system.initial_state();
+        const TestType h = taut::energy_limit(system).certified;
+        double before = system.energy(state);
+        for (const double held : contacts.open(state)) before += held;
+        contacts.move_to(0, at(0, -0.301 + random.uniform(0.05, 0.15)));
+        REQUIRE(taut::step_through(stepper, state, h, 1, contacts));
+        CHECK(system.energy(state) + contacts.energy() <= before + contacts.work() + 1e-4);
+    }
+}
+
+TEST_CASE("bad contacts: a rotation that is one but for rounding does no work", "[contact]") {
+    taut::SpringSystem<double, 3> system;
+    for (int i = 0; i < 4; ++i) system.add_particle({1000 + 0.1 * i, 0, 0}, 1);
+    for (int i = 0; i < 3; ++i) system.add_spring(i, i + 1, {100});
+    for (const double off : {-5e-4, -1e-5, 1e-7, 2.5e-4}) {
+        taut::Contacts contacts(system);
+        taut::Pose<double, 3> pose;
+        pose.rotation *= 1 + off;
+        contacts.add(taut::HalfSpace<double, 3>({1000, 0, 0}, {-1, 0, 0}), {}, pose);
+        contacts.move_to(0, pose);
+        taut::EnergyStableEuler stepper(system);
+        auto state = system.initial_state();
+        for (int f = 0; f < 20; ++f)
+            REQUIRE(
+                step_through(stepper, state, taut::energy_limit(system).certified, 5, contacts));
+        CHECK(std::abs(contacts.work()) < 1e-9);
+    }
+}
+
+TEMPLATE_TEST_CASE("bad contacts: particles without a spring lie on the floor", "[contact]", float,
+                   double) {
+    taut::SpringSystem<TestType, 3> system;
+    system.add_particle({0, 0, TestType(0.1)}, 1);
+    system.set_gravity({0, 0, TestType(-9.81)});
+    taut::Contacts contacts(system);
+    contacts.add(taut::HalfSpace<TestType, 3>({0, 0, 0}, {0, 0, 1}));
+    CHECK(contacts.stiffness() > 0);
+    contacts.set_stiffness(TestType(1e30));  // no more than rounding bears
+    taut::EnergyStableEuler stepper(system);
+    auto state = system.initial_state();
+    for (int f = 0; f < 60; ++f)
+        REQUIRE(step_through(stepper, state, TestType(1) / 600, 10, contacts));
+    CHECK(std::abs(state.x(2, 0)) < TestType(1e-3));
 }
 
 }  // namespace taut_test::bad_contacts_test

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -54,8 +55,7 @@ public:
     void move_to(Index body, const Place& pose) {
         if (body < 0 || body >= static_cast<Index>(step_.bodies.size()))
             fail("Contacts::move_to: there is no body ", body);
-        require_rigid("Contacts::move_to", pose);
-        step_.bodies[static_cast<std::size_t>(body)]->end = pose;
+        step_.bodies[static_cast<std::size_t>(body)]->end = rigid("Contacts::move_to", pose);
     }
 
     /// κ of a particle over its mass, 1/s²: how stiff contact is. It costs no step [T39].
@@ -63,8 +63,9 @@ public:
         renew();
         return step_.penalty.by_mass;
     }
-    /// Sets it, > 0; else it is 100/h², with h of energy_limit, s: so at speed v a particle comes
-    /// h·v/10 deep. What touches holds more energy, or less, from then on: an edit between frames.
+    /// Sets it, > 0; else it is 100/h², with h of energy_limit, but at most 0.01 s: so at speed v a
+    /// particle comes h·v/10 deep. More than rounding bears, 8 400/h² in float, is not taken. What
+    /// touches holds more energy, or less, from then on: an edit between frames.
     void set_stiffness(Scalar by_mass) {
         require_positive("Contacts::set_stiffness", "by_mass", by_mass);
         set_ = by_mass;
@@ -219,26 +220,34 @@ private:
         require_non_negative("Contacts::add", "friction", options.friction);
         require_held<Scalar>("Contacts::add", "thickness", options.thickness);
         require_positive("Contacts::add", "push_out", options.push_out);
-        require_rigid("Contacts::add", pose);
         using Own = contact_detail::BodyOf<Scalar, Dim, Obstacle>;
-        step_.bodies.push_back(std::make_unique<Own>(std::move(shape), options, pose));
+        step_.bodies.push_back(
+            std::make_unique<Own>(std::move(shape), options, rigid("Contacts::add", pose)));
         settled_x_.resize(Dim, 0);
         return static_cast<Index>(step_.bodies.size()) - 1;
     }
-    static void require_rigid(const char* function, const Place& pose) {
-        const Scalar off =
-            (pose.rotation.transpose() * pose.rotation - Place::Rotation::Identity()).norm();
-        if (!detail::all_finite(pose.position) || !(off < Scalar(1e-3)) ||
-            !(pose.rotation.determinant() > 0)) {
+    /// The pose with the nearest rotation: what is rigid but for rounding would do work far from
+    /// the body's origin.
+    static Place rigid(const char* function, Place pose) {
+        using Rotation = typename Place::Rotation;
+        Rotation& R = pose.rotation;
+        const Rotation I = Rotation::Identity();
+        if (!detail::all_finite(pose.position) ||
+            !((R.transpose() * R - I).norm() < Scalar(1e-3)) || !(R.determinant() > 0)) {
             fail(function, ": the pose is not finite, or does more than turn and shift");
         }
+        for (int i = 0; i < 3; ++i) R = (R * (3 * I - R.transpose() * R) / 2).eval();
+        return pose;
     }
     /// Follows edits of the system.
     void renew() {
         if (revision_ == system_->revision() + 1) return;
         revision_ = system_->revision() + 1;
-        longest_ = energy_limit(*system_).certified;
-        step_.penalty.by_mass = set_ > 0 ? set_ : 100 / (longest_ * longest_);
+        longest_ = (std::min)(energy_limit(*system_).certified, Scalar(0.01));
+        // More is lost in the rounding of a particle that several bodies press.
+        const Scalar most = Scalar(1e-3) / std::numeric_limits<Scalar>::epsilon();
+        const Scalar by_h2 = 1 / (longest_ * longest_);
+        step_.penalty.by_mass = (set_ > 0 ? (std::min)(set_, most * by_h2) : 100 * by_h2);
         settled_x_.resize(Dim, 0);
     }
     /// Before the first step.

@@ -63,9 +63,12 @@ public:
         }
         return true;
     }
-    /// The step without contact again, and the lists as they were.
+    /// The step without contact again, and the lists as they were. Where two bodies were touched in
+    /// one register, what the second one kept has the first one's contact in it: the last one
+    /// first.
     void undo(const Moving<Scalar, Dim>& moving) {
-        for (const auto& body : bodies) {
+        for (auto each = bodies.rbegin(); each != bodies.rend(); ++each) {
+            const auto& body = *each;
             const auto& hits = body->hits;
             for (Index k = 0; k < hits.count; ++k) {
                 const Index from = k * Register::width, to = hits.block[k] * Register::width;
