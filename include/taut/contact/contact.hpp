@@ -231,12 +231,12 @@ private:
     static Place rigid(const char* function, Place pose) {
         using Rotation = typename Place::Rotation;
         Rotation& R = pose.rotation;
-        const Rotation I = Rotation::Identity();
+        const Rotation one = Rotation::Identity();
         if (!detail::all_finite(pose.position) ||
-            !((R.transpose() * R - I).norm() < Scalar(1e-3)) || !(R.determinant() > 0)) {
+            !((R.transpose() * R - one).norm() < Scalar(1e-3)) || !(R.determinant() > 0)) {
             fail(function, ": the pose is not finite, or does more than turn and shift");
         }
-        for (int i = 0; i < 3; ++i) R = (R * (3 * I - R.transpose() * R) / 2).eval();
+        for (int i = 0; i < 3; ++i) R = (R * (3 * one - R.transpose() * R) / 2).eval();
         return pose;
     }
     /// Follows edits of the system.

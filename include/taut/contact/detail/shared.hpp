@@ -44,34 +44,39 @@ public:
             nearby = pairs[j].depth > 0 || meets(bodies, pairs[j], pairs[0].x, x, Scalar(0));
         if (!nearby) return false;
         start(bodies, pairs, count, penalty.h);
-        Vector v = speed;
+        // As the first body sees it: the velocity of what is held is a difference from that body's,
+        // and its force many times as much.
+        const Vector frame = active_.front().speed;
+        for (Active& a : active_) a.speed -= frame;
+        const Vector before = speed - frame;
+        Vector w = before;
         for (int round = 0; round < 64; ++round) {
-            v = solve(penalty, speed);
+            w = solve(penalty, before);
             bool added = false;
             for (std::size_t j = 0; j < count; ++j) {
                 Active& a = active_[j];
                 if (a.in) continue;
                 const Scalar may = (std::max)(pairs[j].depth, Scalar(0));
-                const Vector to = pairs[0].x + penalty.h * v;
+                const Vector to = pairs[0].x + penalty.h * (frame + w);
                 if (!meets(bodies, pairs[j], pairs[0].x, to, may)) continue;
                 a.in = a.stays = added = true;
             }
             if (!added) break;
         }
-        work = 0;
+        work = frame.dot(w - before);  // of all forces
         Index pushing = 0;
         for (const Active& a : active_) pushing += a.in;
         for (const Active& a : active_) {
             if (!a.in) continue;
-            const Vector w = v - a.speed;
-            const Vector along = w - a.normal.dot(w) * a.normal;
+            const Vector relative = w - a.speed;
+            const Vector along = relative - a.normal.dot(relative) * a.normal;
             const Vector f = pushing == 1
-                                 ? Vector((v - speed) / penalty.h)
-                                 : Vector(force(penalty, a, v) * a.normal - a.drag * along);
+                                 ? Vector((w - before) / penalty.h)
+                                 : Vector(force(penalty, a, w) * a.normal - a.drag * along);
             work += penalty.h * a.speed.dot(f);
         }
-        speed = v;
-        x = pairs[0].x + penalty.h * v;
+        speed = frame + w;
+        x = pairs[0].x + penalty.h * speed;
         return true;
     }
 
@@ -79,7 +84,7 @@ private:
     /// A pair in this step; forces are those on 1 kg.
     struct Active {
         Vector normal;    // n′
-        Vector speed;     // ū, m/s
+        Vector speed;     // ū, m/s, beside that of the first
         Scalar push;      // φ′(p)/κ, m
         Scalar share;     // of it that acts
         Scalar friction;  // μ
