@@ -94,10 +94,11 @@ public:
             ? this->add_column(&none, 0, index, first, end, false)
             : this->add_column(set.damping.data(), sizeof(Scalar), index, first, end, false);
         if constexpr (vectorizable) {
-            const char* bytes = reinterpret_cast<const char*>(set.parameters.data());
+            const auto* all =
+                reinterpret_cast<const char*>(set.parameters.data());  // null for none
             for (std::size_t f = 0; f < fields; ++f) {
-                this->add_column(bytes + f * sizeof(Scalar), sizeof(Parameters), index, first, end,
-                                 false);
+                this->add_column(all ? all + f * sizeof(Scalar) : all, sizeof(Parameters), index,
+                                 first, end, false);
             }
         } else {
             first_parameters_.push_back(parameters_.size());
