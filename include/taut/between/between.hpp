@@ -4,6 +4,7 @@
 
 #include <type_traits>
 
+#include "../integrator/detail/watching.hpp"
 #include "../integrator/energy_stable_euler.hpp"
 #include "../integrator/symplectic_euler.hpp"
 #include "between_steps.hpp"
@@ -70,11 +71,7 @@ Report step_between(Stepper<System>& stepper, AnyState& state, typename System::
     static_assert(method == Method::symplectic_euler || method == Method::energy_stable_euler,
                   "taut::step_between: a SymplecticEuler or an EnergyStableEuler");
     step_detail::CallBetween<Scalar, System::Dim, std::remove_reference_t<Between>> call(between);
-    const struct Watching {
-        Stepper<System>& stepper;
-        ~Watching() { stepper.watch(nullptr); }
-    } watching{stepper};
-    stepper.watch(&call);
+    const integrator_detail::Watching watching(stepper, &call);
     const Report report = stepper.step(state, h, count);
     return call.report() ? report : call.report();
 }

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "../integrator/detail/watching.hpp"
 #include "../integrator/energy_stable_euler.hpp"
 #include "../proof/energy_limit.hpp"
 #include "detail/tries.hpp"
@@ -123,7 +124,8 @@ public:
         }
         // Far enough for some part of a frame in which bodies hurry, and a short list where not.
         Scalar most = 0;
-        for (const auto& body : step_.bodies) most = (std::max)(most, body->reach(frame * drift_));
+        for (const auto& body : step_.bodies)
+            most = (std::max)(most, body->reach(body->begin, body->end, frame * drift_));
         margin_ = (std::min)((std::max)(most / 8, Scalar(0.004)), Scalar(0.01));
     }
     /// After all its steps. @returns the work on each particle, J
@@ -247,7 +249,7 @@ private:
         // More is lost in the rounding of a particle that several bodies press.
         const Scalar most = Scalar(1e-3) / std::numeric_limits<Scalar>::epsilon();
         const Scalar by_h2 = 1 / (longest_ * longest_);
-        step_.penalty.by_mass = (set_ > 0 ? (std::min)(set_, most * by_h2) : 100 * by_h2);
+        step_.penalty.by_mass = set_ > 0 ? (std::min)(set_, most * by_h2) : 100 * by_h2;
         settled_x_.resize(Dim, 0);
     }
     /// Before the first step.
@@ -282,7 +284,7 @@ private:
 
     const System* system_;
     std::uint64_t revision_ = 0;  // of what longest_ belongs to, and one
-    Scalar longest_ = 0;          // step of energy_limit, s
+    Scalar longest_ = 0;          // step of energy_limit, but at most 0.01, s
     Scalar set_ = 0;              // κ/m, 1/s², if > 0
     contact_detail::ContactStep<Scalar, Dim> step_;
     // Of a try.
@@ -308,11 +310,7 @@ Report step_through(EnergyStableEuler<System>& stepper, typename System::State& 
     if (count <= 0) return stepper.step(state, h, count);
     contacts.open(state);
     contacts.begin(h, count, nullptr);
-    const struct Watching {
-        EnergyStableEuler<System>& stepper;
-        ~Watching() { stepper.watch(nullptr); }
-    } watching{stepper};
-    stepper.watch(&contacts);
+    const integrator_detail::Watching watching(stepper, &contacts);
     const Report report = stepper.step(state, h, count);
     if (!report) return report;
     contacts.end();

@@ -83,7 +83,7 @@ bool Guarded<Stepper, System>::run(State& state, Frame frame, Kind kind, By& by,
     constexpr bool responds =
         !touches && !std::is_same_v<std::decay_t<Respond>, guard_detail::NoResponse>;
     constexpr bool held = detail::is_detected_v<guard_detail::constraint_forces_of, Stepper>;
-    constexpr bool shows = detail::is_detected_v<guard_detail::watch_of, By>;
+    constexpr bool shows = detail::is_detected_v<integrator_detail::watch_of, By>;
     const bool seen = work_.start(*system_, state, parts_, frame.h, kind);
     const bool stepwise = responds || held || (seen && !shows);
     const Index at_once = stepwise ? 1 : frame.steps;
@@ -95,7 +95,7 @@ bool Guarded<Stepper, System>::run(State& state, Frame frame, Kind kind, By& by,
                       "EnergyStableEuler");
         respond.begin(frame.h, frame.steps, std::exchange(watch, &respond));
     }
-    const guard_detail::Watching watching(by, watch);
+    const integrator_detail::Watching watching(by, watch);
     for (Index done = 0; done < frame.steps; done += at_once) {
         if (shows && stepwise && done > 0) work_.repeat();  // where a call of its own begins
         if (!take(state, frame.h, at_once)) return false;

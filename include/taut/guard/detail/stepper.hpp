@@ -8,6 +8,7 @@
 
 #include "../../core/concepts.hpp"
 #include "../../conditions/visit.hpp"
+#include "../../integrator/detail/watching.hpp"
 #include "../../network/state_view.hpp"
 
 namespace taut::guard_detail {
@@ -19,30 +20,12 @@ using constraint_forces_of = decltype(std::declval<const Stepper&>().constraint_
 template <class Stepper>
 using added_kinetic_of = decltype(std::declval<const Stepper&>().added_kinetic(
     std::declval<const typename Stepper::State&>()));
-template <class Stepper>
-using watch_of = decltype(std::declval<Stepper&>().watch(nullptr));
 
 /// Whether what answers to a step is Contacts, which take part in it.
 template <class Respond>
 using touching_of = decltype(std::declval<const Respond&>().touching());
 template <class Respond>
 inline constexpr bool is_contacts_v = detail::is_detected_v<touching_of, std::decay_t<Respond>>;
-
-/// Lets a stepper that can show its steps to a meter, as long as this lives.
-template <class By, class Meter>
-class Watching {
-public:
-    Watching(By& by, Meter* meter) : by_(by) { set(meter); }
-    ~Watching() { set(nullptr); }
-    Watching(const Watching&) = delete;
-    Watching& operator=(const Watching&) = delete;
-
-private:
-    void set([[maybe_unused]] Meter* meter) {
-        if constexpr (detail::is_detected_v<watch_of, By>) by_.watch(meter);
-    }
-    By& by_;
-};
 
 struct NoResponse {
     template <class State>
