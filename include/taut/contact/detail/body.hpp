@@ -128,10 +128,10 @@ public:
         return !(at_a > 0) || !(at_b > 0);
     }
 
-    /// How far a point of it goes at most in the frame, beside a way of everything, m.
-    Scalar reach(const Vector& beside) const {
-        const Scalar turned = (end.rotation - begin.rotation).norm();
-        return (end.position - begin.position - beside).norm() +
+    /// How far a point of it goes at most between two poses, beside a way of everything, m.
+    Scalar reach(const Place& from, const Place& to, const Vector& beside) const {
+        const Scalar turned = (to.rotation - from.rotation).norm();
+        return (to.position - from.position - beside).norm() +
                (turned > 0 ? turned * extent() : Scalar(0));
     }
 

@@ -119,44 +119,7 @@ public:
     }
     /// In the last half kick of velocity Verlet: what touches goes no further in.
     void stop(const Access& v) {
-        each_touching([&](int place, std::size_t body, const Vector& x, const Vector& normal) {
-            stop(v, place, *bodies[body], x, normal);
-        });
-    }
-    /// visit(place, body, x, normal), of pairs with p > 0 at the end of the last step.
-    template <class Visitor>
-    void each_touching(Visitor&& visit) const {
-        for (std::size_t b = 0; b < bodies.size(); ++b) {
-            const auto& solo = bodies[b]->solo;
-            for (Index k = 0; k < solo.blocks * Register::width; ++k) {
-                if (!(solo.depth[k] > 0)) continue;
-                Vector x, normal;
-                for (int d = 0; d < Dim; ++d) {
-                    x[d] = solo.x[d][k];
-                    normal[d] = solo.normal[d][k];
-                }
-                visit(solo.place(k), b, x, normal);
-            }
-        }
-        for (const auto& pair : nearby.shared()) {
-            if (pair.depth > 0)
-                visit(pair.place, static_cast<std::size_t>(pair.body), pair.x, pair.normal);
-        }
-    }
-    /// visit(place, φ), J, of these.
-    template <class Visitor>
-    void each_energy(Visitor&& visit) const {
-        for (const auto& body : bodies) {
-            const auto& solo = body->solo;
-            for (Index k = 0; k < solo.blocks * Register::width; ++k) {
-                if (solo.depth[k] > 0)
-                    visit(solo.place(k), penalty.energy(solo.depth[k], solo.cap[k], solo.mass[k]));
-            }
-        }
-        for (const auto& pair : nearby.shared()) {
-            if (pair.depth > 0)
-                visit(pair.place, penalty.energy(pair.depth, pair.cap, mass[pair.place]));
-        }
+        nearby.each_touching(bodies, [&](const SharedPair<Scalar, Dim>& pair) { stop(v, pair); });
     }
 
 private:
@@ -202,20 +165,20 @@ private:
             touching.see(pair.depth);
         }
     }
-    void stop(const Access& v, int place, const Body<Scalar, Dim>& body, const Vector& x,
-              const Vector& normal) {
+    void stop(const Access& v, const SharedPair<Scalar, Dim>& pair) {
+        const auto& body = *bodies[static_cast<std::size_t>(pair.body)];
         const auto& motion = body.motion;  // which ends here
-        const Vector u = (x - motion.now(motion.next.inside(x))) / penalty.h;
-        const Vector before = v.vector(place), w = before - u;
-        const Scalar into = -normal.dot(w);
+        const Vector u = (pair.x - motion.now(motion.next.inside(pair.x))) / penalty.h;
+        const Vector before = v.vector(pair.place), w = before - u;
+        const Scalar into = -pair.normal.dot(w);
         if (!(into > 0)) return;
-        const Vector along = w + into * normal;
+        const Vector along = w + into * pair.normal;
         const Scalar sliding = along.norm();
         const auto friction = static_cast<Scalar>(body.options.friction);
         const Scalar keep = sliding > friction * into ? 1 - friction * into / sliding : Scalar(0);
         const Vector after = u + (friction > 0 ? Vector(keep * along) : along);
-        v.set(place, after);
-        work[place] += mass[place] * u.dot(after - before);
+        v.set(pair.place, after);
+        work[pair.place] += mass[pair.place] * u.dot(after - before);
     }
 
     ParticleSolve<Scalar, Dim> solve_;

@@ -43,19 +43,30 @@ public:
     void remember(const Bodies& bodies, std::vector<KnownPair>& known) const {
         known.clear();
         if (!built_) return;
-        const auto add = [&](int place, std::size_t body, Scalar depth, Scalar cap) {
-            if (depth > 0 && !detail::is_finite(cap))
-                known.push_back({place, static_cast<int>(body)});
-        };
+        each_touching(bodies, [&](const Pair& pair) {
+            if (!detail::is_finite(pair.cap)) known.push_back({pair.place, pair.body});
+        });
+        std::sort(known.begin(), known.end());
+    }
+    /// visit(pair) for every listed pair with p > 0, by the end of the last step.
+    template <class Visitor>
+    void each_touching(const Bodies& bodies, Visitor&& visit) const {
         for (std::size_t b = 0; b < bodies.size(); ++b) {
             const auto& solo = bodies[b]->solo;
             for (Index k = 0; k < solo.blocks * Register::width; ++k) {
-                add(solo.place(k), b, solo.depth[k], solo.cap[k]);
+                if (!(solo.depth[k] > 0)) continue;
+                Pair pair{solo.place(k), static_cast<int>(b), {}, {},
+                          solo.depth[k], solo.cap[k],         0,  false};
+                for (int d = 0; d < Dim; ++d) {
+                    pair.x[d] = solo.x[d][k];
+                    pair.normal[d] = solo.normal[d][k];
+                }
+                visit(pair);
             }
         }
-        for (const Pair& pair : shared_)
-            add(pair.place, static_cast<std::size_t>(pair.body), pair.depth, pair.cap);
-        std::sort(known.begin(), known.end());
+        for (const Pair& pair : shared_) {
+            if (pair.depth > 0) visit(pair);
+        }
     }
     /// Lists what is near bodies at motion.next.
     /// @param known      of what touches there
@@ -145,12 +156,8 @@ public:
         moves_.resize(bodies.size());
         gone_ = (time - time_) * drift_;
         for (std::size_t b = 0; b < bodies.size(); ++b) {
-            const Pose<Scalar, Dim>& pose = bodies[b]->motion.next;
-            const Scalar turned = (pose.rotation - at_[b].rotation).norm();
-            Scalar most = (pose.position - at_[b].position - gone_).norm();
-            if (turned > 0) most += turned * bodies[b]->extent();
-            moves_[b] = most;
-            moved_ = (std::max)(moved_, most);
+            moves_[b] = bodies[b]->reach(at_[b], bodies[b]->motion.next, gone_);
+            moved_ = (std::max)(moved_, moves_[b]);
         }
         moved_ = (std::min)(moved_, (std::numeric_limits<Scalar>::max)());
     }

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -9,7 +12,7 @@
 
 namespace taut::contact_detail {
 
-/// A particle near several bodies, and one of these, at the start of a step.
+/// A particle and a body near it, at the start of a step; kept so where it is near several.
 template <class Scalar, int Dim>
 struct SharedPair {
     using Vector = Eigen::Matrix<Scalar, Dim, 1>;
@@ -64,15 +67,13 @@ public:
             if (!added) break;
         }
         work = frame.dot(w - before);  // of all forces
-        Index pushing = 0;
-        for (const Active& a : active_) pushing += a.in;
+        const bool one_pushes = alone();
         for (const Active& a : active_) {
             if (!a.in) continue;
             const Vector relative = w - a.speed;
             const Vector along = relative - a.normal.dot(relative) * a.normal;
-            const Vector f = pushing == 1
-                                 ? Vector((w - before) / penalty.h)
-                                 : Vector(force(penalty, a, w) * a.normal - a.drag * along);
+            const Vector f = one_pushes ? Vector((w - before) / penalty.h)
+                                        : Vector(force(penalty, a, w) * a.normal - a.drag * along);
             work += penalty.h * a.speed.dot(f);
         }
         speed = frame + w;
@@ -113,18 +114,18 @@ private:
                                false});
         }
     }
+    /// Whether one pair pushes, and no other.
+    bool alone() const {
+        return std::count_if(active_.begin(), active_.end(),
+                             [](const Active& a) { return a.in; }) == 1;
+    }
     static Scalar force(const Penalty<Scalar>& penalty, const Active& a, const Vector& v) {
         return penalty.by_mass * (a.share * a.push - penalty.h / 2 * a.normal.dot(v - a.speed));
     }
     Vector solved(const Penalty<Scalar>& penalty, const Vector& before) const {
-        const Active* only = nullptr;
-        int pushing = 0;
-        for (const Active& a : active_) {
-            if (!a.in) continue;
-            only = &a;
-            ++pushing;
-        }
-        if (pushing == 1) {  // along n′ and across it
+        if (alone()) {  // along n′ and across it
+            const auto only =
+                std::find_if(active_.begin(), active_.end(), [](const Active& a) { return a.in; });
             const Vector w = before - only->speed;
             const Scalar into = only->normal.dot(w);
             const Scalar push = penalty.h * penalty.by_mass * only->share * only->push;
@@ -154,9 +155,7 @@ private:
                 if (!(a.normal.dot(v - a.speed) < 0)) continue;
                 const Scalar into = a.normal.dot(before - a.speed);
                 const Scalar all = penalty.h * penalty.by_mass * a.push;
-                const bool alone = std::count_if(active_.begin(), active_.end(),
-                                                 [](const Active& b) { return b.in; }) == 1;
-                const Scalar enough = alone ? (std::min)(-into / all, Scalar(1)) : Scalar(1);
+                const Scalar enough = alone() ? (std::min)(-into / all, Scalar(1)) : Scalar(1);
                 more = more || enough > a.share;
                 a.share = enough;
             }

@@ -25,7 +25,10 @@ struct Outcome {
             work[particle[place]] = static_cast<double>(step.work[place]);
         step.nearby.remember(step.bodies, known);
         for (auto& pair : known) pair.at = particle[pair.at];
-        step.each_energy([&](int place, double held) { energy[particle[place]] += held; });
+        step.nearby.each_touching(step.bodies, [&](const SharedPair<Scalar, Dim>& pair) {
+            energy[particle[pair.place]] +=
+                step.penalty.energy(pair.depth, pair.cap, step.mass[pair.place]);
+        });
     }
 };
 
