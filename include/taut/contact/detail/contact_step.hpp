@@ -57,14 +57,14 @@ public:
     /// The step is over: books its work.
     void accept() {
         for (const auto& body : bodies) {
-            auto& near = body->near_pairs;
+            auto& pairs = body->near_pairs;
             auto& touching = body->touching;
             for (Index j = 0; j < touching.pushed_count; ++j) {
                 const Index row = touching.row[j];
                 if (touching.pushed()[row] > 0)
-                    work[touching.place[j]] += near.mass[touching.at[j]] * touching.work()[row];
+                    work[touching.place[j]] += pairs.mass[touching.at[j]] * touching.work()[row];
             }
-            std::swap(near.now, near.next);
+            std::swap(pairs.now, pairs.next);
         }
         for (const auto& one : solved_) work[one.place] += one.work;
     }
@@ -99,36 +99,36 @@ private:
     Body<Scalar, Dim>& body_of(int b) { return *bodies[static_cast<std::size_t>(b)]; }
     /// Where near particles go without contact, and which of them touch.
     void look(Body<Scalar, Dim>& body, const Moving<Scalar, Dim>& moving) {
-        auto& near = body.near_pairs;
+        auto& pairs = body.near_pairs;
         auto& touching = body.touching;
-        touching.begin(near.size);
-        near.again.clear();
-        const Access x = near.next.x(), old = near.now.x();
-        moving.x.gather(near.place.data(), near.size, x);
-        body.query(x, near.size, body.motion.next, near.next.depth(), near.next.normal());
+        touching.begin(pairs.size);
+        pairs.again.clear();
+        const Access x = pairs.next.x(), old = pairs.now.x();
+        moving.x.gather(pairs.place.data(), pairs.size, x);
+        body.query(x, pairs.size, body.motion.next, pairs.next.depth(), pairs.next.normal());
         const Vector gone = body.motion.next.position - body.motion.now.position;
         const Scalar quick = body.quick();
         const Register zero(Scalar(0)), one(Scalar(1)), quick2(quick * quick);
-        for (Index at = 0; at < near.size; at += Register::width) {
-            Register::load(near.now.cap() + at).store(near.next.cap() + at);
+        for (Index at = 0; at < pairs.size; at += Register::width) {
+            Register::load(pairs.now.cap() + at).store(pairs.next.cap() + at);
             const Register depth =
-                where_less(zero, Register::load(near.mass.data() + at),
-                           Register::load(near.next.depth() + at), Register(Scalar(-1)));
-            depth.store(near.next.depth() + at);
+                where_less(zero, Register::load(pairs.mass.data() + at),
+                           Register::load(pairs.next.depth() + at), Register(Scalar(-1)));
+            depth.store(pairs.next.depth() + at);
             Register way2 = zero;
             for (int d = 0; d < Dim; ++d) {
                 const Register went = x.row(d, at) - Register(gone[d]) - old.row(d, at);
                 way2 += went * went;
             }
-            Register meets = larger(Register::load(near.now.depth() + at), depth);
+            Register meets = larger(Register::load(pairs.now.depth() + at), depth);
             if (largest_lane(way2 - quick2) > 0) meets = along(body, at, meets);
             if (!(largest_lane(meets) > 0)) continue;
             const Index k = touching.count * Register::width;
             touching.first[touching.count++] = static_cast<int>(at);
             where_less(zero, meets, one, zero).store(touching.pushed() + k);
-            if (near.mixed[at / Register::width] == 0) continue;
+            if (pairs.mixed[at / Register::width] == 0) continue;
             for (int lane = 0; lane < Register::width; ++lane) {
-                const int several = near.several[at + lane];
+                const int several = pairs.several[at + lane];
                 if (several >= 0 && touching.pushed()[k + lane] > 0 && ++meets_[several] == 2)
                     queue_.push_back(several);
             }
@@ -136,32 +136,32 @@ private:
     }
     /// > 0 where a register of pairs touches, on its way, too.
     static Register along(Body<Scalar, Dim>& body, Index at, const Register& meets) {
-        auto& near = body.near_pairs;
+        auto& pairs = body.near_pairs;
         detail::Few<Scalar, Register::width> lanes;
         meets.store(lanes.data());
         for (int lane = 0; lane < Register::width; ++lane) {
             const Index k = at + lane;
-            if (lanes[lane] > 0 || !(near.mass[k] > 0)) continue;
-            if (body.meets(near.now.x().vector(k), near.next.x().vector(k))) lanes[lane] = 1;
+            if (lanes[lane] > 0 || !(pairs.mass[k] > 0)) continue;
+            if (body.meets(pairs.now.x().vector(k), pairs.next.x().vector(k))) lanes[lane] = 1;
         }
         return Register::load(lanes.data());
     }
     /// Those that this body alone touches.
     void push_alone(int b, const Moving<Scalar, Dim>& moving) {
         Body<Scalar, Dim>& body = body_of(b);
-        auto& near = body.near_pairs;
+        auto& pairs = body.near_pairs;
         auto& touching = body.touching;
         if (touching.count == 0) return;
         Index several = 0;  // registers with such
         for (Index t = 0; t < touching.count; ++t) {
             const Index k = t * Register::width, at = touching.first[t];
-            const int* place = near.place.data() + at;
+            const int* place = pairs.place.data() + at;
             moving.v.gather(place, Register::width, touching.v().beyond(k));
-            for (int d = 0; d < Dim; ++d) near.next.x().row(d, at).store(&touching.x()(d, k));
-            if (near.mixed[at / Register::width] == 0) continue;
+            for (int d = 0; d < Dim; ++d) pairs.next.x().row(d, at).store(&touching.x()(d, k));
+            if (pairs.mixed[at / Register::width] == 0) continue;
             ++several;
             for (int lane = 0; lane < Register::width; ++lane) {
-                const int particle = near.several[at + lane];
+                const int particle = pairs.several[at + lane];
                 if (particle >= 0 && meets_[particle] > 1) touching.pushed()[k + lane] = 0;
             }
         }
@@ -169,12 +169,12 @@ private:
         body.query(touching.end(), touching.count * Register::width, body.motion.next,
                    touching.depth(), touching.normal());
         for (Index t = 0; t < touching.count; ++t) {
-            settle(near, touching, t);
+            settle(pairs, touching, t);
         }
-        touching.list_pushed(near.place);
+        touching.list_pushed(pairs.place);
         moving.scatter(touching);
         for (Index j = 0; several > 0 && j < touching.pushed_count; ++j) {
-            const int particle = near.several[touching.at[j]];
+            const int particle = pairs.several[touching.at[j]];
             if (particle < 0) continue;
             pushed_by_[particle] = {b, touching.row[j]};
             nearby.each_link(particle, [&](const Link& link) {
@@ -183,53 +183,53 @@ private:
         }
     }
     /// A register of pairs at the end of the step.
-    static void settle(NearPairs<Scalar, Dim>& near, Touching<Scalar, Dim>& touching, Index t) {
+    static void settle(NearPairs<Scalar, Dim>& pairs, Touching<Scalar, Dim>& touching, Index t) {
         const Index k = t * Register::width, at = touching.first[t];
         const Register zero(Scalar(0)), pushed = Register::load(touching.pushed() + k);
         const auto take = [&](const Scalar* from, Scalar* to) {
             where_less(zero, pushed, Register::load(from), Register::load(to)).store(to);
         };
         for (int d = 0; d < Dim; ++d) {
-            take(&touching.end()(d, k), &near.next.x()(d, at));
-            take(&touching.normal()(d, k), &near.next.normal()(d, at));
+            take(&touching.end()(d, k), &pairs.next.x()(d, at));
+            take(&touching.normal()(d, k), &pairs.next.normal()(d, at));
         }
-        take(touching.depth() + k, near.next.depth() + at);
-        const Register cap = Register::load(near.next.cap() + at);
+        take(touching.depth() + k, pairs.next.depth() + at);
+        const Register cap = Register::load(pairs.next.cap() + at);
         const Register infinity(std::numeric_limits<Scalar>::infinity());
         // φ does not change by that: it is the same on this side of p₁.
-        where_less(cap * Register(Scalar(1) / 16), Register::load(near.next.depth() + at), cap,
+        where_less(cap * Register(Scalar(1) / 16), Register::load(pairs.next.depth() + at), cap,
                    where_less(zero, pushed, infinity, cap))
-            .store(near.next.cap() + at);
+            .store(pairs.next.cap() + at);
     }
     /// A pair at the end of the step.
-    static void settle(NearPairs<Scalar, Dim>& near, int pair, const Vector& x,
+    static void settle(NearPairs<Scalar, Dim>& pairs, int pair, const Vector& x,
                        const Vector& normal, Scalar depth) {
-        near.next.x().set(pair, x);
-        near.next.normal().set(pair, normal);
-        near.next.depth()[pair] = depth;
-        const Scalar cap = near.now.cap()[pair];
-        near.next.cap()[pair] = depth > cap / 16 ? cap : std::numeric_limits<Scalar>::infinity();
+        pairs.next.x().set(pair, x);
+        pairs.next.normal().set(pair, normal);
+        pairs.next.depth()[pair] = depth;
+        const Scalar cap = pairs.now.cap()[pair];
+        pairs.next.cap()[pair] = depth > cap / 16 ? cap : std::numeric_limits<Scalar>::infinity();
     }
     /// Pairs whose particle another body has pushed: where they are now.
     void look_again(Body<Scalar, Dim>& body, const Moving<Scalar, Dim>& moving) {
-        auto& near = body.near_pairs;
-        const auto count = static_cast<Index>(near.again.size());
+        auto& pairs = body.near_pairs;
+        const auto count = static_cast<Index>(pairs.again.size());
         if (count == 0) return;
         const Index size = (count + Register::width - 1) / Register::width * Register::width;
-        near.again.resize(size, near.again[0]);
+        pairs.again.resize(size, pairs.again[0]);
         again_.begin(size);
-        for (Index k = 0; k < size; ++k) again_.first[k] = near.place[near.again[k]];
+        for (Index k = 0; k < size; ++k) again_.first[k] = pairs.place[pairs.again[k]];
         moving.x.gather(again_.first.data(), size, again_.x());
         body.query(again_.x(), size, body.motion.next, again_.depth(), again_.normal());
         const Scalar quick = body.quick();
         const Vector gone = body.motion.next.position - body.motion.now.position;
         for (Index k = 0; k < count; ++k) {
-            const int pair = near.again[k];
-            const Vector x = again_.x().vector(k), from = near.now.x().vector(pair);
-            settle(near, pair, x, again_.normal().vector(k), again_.depth()[k]);
+            const int pair = pairs.again[k];
+            const Vector x = again_.x().vector(k), from = pairs.now.x().vector(pair);
+            settle(pairs, pair, x, again_.normal().vector(k), again_.depth()[k]);
             const bool fast = (x - from - gone).squaredNorm() > quick * quick;
             if (again_.depth()[k] > 0 || (fast && body.meets(from, x)))
-                queue_.push_back(near.several[pair]);
+                queue_.push_back(pairs.several[pair]);
         }
     }
     /// One that several bodies touch.

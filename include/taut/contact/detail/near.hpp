@@ -55,17 +55,17 @@ public:
     template <class Visitor>
     void each_touching(const Bodies& bodies, Visitor&& visit) const {
         for (int b = 0; b < static_cast<int>(bodies.size()); ++b) {
-            auto& near = bodies[static_cast<std::size_t>(b)]->near_pairs;
-            for (int k = 0; k < static_cast<int>(near.count); ++k) {
-                if (near.now.depth()[k] > 0) visit(pair(bodies, {b, k}));
+            auto& pairs = bodies[static_cast<std::size_t>(b)]->near_pairs;
+            for (int k = 0; k < static_cast<int>(pairs.count); ++k) {
+                if (pairs.now.depth()[k] > 0) visit(pair(bodies, {b, k}));
             }
         }
     }
     Pair pair(const Bodies& bodies, const Link& link) const {
-        auto& near = bodies[static_cast<std::size_t>(link.body)]->near_pairs;
-        return {near.place[link.pair],          link.body,
-                near.now.x().vector(link.pair), near.now.normal().vector(link.pair),
-                near.now.depth()[link.pair],    near.now.cap()[link.pair]};
+        auto& pairs = bodies[static_cast<std::size_t>(link.body)]->near_pairs;
+        return {pairs.place[link.pair],          link.body,
+                pairs.now.x().vector(link.pair), pairs.now.normal().vector(link.pair),
+                pairs.now.depth()[link.pair],    pairs.now.cap()[link.pair]};
     }
     /// Particles that are near several bodies.
     Index several() const { return several_; }
@@ -180,26 +180,27 @@ private:
     }
     void fill(Body<Scalar, Dim>& body, int b, const std::vector<KnownPair>& known,
               const Buffer<Scalar>& mass, const Access& x, Scalar push_time) {
-        NearPairs<Scalar, Dim>& near = body.near_pairs;
+        NearPairs<Scalar, Dim>& pairs = body.near_pairs;
         const Buffer<int>& found = found_[static_cast<std::size_t>(b)];
-        near.begin(static_cast<Index>(found.size()));
-        for (int k = 0; k < static_cast<int>(near.count); ++k) {
-            const int place = near.place[k] = found[k], several = near_[place];
-            near.mass[k] = mass[place];
-            near.several[k] = several;
+        pairs.begin(static_cast<Index>(found.size()));
+        for (int k = 0; k < static_cast<int>(pairs.count); ++k) {
+            const int place = pairs.place[k] = found[k], several = near_[place];
+            pairs.mass[k] = mass[place];
+            pairs.several[k] = several;
             if (several < 0) continue;
-            near.mixed[k / Register::width] = 1;
+            pairs.mixed[k / Register::width] = 1;
             links_[first_link_[several] + filled_[several]++] = {b, k};
         }
-        x.gather(near.place.data(), near.size, near.now.x());
-        body.query(near.now.x(), near.size, body.motion.next, near.now.depth(), near.now.normal());
-        for (Index k = 0; k < near.size; ++k) {
-            Scalar& depth = near.now.depth()[k];
-            if (!(near.mass[k] > 0)) depth = -1;
+        x.gather(pairs.place.data(), pairs.size, pairs.now.x());
+        body.query(pairs.now.x(), pairs.size, body.motion.next, pairs.now.depth(),
+                   pairs.now.normal());
+        for (Index k = 0; k < pairs.size; ++k) {
+            Scalar& depth = pairs.now.depth()[k];
+            if (!(pairs.mass[k] > 0)) depth = -1;
             const bool gently = depth > 0 && !std::binary_search(known.begin(), known.end(),
-                                                                 KnownPair{near.place[k], b});
-            near.now.cap()[k] = gently ? push_time * static_cast<Scalar>(body.options.push_out)
-                                       : std::numeric_limits<Scalar>::infinity();
+                                                                 KnownPair{pairs.place[k], b});
+            pairs.now.cap()[k] = gently ? push_time * static_cast<Scalar>(body.options.push_out)
+                                        : std::numeric_limits<Scalar>::infinity();
         }
     }
 

@@ -15,7 +15,7 @@ void push(Body<Scalar, Dim>& body, const Penalty<Scalar>& penalty, Scalar ahead)
     using Register = step_detail::VectorRegister<Scalar>;
     using Vectors = detail::Few<Register, Dim>;
     Touching<Scalar, Dim>& touching = body.touching;
-    NearPairs<Scalar, Dim>& near = body.near_pairs;
+    NearPairs<Scalar, Dim>& pairs = body.near_pairs;
     const Motion<Scalar, Dim>& moved = body.motion;
     const Register zero(Scalar(0)), one(Scalar(1)), h(penalty.h);
     const Register infinity(std::numeric_limits<Scalar>::infinity());
@@ -28,8 +28,8 @@ void push(Body<Scalar, Dim>& body, const Penalty<Scalar>& penalty, Scalar ahead)
         for (int d = 0; d < Dim; ++d) {
             x[d] = touching.x().row(d, k);
             v[d] = touching.v().row(d, k);
-            from[d] = near.now.x().row(d, at);
-            n[d] = near.now.normal().row(d, at);
+            from[d] = pairs.now.x().row(d, at);
+            n[d] = pairs.now.normal().row(d, at);
         }
         n = times(moved.turn, n);
         const Vectors carried = times(moved.turn, from);
@@ -37,9 +37,9 @@ void push(Body<Scalar, Dim>& body, const Penalty<Scalar>& penalty, Scalar ahead)
             u[d] = (carried[d] + Register(moved.shift[d]) - from[d]) * Register(1 / penalty.h);
             w[d] = v[d] - u[d];
         }
-        const Register before = Register::load(near.now.depth() + at);
-        const Register depth = Register::load(near.next.depth() + at);
-        const Register cap = Register::load(near.now.cap() + at);
+        const Register before = Register::load(pairs.now.depth() + at);
+        const Register depth = Register::load(pairs.next.depth() + at);
+        const Register cap = Register::load(pairs.now.cap() + at);
         const Register deep = larger(before, zero);
         const Register force = Register(penalty.by_mass) * where_less(deep, cap, deep, cap);
         const Register into = dot(w, n);
