@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "../../step/sweep.hpp"
@@ -194,6 +195,23 @@ private:
             }
         });
     }
+    /// What a spring does on its pin, and its damper on the free particle, N: as pull(), at once.
+    template <class AnySpring>
+    static std::pair<Vector, Vector> pulls(const AnySpring& spring, const Vector& dx,
+                                           const Vector& dv, Scalar alpha) {
+        const Scalar l2 = dx.squaredNorm();
+        const SpringLength<Scalar> length(l2);
+        const Scalar over_l = length.divide(spring.tension(length.l));
+        Pull<Scalar> c{over_l, 0};
+        if (alpha > 0 || spring.damping > 0)
+            add_damping(spring, alpha, length, l2, over_l, Scalar(dx.dot(dv)), c);
+        Vector undamped = Vector::Zero(), damped = Vector::Zero();
+        if (!(l2 == 0)) {
+            undamped = over_l * dx;
+            damped = c.of_dx * dx;
+        }
+        return {undamped, undamped - damped - c.of_dv * dv};
+    }
     /// By the springs and dampers between a moving pin and a free particle, since the last state.
     template <class X, class V>
     void add_pins(const X& x, const V& v, bool stepped) {
@@ -217,8 +235,8 @@ private:
                         -double(f.dot(p - old.p)) - double(h_) * double(damper.dot(old.u)));
                 }
                 // What a damper gives the free particle: the rest of its work is heat.
-                const Vector dx = here - p, dv = speed - u, f = pull(spring, dx);
-                const Vector damper = f - pull(spring, dx, dv, alpha);
+                const Vector dx = here - p, dv = speed - u;
+                const auto [f, damper] = pulls(spring, dx, dv, alpha);
                 if (stepped && kind_ != Kind::ahead) {
                     const double pulled = -double(Vector(old.pull + f).dot(p - old.p)) / 2;
                     const Vector held = kind_ == Kind::at_both_ends
