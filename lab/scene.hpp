@@ -6,9 +6,15 @@
 #include <taut/network/spring_system.hpp>
 #include <vector>
 
+#include "../examples/common/garments.hpp"
+
 namespace lab {
 
 using Cloth = taut::SpringSystem<double, 3>;
+using Figure = example::FigureOf<double>;
+
+/// What the figure wears; the example has 48 × 64 and 64 × 20 particles.
+inline constexpr example::Garments garments{36, 48, 48, 15};
 
 /// What the page plays with. Inside the lab z is up, whatever the file says.
 struct Scene {
@@ -17,6 +23,7 @@ struct Scene {
     std::vector<double> stiffness;                // of each spring, in shares of the knob's N/m
     std::vector<double> mass;                     // of each particle, in shares of the knob's kg
     double edge = 0;                              // m, the mean of all edges
+    bool worn = false;                            // by a figure that walks
 };
 
 /// The one scene of this program.
