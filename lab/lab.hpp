@@ -96,7 +96,7 @@ LAB_CALL const float* lab_figure_points();
 LAB_CALL const int* lab_figure_triangles();
 LAB_CALL int lab_figure_triangle_count();
 /// 3; where the figure is, m.
-LAB_CALL const double* lab_figure_place();
+LAB_CALL const float* lab_figure_place();
 /// How far the deepest particle is below the skin, m; < 0: above it.
 LAB_CALL double lab_depth();
 

@@ -323,13 +323,13 @@ void lab_open_figure() {
     lab::words.clear();
     lab::Cloth cloth;
     std::vector<std::vector<taut::Index>> faces;
-    const lab::Figure figure;
+    const example::Figure figure;
     const auto x = example::lay_out(lab::garments, figure);
-    const example::Fabric fabric{1 / double(x.cols()), 1, 0.002};
+    const example::Fabric fabric{1 / double(x.cols()), 1, lab::garment_bend};
     example::add_garments<taut::Hookean>(cloth, faces, lab::garments, x, fabric);
-    taut::Points<double, 3> skin(3, example::figure_points);
+    taut::Points<float, 3> skin(3, example::figure_points);
     example::draw(figure, skin, 0);
-    lab::take(std::move(cloth), std::move(faces), skin);
+    lab::take(std::move(cloth), std::move(faces), skin.cast<double>());
 }
 
 const char* lab_words() { return lab::words.c_str(); }
@@ -375,6 +375,7 @@ const unsigned char* lab_pinned() {
 }
 
 void lab_knobs(double stiffness, double mass, double alpha, double drag) {
+    current.knob = stiffness;
     for (std::size_t s = 0; s < current.stiffness.size(); ++s)
         current.cloth.set_stiffness(taut::Index(s), stiffness * current.stiffness[s]);
     for (std::size_t i = 0; i < current.mass.size(); ++i)

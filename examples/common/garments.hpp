@@ -29,23 +29,21 @@ struct Fabric {
 };
 
 /// Where the particles begin, 3 × n, m.
-template <class Scalar>
-taut::Points<Scalar, 3> lay_out(const Garments& of, const FigureOf<Scalar>& figure) {
-    using Place = Eigen::Matrix<Scalar, 3, 1>;
-    taut::Points<Scalar, 3> x(3, of.size());
+inline taut::Points<float, 3> lay_out(const Garments& of, const Figure& figure) {
+    taut::Points<float, 3> x(3, of.size());
     for (taut::Index i = 0; i < of.cape(); ++i) {
         const float c = (float(i % of.columns) / float(of.columns - 1) - 0.5f) * pi;
         const float d = 1.15f / float(of.rows - 1) * float(i / of.columns);
         const float back = 0.12f + 0.16f * d, wide = 0.25f + 0.14f * d;
         x.col(i) =
-            figure.places[chest](Place(-0.09f - back * std::cos(c), wide * std::sin(c), 0.37f - d));
+            figure.places[chest]({-0.09f - back * std::cos(c), wide * std::sin(c), 0.37f - d});
     }
     for (taut::Index i = 0; i < of.size() - of.cape(); ++i) {
         const float c = float(i % of.around) / (float(of.around) / 2) * pi;
         const float d = 0.42f / float(of.down - 1) * float(i / of.around);
         const float deep = 0.135f + 0.05f * d, wide = 0.21f + 0.14f * d;
         x.col(of.cape() + i) =
-            figure.places[pelvis](Place(deep * std::cos(c), wide * std::sin(c), 0.05f - d));
+            figure.places[pelvis]({deep * std::cos(c), wide * std::sin(c), 0.05f - d});
     }
     return x;
 }
@@ -53,14 +51,13 @@ taut::Points<Scalar, 3> lay_out(const Garments& of, const FigureOf<Scalar>& figu
 namespace garments_detail {
 
 template <class Thread, class System>
-void add_sheet(System& cloth, taut::MeshFaces& faces,
-               const taut::Points<typename System::Scalar, 3>& x, taut::Index columns,
-               taut::Index rows, bool closed, const Fabric& fabric) {
+void add_sheet(System& cloth, taut::MeshFaces& faces, const taut::Points<float, 3>& x,
+               taut::Index columns, taut::Index rows, bool closed, const Fabric& fabric) {
     using taut::Index;
     using Scalar = typename System::Scalar;
     const Index first = cloth.size();
     for (Index i = first; i < first + columns * rows; ++i) {
-        cloth.add_particle(x.col(i), Scalar(fabric.mass));
+        cloth.add_particle(x.col(i).template cast<Scalar>(), Scalar(fabric.mass));
         if (i < first + columns) cloth.pin(i);
     }
     for (Index i = 0; i < columns * rows; ++i) {
@@ -92,27 +89,25 @@ void add_sheet(System& cloth, taut::MeshFaces& faces,
 /// @param x  as laid out, m   @tparam Thread  the law of its threads
 template <class Thread, class System>
 void add_garments(System& cloth, taut::MeshFaces& faces, const Garments& of,
-                  const taut::Points<typename System::Scalar, 3>& x, const Fabric& fabric) {
+                  const taut::Points<float, 3>& x, const Fabric& fabric) {
     using garments_detail::add_sheet;
     add_sheet<Thread>(cloth, faces, x, of.columns, of.rows, false, fabric);
     add_sheet<Thread>(cloth, faces, x, of.around, of.down, true, fabric);
 }
 
 /// What moves with a bone.
-template <class Scalar>
 struct BonePin {
     taut::Index particle;
     int bone;
-    Eigen::Matrix<Scalar, 3, 1> at;  // in the bone's frame, m
+    Vector at;  // in the bone's frame, m
 };
 
 /// The pinned particles, each with the bone that its garment is on.
 /// @param x  where they are on this figure, m
-template <class System, class Scalar = typename System::Scalar>
-std::vector<BonePin<Scalar>> bone_pins(const System& cloth, const Garments& of,
-                                       const taut::Points<Scalar, 3>& x,
-                                       const FigureOf<Scalar>& figure) {
-    std::vector<BonePin<Scalar>> pins;
+template <class System>
+std::vector<BonePin> bone_pins(const System& cloth, const Garments& of,
+                               const taut::Points<float, 3>& x, const Figure& figure) {
+    std::vector<BonePin> pins;
     for (taut::Index i = 0; i < cloth.size(); ++i) {
         const int bone = i < of.cape() ? chest : pelvis;
         if (cloth.is_pinned(i)) pins.push_back({i, bone, figure.places[bone].inside(x.col(i))});
@@ -121,22 +116,20 @@ std::vector<BonePin<Scalar>> bone_pins(const System& cloth, const Garments& of,
 }
 
 /// Gives pins the velocities by which they are on the figure after `frame`, s.
-template <class State, class Scalar>
-void send(const std::vector<BonePin<Scalar>>& pins, const FigureOf<Scalar>& figure, Scalar frame,
-          State& state) {
-    for (const auto& pin : pins) {
-        const Eigen::Matrix<Scalar, 3, 1> to = figure.places[pin.bone](pin.at);
+template <class State>
+void send(const std::vector<BonePin>& pins, const Figure& figure, float frame, State& state) {
+    for (const BonePin& pin : pins) {
+        const Vector to = figure.places[pin.bone](pin.at);
         state.v.col(pin.particle) = (to - state.x.col(pin.particle)) / frame;
     }
 }
 
 /// How far the deepest particle that is not pinned is below the skin, m; < 0: above it.
-template <class System, class Scalar = typename System::Scalar>
-Scalar depth(const FigureOf<Scalar>& figure, const System& cloth,
-             const taut::Points<Scalar, 3>& x) {
-    Scalar deepest = -1;
+template <class System>
+float depth(const Figure& figure, const System& cloth, const taut::Points<float, 3>& x) {
+    float deepest = -1;
     for (int k = 0; k < 14; ++k) {
-        const auto capsule = figure.capsule(k);
+        const auto capsule = Figure::capsule(k);
         for (taut::Index i = 0; i < cloth.size(); ++i) {
             if (cloth.is_pinned(i)) continue;
             deepest =
