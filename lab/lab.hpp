@@ -32,8 +32,8 @@ LAB_CALL int lab_open_mesh(double scale, int up, int options);
 /// A cloth of side × side particles, flat and at rest, 1 m wide, hung by two corners. @param side ≥
 /// 2
 LAB_CALL void lab_open_cloth(int side);
-/// A cape and a skirt, held by a figure of 14 capsules, which they touch, and which walks, runs and
-/// turns. What is pinned moves with it.
+/// A cape and a skirt on a figure of 14 capsules, which walks, runs and turns; what is pinned moves
+/// with it. Its threads do not push; limits, and the pair, are those of springs that do.
 LAB_CALL void lab_open_figure();
 LAB_CALL const char* lab_words();
 
@@ -65,7 +65,8 @@ LAB_CALL void lab_pin_top();
 /// n; 1: pinned.
 LAB_CALL const unsigned char* lab_pinned();
 
-/// @param stiffness  of edges and diagonals, N/m; bending springs take a tenth
+/// @param stiffness  of edges and diagonals, N/m; bending springs take a tenth, a figure's
+///                   0.002
 /// @param mass  of all particles together, kg
 /// @param alpha  stiffness-proportional damping, s   @param drag  mass-proportional, 1/s
 LAB_CALL void lab_knobs(double stiffness, double mass, double alpha, double drag);
