@@ -11,6 +11,7 @@ import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { checkCloth } from "./check_cloth.mjs";
 import { checkCoarse, checkCoarseCleared } from "./check_coarse.mjs";
+import { checkFigure, checkWalk } from "./check_figure.mjs";
 import { checkFiles, checkLarge, checkPins, checkReset, checkSkirt } from "./check_mesh.mjs";
 import { close, conclude, expect, launch, open, serve, state } from "./check_tools.mjs";
 
@@ -66,6 +67,14 @@ const CHECKS = {
     const page = await open(browser, server.address, ...DESK);
     await checkSkirt(page, "skirt", pictures);
     await close(page, "skirt");
+  },
+  async figure() {
+    const page = await open(browser, server.address, ...DESK);
+    await checkFigure(page, "figure", pictures);
+    await close(page, "figure");
+    const phone = await open(browser, single, ...PHONE, { deviceScaleFactor: 2, colorScheme: "dark" });
+    await checkWalk(phone, "figure_phone", pictures, 4);
+    await close(phone, "figure_phone");
   },
   async meshes() {
     const page = await open(browser, server.address, ...DESK);

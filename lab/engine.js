@@ -3,8 +3,8 @@
 
 // lab.wasm with the few calls that it needs of its host, for the page, its worker and node.
 
-export const METHODS = ["explicit_euler", "symplectic_euler", "velocity_verlet", "implicit_euler", "bdf2", "energy_stable_euler"];
-export const EXPLICIT = 0, SYMPLECTIC = 1, IMPLICIT = 3, ENERGY_STABLE = 5;
+export const METHODS = ["explicit_euler", "symplectic_euler", "velocity_verlet", "implicit_euler", "bdf2", "energy_stable_euler", "guarded"];
+export const EXPLICIT = 0, SYMPLECTIC = 1, IMPLICIT = 3, ENERGY_STABLE = 5, GUARDED = 6;
 export const RESOLVED = ["coarse", "fine", "unpredictable", "nothing_moves", "diverged", "cut_short"];
 export const ANALYSED = [0, 1, 2, 3, 5];
 
@@ -62,7 +62,7 @@ export async function loadLab(source, told = () => {}) {
   return {
     // ---- the scene ----
 
-    /// @param scene  {side} of a cloth, or {text (bytes of an OBJ file), scale, up,
+    /// @param scene  {side} of a cloth, {figure: true}, or {text (bytes of an OBJ file), scale, up,
     ///              options (as lab_open_mesh takes them)}
     /// @returns sentences that are worth knowing. Throws what is wrong with the file
     open(scene) {
@@ -77,7 +77,8 @@ export async function loadLab(source, told = () => {}) {
       if (!wasm.lab_read()) throw refused();
     },
     join(scene) {
-      if (scene.side) wasm.lab_open_cloth(scene.side);
+      if (scene.figure) wasm.lab_open_figure();
+      else if (scene.side) wasm.lab_open_cloth(scene.side);
       else if (!wasm.lab_open_mesh(scene.scale, scene.up, scene.options ?? 0)) throw refused();
       return words();
     },
@@ -112,6 +113,14 @@ export async function loadLab(source, told = () => {}) {
     positions: () => doubles(wasm.lab_positions(), 3 * wasm.lab_size()),
     drawnPositions: () => floats(wasm.lab_drawn_positions(), 3 * wasm.lab_size()),
     ringing: () => floats(wasm.lab_ringing(), wasm.lab_size()),
+
+    /// Whether a figure wears the cloth; what follows is of it alone.
+    worn: () => wasm.lab_figure_size() > 0,
+    skin: () => floats(wasm.lab_figure_points(), 3 * wasm.lab_figure_size()),
+    skinTriangles: () => integers(wasm.lab_figure_triangles(), 3 * wasm.lab_figure_triangle_count()).slice(),
+    place: () => [...floats(wasm.lab_figure_place(), 3)],
+    depth: wasm.lab_depth,
+
     startPair(kick, speed, below, above) {
       doubles(wasm.lab_pair_kick(), kick.length).set(kick);
       wasm.lab_pair_start(speed, below, above);
@@ -130,6 +139,7 @@ export async function loadLab(source, told = () => {}) {
         const [anyPose, certified, refuted] = doubles(wasm.lab_limits(method), 3);
         limits[method] = { anyPose, certified, refuted, cause: text(wasm.lab_cause(method)) };
       }
+      limits[GUARDED] = { anyPose: Infinity, certified: Infinity, refuted: Infinity, cause: "" };  // a frame is no step
       const [k, d, kMax, compression, size, speed, steps] = doubles(wasm.lab_mode(), 7);
       const kick = doubles(wasm.lab_kick(), 3 * wasm.lab_size()).slice();
       const count = wasm.lab_blamed_count();
@@ -137,7 +147,7 @@ export async function loadLab(source, told = () => {}) {
       const shares = doubles(wasm.lab_shares(), count).slice();
       return { limits, mode: { k, d, kMax, compression, size, speed, steps }, kick, blamed, shares };
     },
-    growth: (method, mode, h) => wasm.lab_growth(method, mode.k, mode.d, h),
+    growth: (method, mode, h) => method === GUARDED ? 1 : wasm.lab_growth(method, mode.k, mode.d, h),
     window(h, drag, mode) {
       const [lower, upper] = doubles(wasm.lab_window(h, drag, mode.kMax, mode.compression), 2);
       return { lower, upper };

@@ -25,6 +25,7 @@ export const PRESETS = {
   denim: { name: "Denim", stiffness: 4000, area: 0.45, length: 0.01, alpha: 3e-4, drag: 0.3 },
   net: { name: "Net", stiffness: 2000, area: 0.1, length: 0.008, alpha: 1e-4, drag: 0.3 },
   flag: { name: "Flag", stiffness: 800, area: 0.12, length: 0.004, alpha: 1e-4, drag: 1.2 },
+  cape: { name: "Cape", stiffness: 1000, area: 0.25, length: 0.01, alpha: 2e-5, drag: 1 },
   rope: { name: "Rope", stiffness: 20000, area: 1, length: 0.07, alpha: 5e-5, drag: 0.2 },
 };
 

@@ -11,8 +11,8 @@
 
 // One mass-spring scene for a page, or for a native program, to play with. Methods count as in
 // taut::Method: explicit Euler, symplectic Euler, velocity Verlet, implicit Euler, BDF2,
-// energy-stable Euler. Particles count from 0. What is returned holds until the next call of the
-// same function.
+// energy-stable Euler; 6 is Guarded, whose step is a frame. Particles count from 0. What is
+// returned holds until the next call of the same function.
 
 extern "C" {
 
@@ -32,6 +32,9 @@ LAB_CALL int lab_open_mesh(double scale, int up, int options);
 /// A cloth of side × side particles, flat and at rest, 1 m wide, hung by two corners. @param side ≥
 /// 2
 LAB_CALL void lab_open_cloth(int side);
+/// A cape and a skirt on a figure of 14 capsules, which walks, runs and turns; what is pinned moves
+/// with it. Its threads do not push; limits, and the pair, are those of springs that do.
+LAB_CALL void lab_open_figure();
 LAB_CALL const char* lab_words();
 
 LAB_CALL int lab_size();
@@ -62,7 +65,8 @@ LAB_CALL void lab_pin_top();
 /// n; 1: pinned.
 LAB_CALL const unsigned char* lab_pinned();
 
-/// @param stiffness  of edges and diagonals, N/m; bending springs take a tenth
+/// @param stiffness  of edges and diagonals, N/m; bending springs take a tenth, a figure's
+///                   0.002
 /// @param mass  of all particles together, kg
 /// @param alpha  stiffness-proportional damping, s   @param drag  mass-proportional, 1/s
 LAB_CALL void lab_knobs(double stiffness, double mass, double alpha, double drag);
@@ -71,17 +75,31 @@ LAB_CALL void lab_knobs(double stiffness, double mass, double alpha, double drag
 
 /// Back to the pose in which the scene was laid out, at rest.
 LAB_CALL void lab_reset();
-/// Takes `count` ≥ 1 steps of h, s. @returns a taut::Status; unless ok, the state is as it was
+/// Takes `count` ≥ 1 steps of h, s. A figure moves on with each; by energy-stable Euler and Guarded
+/// the cloth touches it within the step [T39], else what is too near is moved out after each.
+/// @returns a taut::Status; unless ok, the state is as it was
 LAB_CALL int lab_step(int method, double h, int count);
 /// s, since lab_reset.
 LAB_CALL double lab_time();
 /// 3 × n, m.
 LAB_CALL const double* lab_positions();
-/// The same, as a graphics card takes it.
+/// The same, as a graphics card takes it; of a figure's cloth, horizontally from the figure.
 LAB_CALL const float* lab_drawn_positions();
 /// n; m: how far each particle swings from step to step, h|v⁺ − v|/4 over the last step taken. A
 /// mode with the multiplier −1 has this amplitude; slow motion has next to none.
 LAB_CALL const float* lab_ringing();
+
+/// Points on the skin of the figure: how many, or 0 where there is none.
+LAB_CALL int lab_figure_size();
+/// Where they are, m, horizontally from the figure.
+LAB_CALL const float* lab_figure_points();
+/// Triples of them, of lab_figure_triangle_count() triangles.
+LAB_CALL const int* lab_figure_triangles();
+LAB_CALL int lab_figure_triangle_count();
+/// 3; where the figure is, m.
+LAB_CALL const float* lab_figure_place();
+/// How far the deepest particle is below the skin, m; < 0: above it.
+LAB_CALL double lab_depth();
 
 // ---- the scene twice, without gravity, kicked along its limiting mode: pair.cpp ----
 

@@ -5,7 +5,7 @@ import { MEASURING, awaitAdvice, chosen, frameCost, writeAdvice } from "./advice
 import { Analyst } from "./analyst.js";
 import { Coarse } from "./coarse.js";
 import { STEP, drawBands, drawRinging, setScale, standing } from "./charts.js";
-import { SYMPLECTIC, loadLab } from "./engine.js";
+import { GUARDED, SYMPLECTIC, loadLab } from "./engine.js";
 import { addressOf, bytesOf } from "./files.js";
 import { Knobs, valuesOf } from "./knobs.js";
 import { Pair } from "./pair.js";
@@ -13,7 +13,7 @@ import { Run, SAMPLES } from "./run.js";
 import { SceneBar } from "./scene_bar.js";
 import { original, shipped } from "./scenes.js";
 import { framing, View } from "./view.js";
-import { STANDING, blamedWords, blownWords, paceWords, sceneWords, sentence } from "./words.js";
+import { STANDING, blamedWords, blownWords, contactWords, paceWords, sceneWords, sentence } from "./words.js";
 
 /* global seconds, safeSeconds, failingSeconds */
 
@@ -60,7 +60,7 @@ function writeStep() {
   byId("standing").textContent = STANDING[where];
   byId("standing").className = where;
   const window = lab.window(settings.h, settings.drag, found.mode);
-  byId("sentence").textContent = sentence(settings, limits(), window, growth());
+  byId("sentence").textContent = sentence(settings, limits(), window, growth()) + (run.worn ? ` ${contactWords(settings.method)}` : "");
 }
 function writeLimits() {
   drawBands(byId("bands"), byId("scale"), limits());
@@ -140,7 +140,7 @@ function take(result) {
   });
   pair.show(mesh, found, pinned);
   byId("blamed").textContent = blamedWords(found.shares, lab.springs());
-  adviceTimer = setTimeout(advise, 500);
+  if (!run.worn) adviceTimer = setTimeout(advise, 500);
 }
 
 async function advise() {
@@ -191,7 +191,8 @@ async function open(next) {
     plans = [];  // of another scene
     awaitAdvice();
     setScale(found.limits[SYMPLECTIC]);
-    settings.h = usable();
+    if (scene.method !== undefined) choose(scene.method);
+    settings.h = scene.h ?? usable();
     take(result);
     return true;
   } catch (error) {
@@ -214,7 +215,9 @@ function layOut() {
   startAgain();
   const positions = lab.drawnPositions().slice();
   mesh = { positions, triangles: lab.triangles(), threads: lab.threads(), edge: shape.edge, ...framing(shape, lab.pinned(), positions) };
-  view.show(mesh);
+  if (run.worn) mesh.size *= 1.15;  // it strides
+  view.show(mesh, run.worn && { points: lab.skin(), triangles: lab.skinTriangles() });
+  document.body.classList.toggle("worn", run.worn);
   view.each((model) => model.setPins(lab.pinned(), positions));
   byId("scene").textContent = sceneWords(scene.name, lab.size(), lab.springs(), shape);
 }
@@ -295,10 +298,14 @@ function tick(now) {
     if (run.measured) byId("growth-words").textContent = `Every step multiplies it by ${run.measured.toFixed(3)}; the limiting vibration’s multiplier says ${growth().toFixed(3)}.`;
   }
   const swings = run.ringing > mesh.edge / 300;  // its colours say more than the springs at rest
+  const swing = lab.ringing();
+  if (settings.method === GUARDED) swing.fill(0);  // of a whole frame, which is motion
   view.each((model) => {
     model.showBlamed(byId("blame").checked && !swings);
-    model.draw(lab.drawnPositions(), lab.ringing(), mesh.edge);
+    model.draw(lab.drawnPositions(), swing, mesh.edge);
+    if (run.worn) model.movePins(lab.drawnPositions());
   });
+  view.figure?.draw(lab.skin(), lab.place());
   view.render();
   pair.tick();
   coarse.beside.tick(elapsed);
@@ -311,7 +318,7 @@ requestAnimationFrame(tick);
 
 /// What the page's test reads.
 window.labState = () => ({
-  blown: run.blown, steps: run.steps, time: lab.time(), ringing: run.ringing, reach: run.reach(), cost: run.cost,
+  blown: run.blown, depth: run.depth, place: run.worn ? lab.place() : null, steps: run.steps, time: lab.time(), ringing: run.ringing, reach: run.reach(), cost: run.cost,
   settings: { ...settings }, limits: limits(), stale, slider: { ...STEP }, plans, advice: chosen(plans),
   scene: scene.name, busy: bar.busy, size: lab.size(), preset: knobs.preset, ...lab.shape(), pinned: lab.pinned(),
   camera: view.camera.position.toArray(), drawn: view.farthest(), pair: { taken: pair.taken, reach: pair.reach, h: pair.h, kick: found.mode.size },

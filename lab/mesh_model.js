@@ -120,13 +120,18 @@ export class MeshModel {
     const radius = pinned.length <= 12 ? 0.012 : pinned.length <= 200 ? 0.006 : 0.003;
     this.pins = new THREE.InstancedMesh(new THREE.SphereGeometry(radius, 16, 12), this.pinMaterial, Math.max(1, pinned.length));
     this.pins.count = pinned.length;
+    this.pinned = pinned;
+    this.movePins(positions);
+    this.add(this.pins);
+  }
+  movePins(positions) {
     const matrix = new THREE.Matrix4();
     const at = [0, 0, 0];
-    pinned.forEach((particle, i) => {
+    this.pinned.forEach((particle, i) => {
       this.place(positions, particle, at, 0);
       this.pins.setMatrixAt(i, matrix.makeTranslation(...at));
     });
-    this.add(this.pins);
+    this.pins.instanceMatrix.needsUpdate = true;
   }
 
   /// Once. @param seeds  particles that are drawn as dots

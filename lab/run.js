@@ -10,6 +10,8 @@ import { FRAME } from "./words.js";
 const BUDGET = 11;    // ms of stepping a picture, so that the page stays in hand
 const SLOW = 1.12;    // an unstable vibration grows by at most this in a picture
 const GRAVITY = 9.81;  // m/s²
+const ROUGH = 100;     // m/s², of a cloth that is worn
+const START = 0.1;     // s, in which what begins inside a body comes out
 export const SAMPLES = 300;  // pictures in the chart
 
 export class Run {
@@ -25,6 +27,8 @@ export class Run {
     const { lab } = this.app;
     lab.reset();
     this.shape = lab.shape();
+    this.worn = lab.worn();
+    this.depth = -Infinity;  // of the deepest particle below the skin, m
     this.blown = false;
     this.owed = 0;   // s of simulated time that the clock is ahead
     this.steps = 0;  // since the last reset
@@ -78,6 +82,7 @@ export class Run {
     const { lab, settings: { h } } = this.app;
     const { edge } = this.shape;
     const ringing = lab.ringing().reduce((a, b) => Math.max(a, b), 0);
+    if (this.worn && lab.time() > START) this.depth = Math.max(this.depth, lab.depth());
     const growth = this.app.growth();
     const before = this.samples[this.samples.length - 1];
     const sample = { ringing, predicted: NaN, state: standing(h, this.app.limits()) };
@@ -95,7 +100,7 @@ export class Run {
       }
     }
     // Slow motion swings by h²g/4 and a little more; springs that go taut by more, for a moment.
-    const violent = ringing > edge / 20 + 2 * GRAVITY * h * h;
+    const violent = ringing > edge / 20 + 2 * (this.worn ? ROUGH : GRAVITY) * h * h;
     this.beyond = violent ? this.beyond + 1 : 0;
     if (this.beyond > 40 || (violent && this.reach() > 2.1)) this.blowUp(ringing);
   }

@@ -153,10 +153,15 @@ void tell_coincident(const example::ObjText& obj, const Cloth& cloth,
     }
 }
 
-void measure() {
+/// @param beside  points that are to be seen, too, m
+void measure(const taut::Points<double, 3>& beside) {
     const auto x = current.cloth.initial_state().x;
-    const Eigen::Vector3d low = x.rowwise().minCoeff();
-    const Eigen::Vector3d high = x.rowwise().maxCoeff();
+    Eigen::Vector3d low = x.rowwise().minCoeff();
+    Eigen::Vector3d high = x.rowwise().maxCoeff();
+    if (beside.cols() > 0) {
+        low = low.cwiseMin(beside.rowwise().minCoeff());
+        high = high.cwiseMax(beside.rowwise().maxCoeff());
+    }
     shape = {};
     std::copy_n(low.data(), 3, shape.low);
     std::copy_n(high.data(), 3, shape.high);
@@ -187,7 +192,9 @@ void measure() {
 }
 
 /// Takes what was built with 1 N/m and 1 kg.
-void take(Cloth cloth, std::vector<std::vector<taut::Index>> faces) {
+/// @param figure  points of the one that wears it, m
+void take(Cloth cloth, std::vector<std::vector<taut::Index>> faces,
+          const taut::Points<double, 3>& figure = taut::Points<double, 3>(3, 0)) {
     current.cloth = std::move(cloth);
     current.faces = std::move(faces);
     current.stiffness.clear();
@@ -196,7 +203,8 @@ void take(Cloth cloth, std::vector<std::vector<taut::Index>> faces) {
         [](const auto& spring) { current.stiffness.push_back(spring.parameters.stiffness); });
     for (taut::Index i = 0; i < current.cloth.size(); ++i)
         current.mass.push_back(current.cloth.mass(i));
-    measure();
+    current.worn = figure.cols() > 0;
+    measure(figure);
     forget_limits();
     weigh();
     lab_reset();
@@ -311,6 +319,19 @@ void lab_open_cloth(int side) {
     lab::take(taut::hanging_cloth<double>(options), std::move(faces));
 }
 
+void lab_open_figure() {
+    lab::words.clear();
+    lab::Cloth cloth;
+    std::vector<std::vector<taut::Index>> faces;
+    const example::Figure figure;
+    const auto x = example::lay_out(lab::garments, figure);
+    const example::Fabric fabric{1 / double(x.cols()), 1, lab::garment_bend};
+    example::add_garments<taut::Hookean>(cloth, faces, lab::garments, x, fabric);
+    taut::Points<float, 3> skin(3, example::figure_points);
+    example::draw(figure, skin, 0);
+    lab::take(std::move(cloth), std::move(faces), skin.cast<double>());
+}
+
 const char* lab_words() { return lab::words.c_str(); }
 int lab_size() { return static_cast<int>(current.cloth.size()); }
 int lab_springs() { return static_cast<int>(current.cloth.spring_count()); }
@@ -354,6 +375,7 @@ const unsigned char* lab_pinned() {
 }
 
 void lab_knobs(double stiffness, double mass, double alpha, double drag) {
+    current.knob = stiffness;
     for (std::size_t s = 0; s < current.stiffness.size(); ++s)
         current.cloth.set_stiffness(taut::Index(s), stiffness * current.stiffness[s]);
     for (std::size_t i = 0; i < current.mass.size(); ++i)

@@ -101,12 +101,12 @@ export class SceneBar {
   }
   /// The controls as the scene has them.
   mark() {
-    const { id, name, scale, up, side, options } = this.scene;
+    const { id, name, scale, up, text, options } = this.scene;
     for (const radio of document.getElementsByName("scene")) radio.checked = radio.value === id;
     byId("file-name").textContent = id === "file" ? name : "Your mesh …";
     document.querySelector(".file").classList.toggle("chosen", id === "file");
     byId("invite").hidden = id === "file";
-    byId("axes").hidden = byId("options").hidden = Boolean(side);
+    byId("axes").hidden = byId("options").hidden = !text;
     OPTIONS.forEach((name, bit) => (byId(name).checked = Boolean(options & (1 << bit))));
     byId("up").value = String(up);
     const unit = Object.keys(UNITS).find((name) => UNITS[name] === scale);

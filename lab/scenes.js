@@ -3,6 +3,7 @@
 
 // The scenes that come with the lab, and those that the reader brings.
 
+import { GUARDED } from "./engine.js";
 import { bytesOf } from "./files.js";
 
 export const UNITS = { m: 1, cm: 0.01, mm: 0.001, in: 0.0254 };
@@ -51,12 +52,14 @@ function net() {
 let opened = 0;
 const keyed = ({ scale = 1, up = 2, options = 0, ...scene }) => ({ came: { scale, up, options, pins: scene.pins, preset: scene.preset, knobs: undefined }, scale, up, options, ...scene, key: ++opened });
 
-/// @param preset  of knobs.js, to begin with
+/// @param preset  of knobs.js, to begin with   @param method, h  to begin with, else as they are and
+/// a step that is certified
 const SHIPPED = {
   cloth: () => ({ name: "Hanging cloth", side: 24, preset: "cotton" }),
   skirt: async () => ({ name: "Skirt", text: new Uint8Array(await bytesOf("skirt.obj")), up: 1, preset: "cotton" }),
   flag: () => ({ name: "Flag", ...flag(), preset: "flag" }),
   net: () => ({ name: "Net", ...net(), preset: "net" }),
+  figure: () => ({ name: "Figure in a cape", figure: true, preset: "cape", method: GUARDED, h: 1 / 60 }),
 };
 export const shipped = async (id) => keyed({ id, ...(await SHIPPED[id]()) });
 

@@ -5,6 +5,7 @@
 
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { FigureModel } from "./figure_model.js";
 import { MeshModel } from "./mesh_model.js";
 
 const START = [0.91, -1.96, 0.76];  // the camera, where the scene's size is one
@@ -58,8 +59,8 @@ export class View {
     this.controls.update();
   }
 
-  /// @param mesh  as MeshModel takes it
-  show(mesh) {
+  /// @param mesh  as MeshModel takes it   @param skin  as FigureModel does, or nothing
+  show(mesh, skin) {
     for (const pane of this.panes) {
       if (pane.model) {
         pane.scene.remove(pane.model.group);
@@ -68,6 +69,12 @@ export class View {
       pane.model = new MeshModel(mesh);
       pane.scene.add(pane.model.group);
     }
+    if (this.figure) {
+      this.panes[0].scene.remove(this.figure.group);
+      this.figure.dispose();
+    }
+    this.figure = skin ? new FigureModel(mesh, skin) : null;
+    if (skin) this.panes[0].scene.add(this.figure.group);
   }
   /// The panes that are drawn: all, or the one that `only` names.
   get drawn() {

@@ -3,13 +3,13 @@
 
 // What the page says about a step.
 
-import { ENERGY_STABLE, EXPLICIT, IMPLICIT } from "./engine.js";
+import { ENERGY_STABLE, EXPLICIT, GUARDED, IMPLICIT } from "./engine.js";
 import { standing } from "./charts.js";
 
 /* global seconds, safeSeconds, failingSeconds, metres, percent, significant */
 
 export const FRAME = 1 / 60;  // s
-export const NAMES = ["Explicit Euler", "Symplectic Euler", "Velocity Verlet", "Implicit Euler", "BDF2", "Energy-stable Euler"];
+export const NAMES = ["Explicit Euler", "Symplectic Euler", "Velocity Verlet", "Implicit Euler", "BDF2", "Energy-stable Euler", "Guarded"];
 export const STANDING = { certified: "certified at any pose", posed: "certified at the starting pose", open: "not decided", refuted: "refuted" };
 export const whole = (n) => n.toLocaleString("en-US");
 const rounded = (n) => whole(+n.toPrecision(1));
@@ -41,6 +41,7 @@ function certifiedWords(method) {
 export function sentence({ method, h, alpha, drag }, limits, window, growth) {
   const where = standing(h, limits);
   if (method === EXPLICIT && (where === "open" || where === "refuted")) return explicitWords({ alpha, drag }, limits, window) + (growth > 1 && growth <= SLOW ? ` ${slowly(growth)}` : "");
+  if (method === GUARDED) return "Guarded takes h as a frame, however long, in certified steps. It books the energy: what gained more than was done on it goes again, in steps that cannot gain (proved).";
   if (method === IMPLICIT) return `Every step h of implicit Euler is certified, linearised, at any pose. A large step costs motion, which it damps. A frame in one step is ${seconds(FRAME, 3)}.`;
   if (where === "certified") {
     if (limits.anyPose === Infinity) return "Every step is certified: nothing here can vibrate.";
@@ -54,6 +55,12 @@ export function sentence({ method, h, alpha, drag }, limits, window, growth) {
   const times = `Refuted: ${significant(h / limits.refuted, 4)} times the refuted step.`;
   if (growth <= 1) return `${times} A vibration is known that grows.`;
   return growth <= SLOW ? `${times} ${slowly(growth)}` : `${times} The limiting vibration grows ${significant(growth, 4)}-fold with every step.`;
+}
+
+/// How a figure is touched.
+export function contactWords(method) {
+  if (method === GUARDED || method === ENERGY_STABLE) return "Contact is part of the step, and takes nothing off it (proved).";
+  return "What comes too near the figure is moved out after each step: no proof speaks of that.";
 }
 
 /// Why the scene has blown up.

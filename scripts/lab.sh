@@ -64,7 +64,7 @@ newer() {
 }
 flags="-std=c++17 -fno-exceptions -fno-rtti -DNDEBUG -Iinclude -isystem $eigen"
 flags="$flags -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror"
-headers="include examples/common lab/lab.hpp lab/scene.hpp scripts/lab.sh"
+headers="include examples/common lab/lab.hpp lab/scene.hpp lab/stepping.hpp lab/wearer.hpp scripts/lab.sh"
 parts="scene motion pair limits advice resolve beside"
 
 # compile COMPILER FOLDER OPTION…: the parts that have changed, to objects in the folder.

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 
 """Builds and runs examples/scenes/NAME.cpp and draws the OBJ files that it writes as
-docs/images/scenes/NAME.png; of thrown.cpp, docs/images/thrown.png.
+docs/images/scenes/NAME.png; of thrown.cpp, docs/images/thrown.png, and of examples/cape.cpp, docs/images/cape.png.
 
 Needs Python 3, a C++ compiler and Eigen, nothing else. Usage: scene_pictures.py [NAME...]; without a
 name, all. $CXX names the compiler, $EIGEN Eigen's folder.
@@ -43,6 +43,10 @@ def cross(a, b):
 def unit(a):
     size = math.sqrt(dot(a, a)) or 1
     return (a[0] / size, a[1] / size, a[2] / size)
+
+
+def centre(points):
+    return tuple(sum(x) / len(points) for x in zip(*points))
 
 
 def mix(a, b, share):
@@ -199,7 +203,7 @@ def add_faces(picture, vertices, faces, colour_of, flat, floor):
 
 WOOD, ROPE, STEEL, ORANGE = (190, 146, 96), (122, 96, 68), (150, 156, 162), (232, 126, 44)
 RED, WHITE, BLUE, TEAL = (204, 68, 60), (240, 238, 232), (52, 108, 164), (94, 176, 190)
-INK = (52, 58, 66)
+INK, SKIN = (52, 58, 66), (222, 192, 160)
 
 
 def flag(read_frame):
@@ -293,7 +297,30 @@ def thrown(read_frame):
     return picture
 
 
-SCENES = {f.__name__: f for f in (flag, bridge, rope, soft_cube, net, curtain, thrown)}
+def cape(read_frame):
+    picture = Picture(0, 7, 1200, 500)
+    _, faces, _ = read_frame("cape", "z")
+    motion = (read_frame.folder / "cape.pc2").read_bytes()
+    count, = struct.unpack_from("<i", motion, 16)
+    skin = count - 14 * 96  # the figure's points are last, a pelvis first
+    cloths = 47 * 63, 64 * 19  # faces
+    colours = [RED] * cloths[0] + [BLUE] * cloths[1]
+    across = 0
+    for frame, turn, width in ((50, 62, 0), (108, 22, 1.15), (165, -8, 1.5), (230, 28, 1.65)):
+        numbers = struct.unpack_from("<%df" % (3 * count), motion, 32 + 12 * count * frame)
+        points = list(zip(*[iter(numbers)] * 3))
+        right, left = (centre(points[skin + k:skin + k + 12]) for k in (0, 84))
+        middle, ahead = mix(right, left, 0.5), math.atan2(right[0] - left[0], left[1] - right[1])
+        c, s = math.cos(math.radians(turn) - ahead), math.sin(math.radians(turn) - ahead)
+        across += width
+        vertices = [(c * (x - middle[0]) - s * (y - middle[1]) + across,
+                     s * (x - middle[0]) + c * (y - middle[1]), z) for x, y, z in points]
+        add_faces(picture, vertices, faces, lambda i: colours[i] if i < len(colours) else SKIN, False, True)
+    return picture
+
+
+SCENES = {f.__name__: f for f in (flag, bridge, rope, soft_cube, net, curtain, thrown, cape)}
+MAIN = ("thrown", "cape")  # not among the examples' scenes
 
 
 def png(rows):
@@ -319,9 +346,9 @@ def draw(name, folder, printed):
     def read_frame(file, up):
         return read(folder / f"{file}.obj", up)
 
-    read_frame.printed = printed
+    read_frame.printed, read_frame.folder = printed, folder
     picture = SCENES[name](read_frame)
-    target = ROOT / "docs" / "images" / ("" if name == "thrown" else "scenes") / f"{name}.png"
+    target = ROOT / "docs" / "images" / ("" if name in MAIN else "scenes") / f"{name}.png"
     target.parent.mkdir(parents=True, exist_ok=True)
     target.write_bytes(png(picture.rows()))
     print(f"{target.relative_to(ROOT)}: {target.stat().st_size / 1000:.0f} kB")
@@ -333,7 +360,8 @@ def main(names):
             program = f"{folder}/{name}"
             subprocess.run([os.environ.get("CXX", "g++"), "-std=c++17", "-O2", f"-I{ROOT}/include",
                             "-I" + os.environ.get("EIGEN", "/usr/include/eigen3"),
-                            f"{ROOT}/examples/scenes/{name}.cpp", "-o", program], check=True)
+                            str(ROOT / "examples" / ("" if name == "cape" else "scenes") / f"{name}.cpp"),
+                            "-o", program], check=True)
             printed = subprocess.run([program], cwd=folder, check=True, stdout=subprocess.PIPE, text=True).stdout
             print(printed, end="")
             draw(name, Path(folder), printed)
