@@ -90,6 +90,9 @@ public:
         return 1;
     }
 
+protected:
+    btSoftRigidDynamicsWorld& world() { return world_; }
+
 private:
     btSequentialImpulseConstraintSolver solver_;
     btSoftRigidDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};

@@ -17,6 +17,7 @@
 #include <taut/scene/with_law.hpp>
 #include <taut/taut.hpp>
 
+#include "cape/frames.hpp"
 #include "measure.hpp"
 
 namespace {
@@ -68,13 +69,6 @@ void row(const char* label, float below, float spread, int upper) {
     std::fflush(stdout);
 }
 
-/// How near the way from a to b comes to the origin, m.
-float nearest(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-    const Eigen::Vector3f way = b - a;
-    const float share = -a.dot(way) / std::max(way.squaredNorm(), 1e-12f);
-    return (a + std::clamp(share, 0.0f, 1.0f) * way).norm();
-}
-
 /// A ball of 5 cm at 20 m/s through a cloth of n × n that is held at its four corners, step by
 /// step.
 void balls(Index n) {
@@ -108,7 +102,7 @@ void balls(Index n) {
             deepest = std::max(deepest, contacts.deepest());
             for (Index i = 0; i < cloth.size(); ++i) {
                 const float in =
-                    radius - nearest(before.col(i) - was, state.x.col(i) - pose.position);
+                    radius - bench::nearest(before.col(i) - was, state.x.col(i) - pose.position);
                 cut = std::max(cut, in);
                 passed += in > radius / 2;
             }

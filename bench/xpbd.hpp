@@ -6,117 +6,152 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <taut/network/hookean.hpp>
+#include <taut/network/state.hpp>
+#include <taut/network/tension_only.hpp>
 #include <taut/step/register.hpp>
+#include <type_traits>
 #include <vector>
-
-#include "outcome.hpp"
 
 namespace bench {
 
 /// XPBD with small steps (Macklin et al., "Small steps in physics simulation", SCA 2019): a
 /// prediction from the last two positions, then one pass over the springs. Each moves its ends by
-/// ∓w (l − L)/(w_a + w_b + 1/(k h²)) along itself. Undamped; pins rest.
-class Xpbd {
+/// ∓w (l − L)/(w_a + w_b + 1/(k h²)) along itself; a TensionOnly spring only where it is too long.
+/// Of damping the system's drag a mass alone; pins move as they are told.
+template <class Scalar>
+class XpbdOf {
 public:
+    using State = taut::State<Scalar, 3>;
+    // A fourth coordinate, always 0, makes a particle one register.
+    using Vector = Eigen::Matrix<Scalar, 4, 1>;
+
     enum class Order {
         given,    ///< of the net
         coloured  ///< springs of a colour share no particle: four of them are moved at once
     };
 
     /// @param h  s, of every step
-    Xpbd(const Net& net, double h, Order order = Order::coloured)
-        : h_(h), state_(net.initial_state()) {
-        const auto w = net.inverse_mass();
-        for (taut::Index i = 0; i < net.size(); ++i) {
+    template <class System>
+    XpbdOf(const System& system, Scalar h, Order order = Order::coloured)
+        : h_(h), state_(system.initial_state()) {
+        const auto w = system.inverse_mass();
+        for (taut::Index i = 0; i < system.size(); ++i) {
             x_.push_back(Vector::Zero());
-            x_.back().head<3>() = state_.x.col(i);
+            x_.back().template head<3>() = state_.x.col(i);
             fall_.push_back(Vector::Zero());
-            if (w[i] > 0) fall_.back().head<3>() = h * h * net.gravity();
+            if (w[i] > 0) fall_.back().template head<3>() = h * h * system.gravity();
+            const Scalar drag = w[i] > 0 ? Scalar(system.rayleigh().mass_proportional) : Scalar(0);
+            keep_.push_back(1 / (1 + h * drag));
         }
         before_ = x_;
-        add_springs(net, order);
+        system.for_each_set([&](const auto& set) { add_springs(set, w, order); });
     }
 
     void step(taut::Index count) {
+        step(count, [](taut::Index) {});
+    }
+    /// @param respond  respond(i) after step i, which may change places()
+    template <class Respond>
+    void step(taut::Index count, Respond&& respond) {
         for (taut::Index i = 0; i < count; ++i) {
             predict();
             const Springs springs{a_.data(), b_.data(), rest_length_.data(), share_a_.data(),
                                   share_b_.data()};
-            for (const Group& group : groups_) move_all<Four>(springs, x_.data(), group);
+            for (const Group& group : groups_) {
+                group.pushes ? move_all<Four, true>(springs, x_.data(), group)
+                             : move_all<Four, false>(springs, x_.data(), group);
+            }
+            respond(i);
         }
     }
-    const Net::State& state() {
+    /// Gives a pin a velocity, m/s.
+    void move_pin(taut::Index i, const Eigen::Matrix<Scalar, 3, 1>& v) {
+        before_[i].template head<3>() = x_[i].template head<3>() - h_ * v;
+    }
+    const State& state() {
         for (taut::Index i = 0; i < state_.x.cols(); ++i) {
-            state_.x.col(i) = x_[i].head<3>();
-            state_.v.col(i) = (x_[i] - before_[i]).head<3>() / h_;
+            state_.x.col(i) = x_[i].template head<3>();
+            state_.v.col(i) = (x_[i] - before_[i]).template head<3>() / h_;
         }
         return state_;
     }
+    /// m, at the end of the last step and at its start.
+    std::vector<Vector>& places() { return x_; }
+    const std::vector<Vector>& places_before() const { return before_; }
 
 private:
-    // A fourth coordinate, always 0, makes a particle one register.
-    using Vector = Eigen::Vector4d;
     // Taut's own, with its 1/√: division and root would be most of a pass.
     static constexpr std::size_t lanes = 4;
-    using Four = taut::step_detail::VectorRegister<double, int(lanes)>;
+    using Four = taut::step_detail::VectorRegister<Scalar, int(lanes)>;
 
     struct Group {
         std::size_t first;
         std::size_t first_single;  // four at a time up to here
         std::size_t end;
+        bool pushes;
     };
 
-    void add_springs(const Net& net, Order order);
-    static std::vector<int> colours_of(const Net& net);
+    template <class Law, class Weights>
+    void add_springs(const taut::SpringSet<Scalar, Law>& springs, const Weights& w, Order order);
+    template <class Set>
+    static std::vector<int> colours_of(const Set& springs, taut::Index particles);
 
     /// x ← x + h v + h² g with h v = x − (x one step before).
     void predict() {
         for (std::size_t i = 0; i < x_.size(); ++i) {
             const Vector x = x_[i];
-            x_[i] = (x + fall_[i]) + (x - before_[i]);
+            x_[i] = (x + fall_[i]) + keep_[i] * (x - before_[i]);
             before_[i] = x;
         }
     }
     // By value in every pass: the members themselves would be read anew after every store.
     struct Springs {
         const int *a, *b;
-        const double *rest_length, *share_a, *share_b;
+        const Scalar *rest_length, *share_a, *share_b;
     };
+    template <bool pushes>
     static EIGEN_ALWAYS_INLINE void move(const Springs springs, Vector* x, std::size_t s) {
         Vector& a = x[springs.a[s]];
         Vector& b = x[springs.b[s]];
         const Vector d = b - a;
-        const double change = 1 - springs.rest_length[s] / std::sqrt(d.squaredNorm() + tiny);
+        Scalar change = 1 - springs.rest_length[s] / std::sqrt(d.squaredNorm() + tiny);
+        if constexpr (!pushes) change = std::max(change, Scalar(0));
         a += change * springs.share_a[s] * d;
         b -= change * springs.share_b[s] * d;
     }
-    template <class Register>
+    template <class Register, bool pushes>
     static void move_four(const Springs springs, Vector* x, std::size_t s);
     // A template: where registers are narrower, all springs are moved one by one. Not inlined: the
     // compiler finds enough registers then.
-    template <class Register>
+    template <class Register, bool pushes>
     static EIGEN_DONT_INLINE void move_all(const Springs springs, Vector* x, const Group group) {
         std::size_t s = group.first;
         if constexpr (Register::width == lanes) {
-            for (; s < group.first_single; s += lanes) move_four<Register>(springs, x, s);
+            for (; s < group.first_single; s += lanes) move_four<Register, pushes>(springs, x, s);
         }
-        for (; s < group.end; ++s) move(springs, x, s);
+        for (; s < group.end; ++s) move<pushes>(springs, x, s);
     }
 
     // Keeps 0/0 away where the ends of a spring meet.
-    static constexpr double tiny = std::numeric_limits<double>::min();
+    static constexpr Scalar tiny = std::numeric_limits<Scalar>::min();
 
-    double h_;
-    Net::State state_;
+    Scalar h_;
+    State state_;
     std::vector<Vector> x_, before_, fall_;  // m; fall: h² g, 0 for pins
+    std::vector<Scalar> keep_;               // of its velocity a step
     std::vector<int> a_, b_;
-    std::vector<double> rest_length_;        // m
-    std::vector<double> share_a_, share_b_;  // of l − L that each end goes
+    std::vector<Scalar> rest_length_;        // m
+    std::vector<Scalar> share_a_, share_b_;  // of l − L that each end goes
     std::vector<Group> groups_;
 };
 
-template <class Register>
-EIGEN_ALWAYS_INLINE void Xpbd::move_four(const Springs springs, Vector* x, std::size_t s) {
+using Xpbd = XpbdOf<double>;
+
+template <class Scalar>
+template <class Register, bool pushes>
+EIGEN_ALWAYS_INLINE void XpbdOf<Scalar>::move_four(const Springs springs, Vector* x,
+                                                   std::size_t s) {
     using taut::step_detail::transpose;
     Register a[lanes], b[lanes], d[lanes], row[lanes];
     for (std::size_t i = 0; i < lanes; ++i) {
@@ -126,9 +161,10 @@ EIGEN_ALWAYS_INLINE void Xpbd::move_four(const Springs springs, Vector* x, std::
     }
     transpose(row[0].packet, row[1].packet, row[2].packet, row[3].packet);
     const Register squares = row[0] * row[0] + row[1] * row[1] + row[2] * row[2] + Register(tiny);
-    const Register change =
+    Register change =
         Register(1) - Register::load(springs.rest_length + s) * reciprocal_sqrt(squares);
-    alignas(32) double by_a[lanes], by_b[lanes];
+    if constexpr (!pushes) change = larger(change, Register(0));
+    alignas(32) Scalar by_a[lanes], by_b[lanes];
     (change * Register::load(springs.share_a + s)).store(by_a);
     (change * Register::load(springs.share_b + s)).store(by_b);
     for (std::size_t i = 0; i < lanes; ++i) {
@@ -138,9 +174,10 @@ EIGEN_ALWAYS_INLINE void Xpbd::move_four(const Springs springs, Vector* x, std::
 }
 
 /// Of every spring, from 0: the least that no spring before it has at the same particle.
-inline std::vector<int> Xpbd::colours_of(const Net& net) {
-    const auto& springs = net.springs();
-    std::vector<std::vector<bool>> taken(net.size());
+template <class Scalar>
+template <class Set>
+std::vector<int> XpbdOf<Scalar>::colours_of(const Set& springs, taut::Index particles) {
+    std::vector<std::vector<bool>> taken(particles);
     const auto is_taken = [&](taut::Index i, std::size_t colour) {
         return colour < taken[i].size() && taken[i][colour];
     };
@@ -157,26 +194,31 @@ inline std::vector<int> Xpbd::colours_of(const Net& net) {
     return colours;
 }
 
-inline void Xpbd::add_springs(const Net& net, Order order) {
-    const auto& springs = net.springs();
-    const auto w = net.inverse_mass();
+template <class Scalar>
+template <class Law, class Weights>
+void XpbdOf<Scalar>::add_springs(const taut::SpringSet<Scalar, Law>& springs, const Weights& w,
+                                 Order order) {
+    constexpr bool pushes = std::is_same_v<Law, taut::Hookean>;
+    static_assert(pushes || std::is_same_v<Law, taut::TensionOnly>);
     std::vector<std::size_t> sorted(springs.a.size());
     std::iota(sorted.begin(), sorted.end(), std::size_t(0));
+    const std::size_t start = a_.size();
     if (order == Order::given) {
-        groups_.push_back({0, 0, sorted.size()});
+        groups_.push_back({start, start, start + sorted.size(), pushes});
     } else {
-        const auto colours = colours_of(net);
+        const auto colours = colours_of(springs, w.size());
         std::stable_sort(sorted.begin(), sorted.end(),
                          [&](std::size_t s, std::size_t t) { return colours[s] < colours[t]; });
         for (std::size_t first = 0, end = 0; first < sorted.size(); first = end) {
             while (end < sorted.size() && colours[sorted[end]] == colours[sorted[first]]) ++end;
-            groups_.push_back({first, end - (end - first) % lanes, end});
+            groups_.push_back(
+                {start + first, start + end - (end - first) % lanes, start + end, pushes});
         }
     }
     for (const std::size_t s : sorted) {
-        const double w_a = w[springs.a[s]];
-        const double w_b = w[springs.b[s]];
-        const double compliance = 1 / (springs.parameters[s].stiffness * h_ * h_);
+        const Scalar w_a = w[springs.a[s]];
+        const Scalar w_b = w[springs.b[s]];
+        const Scalar compliance = 1 / (springs.parameters[s].stiffness * h_ * h_);
         a_.push_back(static_cast<int>(springs.a[s]));
         b_.push_back(static_cast<int>(springs.b[s]));
         rest_length_.push_back(springs.rest_length[s]);

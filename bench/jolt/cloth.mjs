@@ -6,11 +6,11 @@
 // SIMD on one thread, in float, with the same particles, springs (compliance 1/k), pins and
 // gravity, and no damping. Prints Markdown.
 
-import { copyFileSync, mkdtempSync, readFileSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { performance } from "node:perf_hooks";
-import { pathToFileURL } from "node:url";
+
+import { loadJolt, makeWorld } from "./load.mjs";
 
 const frames = 60;
 const turns = 5;
@@ -35,25 +35,8 @@ async function loadTaut() {
   return taut;
 }
 
-/// The build with SIMD is the one with threads. As npm has it, 1.1.0, its threads never start under
-/// node: `await import(…).workerData` misses a pair of brackets.
-async function loadJolt() {
-  const name = "jolt-physics.multithread.wasm";
-  const fixed = mkdtempSync(join(tmpdir(), "taut_jolt_"));
-  const text = readFileSync(join(folder, "dist", `${name}.js`), "utf8");
-  const broken = 'await import("node:worker_threads").workerData';
-  writeFileSync(
-    join(fixed, `${name}.js`),
-    text.replace(broken, '(await import("node:worker_threads")).workerData'),
-  );
-  writeFileSync(join(fixed, "package.json"), '{"type": "module"}');
-  copyFileSync(join(folder, "dist", `${name}.wasm`), join(fixed, `${name}.wasm`));
-  const { default: start } = await import(pathToFileURL(join(fixed, `${name}.js`)));
-  return start();
-}
-
 const taut = await loadTaut();
-const Jolt = await loadJolt();
+const Jolt = await loadJolt(folder);
 taut.open_cloth(side);
 const count = taut.particles();
 const springs = Array.from({ length: taut.springs() }, (_, s) => ({
@@ -84,22 +67,8 @@ const ours = (frame) => ({
   positions: tautPositions,
 });
 
-const settings = new Jolt.JoltSettings();
-const layers = new Jolt.ObjectLayerPairFilterTable(1);
-const broad = new Jolt.BroadPhaseLayerInterfaceTable(1, 1);
-broad.MapObjectToBroadPhaseLayer(0, new Jolt.BroadPhaseLayer(0));
-settings.mObjectLayerPairFilter = layers;
-settings.mBroadPhaseLayerInterface = broad;
-settings.mObjectVsBroadPhaseLayerFilter = new Jolt.ObjectVsBroadPhaseLayerFilterTable(
-  broad,
-  1,
-  layers,
-  1,
-);
-settings.mMaxWorkerThreads = 0;
-const jolt = new Jolt.JoltInterface(settings);
+const jolt = makeWorld(Jolt, 1);
 const bodies = jolt.GetPhysicsSystem().GetBodyInterface();
-jolt.GetPhysicsSystem().SetGravity(new Jolt.Vec3(0, 0, -9.81));
 
 function sharedCloth() {
   taut.start();

@@ -124,17 +124,20 @@ void send(const std::vector<BonePin>& pins, const Figure& figure, float frame, S
     }
 }
 
-/// How far the deepest particle that is not pinned is below the skin, m; < 0: above it.
+/// How far a point is below the skin, m; < 0: above it.
+inline float depth_of(const Figure& figure, const Vector& x) {
+    float deepest = -1;
+    for (int k = 0; k < 14; ++k)
+        deepest =
+            std::max(deepest, -Figure::capsule(k).surface(figure.places[k].inside(x)).distance);
+    return deepest;
+}
+/// The same of the deepest particle that is not pinned, m.
 template <class System>
 float depth(const Figure& figure, const System& cloth, const taut::Points<float, 3>& x) {
     float deepest = -1;
-    for (int k = 0; k < 14; ++k) {
-        const auto capsule = Figure::capsule(k);
-        for (taut::Index i = 0; i < cloth.size(); ++i) {
-            if (cloth.is_pinned(i)) continue;
-            deepest =
-                std::max(deepest, -capsule.surface(figure.places[k].inside(x.col(i))).distance);
-        }
+    for (taut::Index i = 0; i < cloth.size(); ++i) {
+        if (!cloth.is_pinned(i)) deepest = std::max(deepest, depth_of(figure, x.col(i)));
     }
     return deepest;
 }
