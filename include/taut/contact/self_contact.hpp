@@ -91,8 +91,8 @@ public:
         touching_ = 0;
         deepest_ = 0;
         for (const auto& [a, b] : near_.pairs()) {
-            const Scalar deep = near_.radius[a] + near_.radius[b] -
-                                Vector(state.x.col(b) - state.x.col(a)).norm();
+            const Scalar deep =
+                near_.radius[a] + near_.radius[b] - Vector(state.x.col(b) - state.x.col(a)).norm();
             if (!(deep > 0)) continue;
             ++touching_;
             deepest_ = (std::max)(deepest_, deep);
@@ -276,7 +276,8 @@ private:
             };
             Index i = 0;
             for (; i + 4 <= size; i += 4) {
-                for (std::size_t lane = 0; lane < 4; ++lane) see(i + static_cast<Index>(lane), lane);
+                for (std::size_t lane = 0; lane < 4; ++lane)
+                    see(i + static_cast<Index>(lane), lane);
             }
             for (; i < size; ++i) see(i, 0);
             if (!layout.has_stars()) {
@@ -339,16 +340,16 @@ private:
     Scalar h_ = 0;                // s
     bool fresh_ = false, stopped_ = false, crowded_ = false;
     contact_detail::BallPairs<Scalar, Dim> near_;
-    bool listed_ = false;            // whether near_ has its pairs
-    bool in_planes_ = false;         // and listed_planes_ is listed_x_
-    Scalar margin_ = 0;              // m, of that list
-    Scalar by_step_ = 1;             // the next one's, in widths by default
-    Index lived_ = 0;                // steps that it has held
-    Points<Scalar, Dim> listed_x_;   // where particles were, m
-    Buffer<Scalar> listed_planes_;   // the same by place
-    Buffer<Scalar> old_x_, old_y_;   // planes, where the step began and y, m
-    Buffer<Scalar> kick_;            // planes, m/s
-    bool pushes_ = false;            // whether any pair does
+    bool listed_ = false;              // whether near_ has its pairs
+    bool in_planes_ = false;           // and listed_planes_ is listed_x_
+    Scalar margin_ = 0;                // m, of that list
+    Scalar by_step_ = 1;               // the next one's, in widths by default
+    Index lived_ = 0;                  // steps that it has held
+    Points<Scalar, Dim> listed_x_;     // where particles were, m
+    Buffer<Scalar> listed_planes_;     // the same by place
+    Buffer<Scalar> old_x_, old_y_;     // planes, where the step began and y, m
+    Buffer<Scalar> kick_;              // planes, m/s
+    bool pushes_ = false;              // whether any pair does
     double step_work_ = 0, work_ = 0;  // J
     Index touching_ = 0;
     Scalar deepest_ = 0;

@@ -124,8 +124,7 @@ private:
             ++begin_[slot_of(cell_[i]) + 1];
         }
         for (Index s = 0; s < table_; ++s) begin_[s + 1] += begin_[s];
-        for (Index i = 0; i < count; ++i)
-            items_[begin_[slot_of(cell_[i])]++] = static_cast<int>(i);
+        for (Index i = 0; i < count; ++i) items_[begin_[slot_of(cell_[i])]++] = static_cast<int>(i);
         for (Index s = table_; s > 0; --s) begin_[s] = begin_[s - 1];
         begin_[0] = 0;
     }
@@ -142,11 +141,11 @@ private:
         }
     }
 
-    Scalar largest_ = 0;  // radius, m
-    Index table_ = 16;    // slots of the hash, a power of two
-    Buffer<int> begin_;   // of each slot in items_
-    Buffer<int> items_;   // balls by slot
-    Buffer<Cell> cell_;   // of each ball
+    Scalar largest_ = 0;                 // radius, m
+    Index table_ = 16;                   // slots of the hash, a power of two
+    Buffer<int> begin_;                  // of each slot in items_
+    Buffer<int> items_;                  // balls by slot
+    Buffer<Cell> cell_;                  // of each ball
     Buffer<int> first_joined_, joined_;  // springs' higher ends by their lower ones
     Buffer<BallPair> pairs_;
     Buffer<Scalar> load_;  // of each ball
