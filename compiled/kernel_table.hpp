@@ -24,8 +24,10 @@ struct Table {
     using Move = void (*)(const void* update, const void* layout, const void* tile, Scalar h);
 
     /// Layout::to_planes and Layout::from_planes.
-    using ToPlanes = void (*)(const void* layout, const Scalar* points, const void* planes);
-    using FromPlanes = void (*)(const void* layout, const void* planes, Scalar* points);
+    using ToPlanes = void (*)(const void* layout, const Scalar* points, const void* planes,
+                              const void* places);
+    using FromPlanes = void (*)(const void* layout, const void* planes, Scalar* points,
+                                const void* places);
     /// StateMemory::look_ahead.
     using LookAhead = void (*)(void* memory, Scalar ahead);
     /// detail::all_finite.

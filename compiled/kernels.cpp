@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include "by_kernel.hpp"
 #include "kernels.hpp"
 
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <cstring>
 #include <iterator>
 #include <taut/kernels.hpp>
@@ -48,7 +50,7 @@ bool same_classes(const taut_kernels::Table<Scalar>* table) {
     return std::equal(std::begin(here.sizes), std::end(here.sizes), table->sizes);
 }
 /// The kernels, if a name (null: any) is theirs, and unit and processor are as they should be.
-const Kernels* if_taken(const Kernels& kernels, const char* name, bool can) {
+[[maybe_unused]] const Kernels* if_taken(const Kernels& kernels, const char* name, bool can) {
     return can && (!name || std::strcmp(name, kernels.name) == 0) &&
                    same_classes(kernels.of_float) && same_classes(kernels.of_double)
                ? &kernels
@@ -71,7 +73,9 @@ const Kernels* find(const char* name) {
     const bool has_2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
     if (const auto* found = if_taken(avx2, name, has_2)) return found;
 #endif
-    static constexpr Kernels own = {detail::kernels_of_flags(), 0, nullptr, nullptr};
+    static constexpr taut_kernels::Table<float> no_float{};
+    static constexpr taut_kernels::Table<double> no_double{};
+    static constexpr Kernels own = {detail::kernels_of_flags(), 0, &no_float, &no_double};
     return !name || std::strcmp(name, own.name) == 0 ? &own : nullptr;
 }
 
@@ -89,22 +93,35 @@ const Kernels& current() {
 
 }  // namespace
 
-template <>
-int planned_width<float>() {
-    return (std::max)(VectorRegister<float>::width, widest().bytes / 4);
-}
-template <>
-int planned_width<double>() {
-    return (std::max)(VectorRegister<double>::width, widest().bytes / 8);
-}
+int planned_width(float) { return (std::max)(VectorRegister<float>::width, widest().bytes / 4); }
+int planned_width(double) { return (std::max)(VectorRegister<double>::width, widest().bytes / 8); }
 
 }  // namespace step_detail
 
-const taut_kernels::Table<float>* detail::chosen_kernels(float) {
-    return step_detail::current().of_float;
+// A cache line's alignment, so that no register lies across two, for Eigen's aligned_free.
+void* detail::regrow(void* old, std::size_t used, std::size_t bytes) {
+    [[maybe_unused]] constexpr std::size_t line = 64;
+    void* grown = nullptr;
+    if (bytes > 0) {
+#if EIGEN_DEFAULT_ALIGN_BYTES != 0 && !EIGEN_MALLOC_ALREADY_ALIGNED
+        grown = Eigen::internal::handmade_aligned_malloc(bytes, line);
+#elif defined(TAUT_KERNELS)
+        grown = std::aligned_alloc(line, (bytes + line - 1) / line * line);
+#else
+        grown = Eigen::internal::aligned_malloc(bytes);
+#endif
+        if (!grown) Eigen::internal::throw_std_bad_alloc();
+    }
+    if (used > 0) std::memcpy(grown, old, used);
+    Eigen::internal::aligned_free(old);
+    return grown;
 }
-const taut_kernels::Table<double>* detail::chosen_kernels(double) {
-    return step_detail::current().of_double;
+
+const taut_kernels::Table<float>& detail::chosen_kernels(float) {
+    return *step_detail::current().of_float;
+}
+const taut_kernels::Table<double>& detail::chosen_kernels(double) {
+    return *step_detail::current().of_double;
 }
 
 const char* kernels() { return step_detail::current().name; }

@@ -4,14 +4,13 @@
 
 #include "kernel_numbers.hpp"
 
-// The kernels of this processor, for the library's own units: where TAUT_KERNELS is defined,
-// TAUT_BY_KERNEL asks here.
+// The kernels of this processor, for the library's own units: by_kernel.hpp.
 
 namespace taut::detail {
 
-/// The kernels to take; null: those of the library's own flags.
-const taut_kernels::Table<float>* chosen_kernels(float);
-const taut_kernels::Table<double>* chosen_kernels(double);
+/// The kernels to take; all null: those of the library's own flags.
+const taut_kernels::Table<float>& chosen_kernels(float);
+const taut_kernels::Table<double>& chosen_kernels(double);
 
 /// Each function gives a kernel, or null for the library's own.
 template <class Scalar>
@@ -22,25 +21,21 @@ struct Kernels {
     static typename Table::Add add(const step_detail::LawPlan<Scalar, Dim, Law>&) {
         constexpr int law = step_detail::law_number<Law>;
         static_assert(law >= 0, "compiled/kernel_numbers.hpp does not know this law");
-        const Table* table = chosen_kernels(Scalar());
-        return table ? table->add[law][Dim - 1][Both] : nullptr;
+        return chosen_kernels(Scalar()).add[law][Dim - 1][Both];
     }
     template <class Update>
     static typename Table::Move move(Update) {
         constexpr int update = step_detail::update_number<Update>;
         static_assert(update >= 0, "compiled/kernel_numbers.hpp does not know this update");
-        const Table* table = chosen_kernels(Scalar());
-        return table ? table->move[update] : nullptr;
+        return chosen_kernels(Scalar()).move[update];
     }
     template <int Dim>
     static typename Table::ToPlanes to_planes(const Points<Scalar, Dim>&) {
-        const Table* table = chosen_kernels(Scalar());
-        return table ? table->to_planes[Dim - 1] : nullptr;
+        return chosen_kernels(Scalar()).to_planes[Dim - 1];
     }
     template <int Dim>
     static typename Table::FromPlanes from_planes(const Points<Scalar, Dim>&) {
-        const Table* table = chosen_kernels(Scalar());
-        return table ? table->from_planes[Dim - 1] : nullptr;
+        return chosen_kernels(Scalar()).from_planes[Dim - 1];
     }
     /// Points of other kinds have none.
     template <class Matrix>
@@ -51,14 +46,8 @@ struct Kernels {
     static void (*from_planes(const Matrix&))(...) {
         return nullptr;
     }
-    static typename Table::LookAhead look_ahead() {
-        const Table* table = chosen_kernels(Scalar());
-        return table ? table->look_ahead : nullptr;
-    }
-    static typename Table::Finite finite() {
-        const Table* table = chosen_kernels(Scalar());
-        return table ? table->finite : nullptr;
-    }
+    static typename Table::LookAhead look_ahead() { return chosen_kernels(Scalar()).look_ahead; }
+    static typename Table::Finite finite() { return chosen_kernels(Scalar()).finite; }
 };
 
 }  // namespace taut::detail

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
+#include "by_kernel.hpp"
 #include <taut/proof/detail/symplectic_limit-inl.hpp>
 #include <taut/proof/pencil-inl.hpp>
 #include <taut/proof/pencil_matrix-inl.hpp>

@@ -62,15 +62,17 @@
     KIND void PlaceUpdate<SCALAR>::move<__VA_ARGS__>(const Layout<SCALAR>&, \
                                                      const TilePlaces<SCALAR>&, SCALAR) const;
 
-#define TAUT_COMPILED_SWEEP_IN(KIND, SCALAR, DIM)                                                 \
-    KIND void Layout<SCALAR>::to_planes(const Points<SCALAR, DIM>&, const Planes<SCALAR>&) const; \
-    KIND void Layout<SCALAR>::from_planes(const Planes<SCALAR>&, Points<SCALAR, DIM>&) const;     \
-    KIND void Steps<SCALAR, DIM>::load(const Surroundings<SCALAR, DIM>&, const Layout<SCALAR>&,   \
-                                       bool, const State<SCALAR, DIM>&, SCALAR,                   \
-                                       const ReadAnywhere&);                                      \
-    KIND bool Steps<SCALAR, DIM>::run(const Forces&, State<SCALAR, DIM>&, SCALAR, Index, int,     \
-                                      Move);                                                      \
-    KIND bool Steps<SCALAR, DIM>::run_verlet(const Forces&, State<SCALAR, DIM>&, SCALAR, Index,   \
+#define TAUT_COMPILED_SWEEP_IN(KIND, SCALAR, DIM)                                                  \
+    KIND void Layout<SCALAR>::to_planes(const Points<SCALAR, DIM>&, const Planes<SCALAR>&, Places) \
+        const;                                                                                     \
+    KIND void Layout<SCALAR>::from_planes(const Planes<SCALAR>&, Points<SCALAR, DIM>&, Places)     \
+        const;                                                                                     \
+    KIND void Steps<SCALAR, DIM>::load(const Surroundings<SCALAR, DIM>&, const Layout<SCALAR>&,    \
+                                       bool, const State<SCALAR, DIM>&, SCALAR,                    \
+                                       const ReadAnywhere&);                                       \
+    KIND bool Steps<SCALAR, DIM>::run(const Forces&, State<SCALAR, DIM>&, SCALAR, Index, int,      \
+                                      Move);                                                       \
+    KIND bool Steps<SCALAR, DIM>::run_verlet(const Forces&, State<SCALAR, DIM>&, SCALAR, Index,    \
                                              int, bool);
 
 // The explicit steps of one law's springs; a law that pushes has steps ahead of its own.

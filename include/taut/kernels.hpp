@@ -34,9 +34,12 @@ constexpr const char* kernels_of_flags() {
 
 }  // namespace detail
 
-/// The widest kernels that Taut::Compiled has for this processor, "avx512" or "avx2", or those of
-/// its own flags, such as "sse2". By headers alone: those of the program's flags.
+/// The widest kernels that Taut::Compiled has for this processor, "avx512" or "avx2" if it was
+/// built with TAUT_KERNELS, or those of its own flags, such as "sse2". By headers alone: those of
+/// the program's flags.
 ///
+/// Wide kernels fuse what the rest of the library rounds twice: n steps of velocity Verlet together
+/// and one by one, which differ by what lies between them, are the same to rounding only.
 /// They are of the laws and scalars that compiled.hpp and compiled_laws.hpp list. A law of your own
 /// is compiled with your program, for the registers of your program's flags.
 TAUT_INLINE const char* kernels();

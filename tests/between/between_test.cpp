@@ -37,9 +37,11 @@ void each_system(const Visit& visit) {
         auto grid = net<Scalar, Dim>(random, 40, 40);
         if (damped) {
             grid.pin(1);
-            scattered.set_external_force([](const auto& state, auto& f) {
+            const auto force = [](const auto& state, auto& f) {
                 f += static_cast<Scalar>(state.time) * state.x - state.v;
-            });
+            };
+            scattered.set_external_force(force);
+            grid.set_external_force(force);
         }
         visit(scattered, random_state(random, scattered));
         visit(grid, random_state(random, grid));

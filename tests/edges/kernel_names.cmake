@@ -15,7 +15,8 @@ foreach(object IN LISTS OBJECTS)
     set(set ${CMAKE_MATCH_1})
     math(EXPR units "${units} + 1")
     execute_process(COMMAND ${NM} ${object} OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
-    string(REGEX MATCHALL "[0-9a-f]+ [A-Zu-w] [^\n]*" symbols "${output}")  # small letters but these: nobody else sees it
+    # Other small letters: of names that nobody else sees.
+    string(REGEX MATCHALL "[0-9a-f]+ [A-Zu-w] [^\n]*" symbols "${output}")
     foreach(symbol IN LISTS symbols)
         math(EXPR names "${names} + 1")
         if(NOT symbol MATCHES "(taut|Eigen)_${set}")

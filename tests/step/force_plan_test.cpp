@@ -25,10 +25,10 @@ TEST_CASE("force_plan: planes give back the points they took, whatever the order
         const auto state = random_state(random, system);
         std::vector<double> memory(static_cast<std::size_t>(3 * layout.stride()));
         const taut::step_detail::Planes<double> planes{memory.data(), layout.stride()};
-        layout.to_planes(state.x, planes);
+        layout.to_planes(state.x, planes, layout.all());
         auto back = state;
         back.x.setZero();
-        layout.from_planes(planes, back.x);
+        layout.from_planes(planes, back.x, layout.all());
         CHECK(same_bits(back, state));
     };
     check(random_system<double, 3>(random, options));

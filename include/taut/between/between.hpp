@@ -56,7 +56,7 @@ private:
 
 /// Takes `count` steps of h, s, by a stepper, with between(now) after each of them, for contacts of
 /// your own. It costs what the steps cost together, and what `between` does: step(state, h) one at
-/// a time costs half as much again.
+/// a time costs a third to a half more.
 ///
 /// As stepper.step(state, h, count); a step that is not finite ends the call with the state as it
 /// was before, but what `between` has done elsewhere remains.

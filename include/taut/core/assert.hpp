@@ -43,15 +43,8 @@
 #define TAUT_NOINLINE
 #endif
 
-/// Where Taut::Compiled may have a function for this processor, the rest of the body is for none.
-#if defined(TAUT_KERNELS)  // in that library alone: compiled/kernels.hpp
-#define TAUT_BY_KERNEL(find, ...) \
-    if (const auto kernel = detail::Kernels<Scalar>::find) return kernel(__VA_ARGS__)
-namespace taut::detail {
-template <class Scalar>
-struct Kernels;
-}  // namespace taut::detail
-#else
+/// Of what Taut::Compiled may do otherwise on this processor: compiled/by_kernel.hpp.
+#ifndef TAUT_BY_KERNEL
 #define TAUT_BY_KERNEL(find, ...) static_cast<void>(0)
 #endif
 

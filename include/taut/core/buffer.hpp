@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <cstring>
 #include <type_traits>
 #include <utility>
@@ -15,25 +14,18 @@
 namespace taut {
 namespace detail {
 
-/// Memory for `bytes` from the start of a cache line, since of Taut::Compiled any register may read
-/// it, that begins with what `old` held, and which takes the place of `old`; null for 0 bytes.
-/// Plain: all element types share it.
+/// Memory for `bytes`, as Eigen aligns it, that begins with what `old` held, and which takes the
+/// place of `old`. Plain: all element types share it.
+#if defined(TAUT_COMPILED)  // there it begins with a cache line
+TAUT_COLD void* regrow(void* old, std::size_t used, std::size_t bytes);
+#else
 TAUT_COLD TAUT_NOINLINE inline void* regrow(void* old, std::size_t used, std::size_t bytes) {
-    constexpr std::size_t line = 64;
-    char* grown = nullptr;
-    if (bytes > 0) {
-        auto* const memory = static_cast<char*>(Eigen::internal::aligned_malloc(bytes + line));
-        grown = memory + line - reinterpret_cast<std::uintptr_t>(memory) % line;
-        std::memcpy(grown - sizeof memory, &memory, sizeof memory);
-    }
+    void* grown = bytes > 0 ? Eigen::internal::aligned_malloc(bytes) : nullptr;
     if (used > 0) std::memcpy(grown, old, used);
-    if (old) {
-        void* memory;
-        std::memcpy(&memory, static_cast<char*>(old) - sizeof memory, sizeof memory);
-        Eigen::internal::aligned_free(memory);
-    }
+    Eigen::internal::aligned_free(old);
     return grown;
 }
+#endif
 
 /// Ends a debug build with an index beyond the end. Plain: all element types share it.
 TAUT_COLD TAUT_NOINLINE inline void bad_index() { eigen_assert(false && "index out of range"); }
@@ -100,9 +92,7 @@ public:
         swap(other);
         return *this;
     }
-    ~Buffer() {
-        if (data_) detail::regrow(data_, 0, 0);
-    }
+    ~Buffer() { Eigen::internal::aligned_free(data_); }
 
     /// The number of elements.
     std::size_t size() const { return size_; }

@@ -167,7 +167,8 @@ private:
     bool stiff_by_code();
     bool resolved(std::size_t part) const;
     void settle_again(std::size_t part, GuardedReport<Scalar>& report);
-    void freeze(State& state);
+    template <class Respond>
+    void freeze(State& state, Respond& respond);
     Index strongest_spring(std::size_t part) const;
     const char* force_name() const;
     void close(const State& state, GuardedReport<Scalar>& report);
@@ -182,8 +183,7 @@ private:
     }
     void measure(const State& state, std::vector<guard_detail::Energy>& energies) {
         meter_.measure(*system_, state, parts_, shortest_, energies);
-        if (!held_) return;
-        for (Index i = 0; i < system_->size(); ++i) {
+        for (Index i = 0; held_ && i < system_->size(); ++i) {
             if (parts_.of(i) < 0) continue;
             auto& energy = energies[static_cast<std::size_t>(parts_.of(i))];
             energy.total += (*held_)[i];

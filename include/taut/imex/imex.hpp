@@ -13,6 +13,7 @@
 #include "../solver/interleaved_llt.hpp"
 #include "../proof/detail/symplectic_limit.hpp"
 #include "../proof/pencil.hpp"
+#include "detail/run_corrected.hpp"
 #include "detail/spring_shares.hpp"
 
 namespace taut {

@@ -3,14 +3,21 @@
 #pragma once
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
 #include "../core/buffer.hpp"
 #include "../core/detail/finite.hpp"
 #include "register.hpp"
 #include "tile.hpp"
+#include "triples.hpp"
 
 namespace taut::step_detail {
+
+/// `count` places from the first one.
+struct Places {
+    Index first, count;
+};
 
 /// Where the vectors of particles lie in planes.
 template <class Scalar>
@@ -33,8 +40,11 @@ public:
 
     /// n, the number of particles and of places.
     Index size() const { return size_; }
+    Places all() const { return {0, size_}; }
     const Blocks& blocks() const { return blocks_; }
     bool has_stars() const { return stars_; }
+    /// Whether particle i is at place i, its coordinates in planes.
+    bool side_by_side() const { return order_.empty() && !stars_; }
     /// Of one vector.
     int planes() const { return planes_; }
     /// Scalars of a place in a plane.
@@ -42,28 +52,29 @@ public:
     /// Scalars from one plane to the next: size()·grain() and the padding.
     Index stride() const { return stride_; }
 
-    /// Planes ← points, Dim × size(), converted where they hold another number type.
+    /// Planes ← points, Dim × size(), converted where they hold another number type: those of a
+    /// tile's places, where planes begin, or all.
     template <class Matrix>
-    void to_planes(const Matrix& points, const Planes<Scalar>& planes) const {
-        TAUT_BY_KERNEL(to_planes(points), this, points.data(), &planes);
+    void to_planes(const Matrix& points, const Planes<Scalar>& planes, Places of) const {
+        TAUT_BY_KERNEL(to_planes(points), this, points.data(), &planes, &of);
         constexpr int Dim = Matrix::RowsAtCompileTime;
-        if (order_.empty() && !stars_ && points.colStride() == Dim) {
-            return split<Dim>(points.data(), planes);
+        if (side_by_side() && points.colStride() == Dim) {
+            return split<Dim>(points.data() + Dim * of.first, planes, of.count);
         }
-        for_each_place([&](Index i, Index place) {
+        for_each_place(of, [&](Index i, Index place) {
             for (int d = 0; d < Dim; ++d) at(planes, d, place) = static_cast<Scalar>(points(d, i));
             for (int d = Dim; d < 4 && stars_; ++d) at(planes, d, place) = 0;
         });
     }
     /// Points ← planes.
     template <class Matrix>
-    void from_planes(const Planes<Scalar>& planes, Matrix& points) const {
-        TAUT_BY_KERNEL(from_planes(points), this, &planes, points.data());
+    void from_planes(const Planes<Scalar>& planes, Matrix& points, Places of) const {
+        TAUT_BY_KERNEL(from_planes(points), this, &planes, points.data(), &of);
         constexpr int Dim = Matrix::RowsAtCompileTime;
-        if (order_.empty() && !stars_ && points.colStride() == Dim) {
-            return join<Dim>(planes, points.data());
+        if (side_by_side() && points.colStride() == Dim) {
+            return join<Dim>(planes, points.data() + Dim * of.first, of.count);
         }
-        for_each_place([&](Index i, Index place) {
+        for_each_place(of, [&](Index i, Index place) {
             for (int d = 0; d < Dim; ++d) {
                 points(d, i) = static_cast<typename Matrix::Scalar>(at(planes, d, place));
             }
@@ -72,15 +83,15 @@ public:
 
     /// Plane ← values, one a particle; with stars, one for each scalar of its point.
     void to_plane(const Scalar* values, Scalar* plane) const {
-        for_each_place([&](Index i, Index place) {
+        for_each_place(all(), [&](Index i, Index place) {
             std::fill_n(plane + grain() * place, grain(), values[i]);
         });
     }
 
     /// Of each particle.
-    Buffer<int> places() const {
+    EIGEN_ALWAYS_INLINE Buffer<int> places() const {
         Buffer<int> result(static_cast<std::size_t>(size_));
-        for_each_place([&](Index i, Index place) { result[i] = static_cast<int>(place); });
+        for_each_place(all(), [&](Index i, Index place) { result[i] = static_cast<int>(place); });
         return result;
     }
     /// The scalar of one axis at a place of planes.
@@ -89,35 +100,50 @@ public:
     }
 
 private:
+    template <int Dim, class Number>
+    static constexpr bool in_triples =
+        Dim == 3 && std::is_same_v<Number, Scalar>&& Triples<Scalar>::exist;
     /// to_planes of points side by side, and from_planes: compilers make registers of these loops.
     template <int Dim, class From>
-    void split(const From* EIGEN_RESTRICT points, const Planes<Scalar>& planes) const {
+    void split(const From* EIGEN_RESTRICT points, const Planes<Scalar>& planes, Index count) const {
         Scalar* EIGEN_RESTRICT x = planes[0];
         Scalar* EIGEN_RESTRICT y = planes[Dim > 1];
         Scalar* EIGEN_RESTRICT z = planes[Dim > 2 ? 2 : 0];
-        for (Index i = 0; i < size_; ++i) {
+        Index i = 0;
+        if constexpr (in_triples<Dim, From>) {
+            for (; i + Triples<Scalar>::n <= count; i += Triples<Scalar>::n)
+                Triples<Scalar>::split(points + 3 * i, x + i, y + i, z + i);
+        }
+        for (; i < count; ++i) {
             x[i] = static_cast<Scalar>(points[Dim * i]);
             if constexpr (Dim > 1) y[i] = static_cast<Scalar>(points[Dim * i + 1]);
             if constexpr (Dim > 2) z[i] = static_cast<Scalar>(points[Dim * i + 2]);
         }
     }
     template <int Dim, class To>
-    void join(const Planes<Scalar>& planes, To* EIGEN_RESTRICT points) const {
+    void join(const Planes<Scalar>& planes, To* EIGEN_RESTRICT points, Index count) const {
         const Scalar* EIGEN_RESTRICT x = planes[0];
         const Scalar* EIGEN_RESTRICT y = planes[Dim > 1];
         const Scalar* EIGEN_RESTRICT z = planes[Dim > 2 ? 2 : 0];
-        for (Index i = 0; i < size_; ++i) {
+        Index i = 0;
+        if constexpr (in_triples<Dim, To>) {
+            for (; i + Triples<Scalar>::n <= count; i += Triples<Scalar>::n)
+                Triples<Scalar>::join(x + i, y + i, z + i, points + 3 * i);
+        }
+        for (; i < count; ++i) {
             points[Dim * i] = static_cast<To>(x[i]);
             if constexpr (Dim > 1) points[Dim * i + 1] = static_cast<To>(y[i]);
             if constexpr (Dim > 2) points[Dim * i + 2] = static_cast<To>(z[i]);
         }
     }
+    /// visit(particle, place), with places counted from the first one.
     template <class Visitor>
-    void for_each_place(Visitor&& visit) const {
+    void for_each_place(Places of, Visitor&& visit) const {
         if (order_.empty()) {
-            for (Index i = 0; i < size_; ++i) visit(i, i);
+            for (Index i = 0; i < of.count; ++i) visit(of.first + i, i);
         } else {
-            for (Index place = 0; place < size_; ++place) visit(order_[place], place);
+            const int* order = order_.data() + of.first;
+            for (Index i = 0; i < of.count; ++i) visit(order[i], i);
         }
     }
 

@@ -14,8 +14,9 @@ struct TilePlaces {
     const StatePlanes<Scalar>& planes;
     Index first;
     Index count;
-    Planes<Scalar> force_a;  // N
-    Planes<Scalar> force_b;  // N
+    Planes<Scalar> force_a;   // N
+    Planes<Scalar> force_b;   // N
+    Planes<Scalar> external;  // beside those of springs, N; empty planes for none
 };
 
 /// Moves places by the forces on them: what a step does beside springs.
@@ -28,8 +29,6 @@ public:
     void load(const Scalar* gravity, int dim, Scalar drag, Scalar ahead);
     /// @param inverse_mass  the system's, 1/kg
     void load_masses(const Layout<Scalar>& layout, const Scalar* inverse_mass);
-    /// Forces beside those of springs, N; empty planes for none.
-    void set_external(const Planes<Scalar>& force) { external_ = force; }
 
     /// A step of h, s, of the places of a tile by the forces on them, which are cleared.
     /// @tparam Update  update(x, v, a, h) of registers: x, v, of one coordinate, by the
@@ -45,7 +44,6 @@ private:
 
     Few<Scalar, 4> gravity_{};                  // m/s²
     Few<Scalar, max_width> gravity_of_points_;  // x y z 0 x y z 0 …
-    Planes<Scalar> external_;                   // N
     Buffer<Scalar> inverse_mass_;               // a plane, 1/kg, 0 if pinned
     Scalar drag_ = 0;                           // d0, 1/s
     Scalar ahead_ = 0;
@@ -102,7 +100,7 @@ void PlaceUpdate<Scalar>::move(const TilePlaces<Scalar>& tile, int planes, Scala
         Scalar* new_xs = tile.planes.new_x[d] + tile.first;
         Scalar* new_vs = tile.planes.new_v[d] + tile.first;
         Scalar* new_spring_xs = tile.planes.new_spring_x[d] + tile.first;
-        const Scalar* external = external_.first ? external_[d] + tile.first : nullptr;
+        const Scalar* external = tile.external.first ? tile.external[d] : nullptr;
         Scalar* forces_a = tile.force_a[d];
         [[maybe_unused]] Scalar* forces_b = tile.force_b[d];
         const auto move_register = [&](Index i, const Register& g) {

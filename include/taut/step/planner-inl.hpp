@@ -224,12 +224,10 @@ SpringOrder Planner<Scalar>::order(const Buffer<SpringEnds>& laws, const Blocks&
     // The share of scattered springs from which on stars were faster, on AMD's and Intel's
     // processors: a scattered spring costs five springs of a run or more, one in a star two, but in
     // registers of 16 bytes hardly more than one.
-#if defined(TAUT_SAME_BITS)
-    constexpr bool wide = true;  // or sums had another order
-#else
-    const bool wide = planned_width<Scalar>() * static_cast<int>(sizeof(Scalar)) > 16;
+    double most_scattered = 0.25;
+#if !defined(TAUT_SAME_BITS)  // or sums had another order
+    if (planned_width(Scalar()) * static_cast<int>(sizeof(Scalar)) <= 16) most_scattered = 0.05;
 #endif
-    const double most_scattered = wide ? 0.25 : 0.05;
     SpringOrder result;
     result.laws.reset(new SortedSprings[laws.size()]);
     const auto sort = [&](const Buffer<int>& place) {
@@ -257,7 +255,7 @@ SpringOrder Planner<Scalar>::order(const Buffer<SpringEnds>& laws, const Blocks&
 template <class Scalar>
 PlannedRuns Planner<Scalar>::runs(const SortedSprings& sorted, const Blocks& blocks,
                                   Buffer<int>& index) {
-    const int width = planned_width<Scalar>();
+    const int width = planned_width(Scalar());
     PlannedRuns plan;
     const auto tiles = static_cast<std::size_t>(blocks.tiles());
     Buffer<Segment> segments;    // run by run
@@ -357,9 +355,8 @@ StarGroups Planner<Scalar>::groups(const SortedSprings& sorted, const Blocks& bl
     const auto by_hub = choose_hubs(sorted.all(), blocks.places());
     const auto stars = plan_stars(by_hub, blocks);
     StarGroups plan;
-    // As many as Planner::group of registers of the planned width.
-    const int lanes = (std::min)(planned_width<Scalar>(), static_cast<int>(32 / sizeof(Scalar)));
-    const int together = (std::max)(1, lanes / star_size);
+    const int lanes = (std::min)(planned_width(Scalar()), static_cast<int>(32 / sizeof(Scalar)));
+    const int whole = (std::max)(1, lanes / star_size);
     const auto append = [&](const PlannedStar& star) {
         const auto* spring = &by_hub[star.first];
         const int block_begin = blocks.begin(blocks.block_of_tile(star.tile));
@@ -377,8 +374,7 @@ StarGroups Planner<Scalar>::groups(const SortedSprings& sorted, const Blocks& bl
         for (; next != stars.end() && next->tile == tile && next->outer == outer; ++next) {
             append(*next);
         }
-        const int size = static_cast<int>(plan.stars.size());
-        const int count = (size + together - 1) / together * together;
+        const int count = (static_cast<int>(plan.stars.size()) + whole - 1) / whole * whole;
         plan.stars.resize(count, Star{});
         index.resize(plan.stars.size() * star_size, by_hub.empty() ? 0 : gap(by_hub[0].index));
         return count;

@@ -67,18 +67,15 @@ struct SpringOrder {
     bool stars = false;  // whether all springs are in stars
 };
 
-/// Plans fit registers of so many scalars, and narrower ones: those of the program's flags, or with
-/// Taut::Compiled the widest that the library has for this processor.
+/// The width that plans fit, as do all that are narrower.
+#if defined(TAUT_COMPILED)  // the widest that the library may take
+int planned_width(float);
+int planned_width(double);
+#endif
 template <class Scalar>
-int planned_width() {
+constexpr int planned_width(Scalar) {
     return VectorRegister<Scalar>::width;
 }
-#if defined(TAUT_COMPILED)
-template <>
-int planned_width<float>();
-template <>
-int planned_width<double>();
-#endif
 
 /// Plans that depend on indices and on the width of registers: the same for all laws and
 /// dimensions, and so compiled once.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "steps.hpp"
@@ -15,24 +16,30 @@
 namespace taut::step_detail {
 
 template <class Scalar, int Dim>
-Planes<Scalar> Outside<Scalar, Dim>::at_state(const Layout<Scalar>& layout,
-                                              const StatePlanes<Scalar>& planes) {
+void Outside<Scalar, Dim>::ask(const Layout<Scalar>& layout, const StatePlanes<Scalar>& planes,
+                               bool first) {
     const auto& constant = forces_->constant;
-    if (!asks_for_state() && constant.cols() == 0) return {};
+    found_ = {};
+    // Particles in any order are all over memory: a tile of them fills the first cache.
+    by_tile_ = asks_for_state() && layout.side_by_side();
+    if (!asks_for_state() && constant.cols() == 0) return;
     force_.resize(Dim, layout.size());
     detail::set_zero(force_.data(), force_.size());
     std::copy_n(constant.data(), constant.size(), force_.data());
     if (asks_for_state()) {
         state_.x.resize(Dim, layout.size());
         state_.v.resize(Dim, layout.size());
-        layout.from_planes(planes.x, state_.x);
-        layout.from_planes(planes.v, state_.v);
+        if (first || !by_tile_) {
+            layout.from_planes(planes.x, state_.x, layout.all());
+            layout.from_planes(planes.v, state_.v, layout.all());
+        }
         forces_->whole(state_, force_);
+        if (by_tile_) return;
     }
     const auto size = static_cast<std::size_t>(layout.planes() * layout.stride());
     if (planes_.size() != size) planes_.assign(size, Scalar(0));  // padding is stepped, too
-    layout.to_planes(force_, {planes_.data(), layout.stride()});
-    return {planes_.data(), layout.stride()};
+    found_ = {planes_.data(), layout.stride()};
+    layout.to_planes(force_, found_, layout.all());
 }
 
 template <class Scalar, int Dim>
@@ -44,33 +51,32 @@ Index Steps<Scalar, Dim>::first_not_finite(const Layout<Scalar>& layout) const {
 }
 
 template <class Scalar, int Dim>
-bool Steps<Scalar, Dim>::steps(const Forces& forces, Scalar h, Index count, int threads, Move move,
-                               bool kick_alone) {
+bool Steps<Scalar, Dim>::steps(const Forces& forces, Scalar h, Index count, int threads,
+                               Move move) {
     const bool asks = outside_.asks_for_state();
     if (asks && !state_.finite()) return false;  // a finite double may be infinite as a float
     for (Index done = 0; done < count;) {
         const Index next = asks || watch_ ? 1 : (std::min)(steps_between_checks, count - done);
-        update_.set_external(outside_.at_state(forces.layout(), state_.planes()));
+        outside_.ask(forces.layout(), state_.planes(), done == 0 || watch_);
         show(forces.layout(), outside_.state(), outside_.force());
-        if (watch_) watch_->before(forces.layout(), places_, state_, outside_.time());
-        some_steps(forces, h, next, threads, move);
+        const bool finite = some_steps(forces, h, next, threads, move);
         done += next;
         const bool check = asks || done == count || done % steps_between_checks == 0;
-        if (check && !state_.finite()) return false;
+        if (check && !finite && !state_.finite()) return false;
         outside_.pass(h);
-        if (!kick_alone && !passed(forces.layout())) return false;
+        if (!passed(forces.layout())) return false;
     }
     return true;
 }
 
 template <class Scalar, int Dim>
-void Steps<Scalar, Dim>::some_steps(const Forces& forces, Scalar h, Index count, int threads,
+bool Steps<Scalar, Dim>::some_steps(const Forces& forces, Scalar h, Index count, int threads,
                                     Move move) {
     const Blocks& blocks = forces.layout().blocks();
     threads = blocks.workers(threads);
-    constexpr Index scratch_size = 3 * Dim * scratch_stride;
     const auto needed = static_cast<std::size_t>(threads * scratch_size);
     if (scratch_.size() < needed) scratch_.assign(needed, Scalar(0));
+    std::atomic<bool> finite{true};
     const auto work = [&](int thread, int workers, const auto& wait) {
         const Waves waves(blocks.count(), forces.reach(), workers);
         waves.run(
@@ -78,7 +84,10 @@ void Steps<Scalar, Dim>::some_steps(const Forces& forces, Scalar h, Index count,
             [&](Index step, int block) {
                 StatePlanes<Scalar> planes = state_.planes();
                 if (step % 2 == 1) planes.swap();
-                step_block(forces, planes, block, h, scratch_.data() + thread * scratch_size, move);
+                if (!step_block(forces, planes, block, h, scratch_.data() + thread * scratch_size,
+                                move)) {
+                    finite.store(false, std::memory_order_relaxed);
+                }
             },
             wait);
     };
@@ -94,11 +103,12 @@ void Steps<Scalar, Dim>::some_steps(const Forces& forces, Scalar h, Index count,
         work(0, 1, [] {});
     }
     if (count % 2 == 1) state_.swap();
+    return finite;
 }
 
 template <class Scalar, int Dim>
-void Steps<Scalar, Dim>::step_block(const Forces& forces, const StatePlanes<Scalar>& planes,
-                                    int block, Scalar h, Scalar* scratch, Move move) const {
+bool Steps<Scalar, Dim>::step_block(const Forces& forces, const StatePlanes<Scalar>& planes,
+                                    int block, Scalar h, Scalar* scratch, Move move) {
     const auto vector = [&](int number) {
         return Planes<Scalar>{scratch + number * Dim * scratch_stride + max_width, scratch_stride};
     };
@@ -116,14 +126,19 @@ void Steps<Scalar, Dim>::step_block(const Forces& forces, const StatePlanes<Scal
     const Index begin = view.begin;
     const Index count = std::min<Index>(view.size, layout.size() - begin);
     const Index grain = layout.grain();
+    bool finite = true;
+    const Planes<Scalar> room{scratch + 3 * Dim * scratch_stride, tile_stride};
     for (Index i = 0; i < count; i += tile_size) {
-        view.tile = static_cast<int>((begin + i) / tile_size);
+        const Places tile{begin + i, std::min<Index>(tile_size, count - i)};
+        view.tile = static_cast<int>(tile.first / tile_size);
         forces.add(view);
         (update_.*move)(layout,
-                        {planes, (begin + i) * grain, std::min<Index>(tile_size, count - i) * grain,
-                         view.force_a.at(i * grain), view.force_b.at(i * grain)},
+                        {planes, tile.first * grain, tile.count * grain, view.force_a.at(i * grain),
+                         view.force_b.at(i * grain), outside_.on_tile(layout, tile, room)},
                         h);
+        finite = outside_.moved(layout, tile, planes) && finite;
     }
+    return finite;
 }
 
 }  // namespace taut::step_detail

@@ -27,12 +27,30 @@ public:
 
     /// Whether a force asks for the whole state before every step.
     bool asks_for_state() const { return static_cast<bool>(forces_->whole); }
-    /// What that force and the constant ones are at a state, N; empty planes for none.
-    Planes<Scalar> at_state(const Layout<Scalar>& layout, const StatePlanes<Scalar>& planes);
+    /// Asks that force, where there is one, and adds the constant ones.
+    /// @param first  whether planes may have changed since the last step
+    void ask(const Layout<Scalar>& layout, const StatePlanes<Scalar>& planes, bool first);
+    /// What ask() found on a tile's places, N; empty planes for nothing.
+    /// @param room  for planes of a tile
+    Planes<Scalar> on_tile(const Layout<Scalar>& layout, Places of,
+                           const Planes<Scalar>& room) const {
+        if (!by_tile_) return found_.first ? found_.at(of.first * layout.grain()) : found_;
+        layout.to_planes(force_, room, of);
+        return room;
+    }
+    /// Takes what the force sees next of a tile's places, while they are in the first cache.
+    /// @returns whether that is known to be finite
+    bool moved(const Layout<Scalar>& layout, Places of, const StatePlanes<Scalar>& planes) {
+        if (!by_tile_) return false;
+        layout.from_planes(planes.new_x.at(of.first), state_.x, of);
+        layout.from_planes(planes.new_v.at(of.first), state_.v, of);
+        return detail::all_finite(state_.x.data() + Dim * of.first, Dim * of.count) &&
+               detail::all_finite(state_.v.data() + Dim * of.first, Dim * of.count);
+    }
 
     /// What the force of the whole state was last asked at; null without one.
     const State<Scalar, Dim>* state() const { return asks_for_state() ? &state_ : nullptr; }
-    /// All that at_state() last gave, N; null where a force is missing in it.
+    /// All that ask() last found, N; null where a force is missing in it.
     const Points<Scalar, Dim>* force() const {
         return asks_for_state() && !forces_->outside ? &force_ : nullptr;
     }
@@ -42,6 +60,8 @@ private:
     State<Scalar, Dim> state_;                             // what a force of the whole state sees
     Points<Scalar, Dim> force_;                            // N
     Buffer<Scalar> planes_;                                // N
+    Planes<Scalar> found_;  // these, if there is something and not by_tile_
+    bool by_tile_ = false;  // whether state_ and force_ have copies in planes tile by tile
 };
 
 /// Sees the states between the steps of a sweep, from the first to the last.
@@ -54,18 +74,11 @@ public:
     virtual void see(const PlaceVectors<Scalar, Dim>& x, const PlaceVectors<Scalar, Dim>& v,
                      Scalar time, const State<Scalar, Dim>* state,
                      const Points<Scalar, Dim>* force) = 0;
-    /// Before a step.
-    virtual void before(const Layout<Scalar>&, const Buffer<int>& /*places*/,
-                        const StateMemory<Scalar>&, Scalar /*time*/) {}
-    /// After a step, in velocity Verlet after its drift: may change the planes.
+    /// After a step: may change the planes. Of velocity Verlet after every drift, and after the
+    /// last half kick, where accelerations are in the place of x.
     /// @param places  as of PlaceVectors   @param time, ahead  s   @returns whether to go on
-    virtual bool passed(const Layout<Scalar>&, const Buffer<int>& /*places*/, StateMemory<Scalar>&,
-                        Scalar /*time*/, Scalar /*ahead*/) {
-        return true;
-    }
-
-    /// After the last half kick of velocity Verlet: may change velocities.
-    virtual void kicked(const Layout<Scalar>&, StateMemory<Scalar>&) {}
+    virtual bool passed(const Layout<Scalar>& layout, const Buffer<int>& places,
+                        StateMemory<Scalar>& memory, Scalar time, Scalar ahead) = 0;
 
 protected:
     ~StepWatch() = default;
@@ -117,6 +130,7 @@ public:
     template <class AnyState>
     bool run_verlet(const Forces& forces, AnyState& state, Scalar h, Index count, int threads,
                     bool go_on);
+    /// In imex/detail/run_corrected.hpp.
     template <bool Ahead, class AnyState, class Correct>
     bool run_corrected(const Forces& forces, AnyState& state, Scalar h, Index count, int threads,
                        const Correct& correct);
@@ -127,18 +141,20 @@ private:
     static constexpr Index steps_between_checks = 64;
     /// A register may begin before its block or end behind it.
     static constexpr Index scratch_stride = most_of_block + most_of_block / 16;
+    /// Three vectors of a block's places, and the external forces on those of a tile.
+    static constexpr Index tile_stride = tile_size + 2 * max_width;
+    static constexpr Index scratch_size = Dim * (3 * scratch_stride + tile_stride);
 
     /// Puts the state back after `count` steps.
     template <class AnyState>
     void store(const Layout<Scalar>& layout, Scalar h, Index count, AnyState& state) const {
-        layout.from_planes(state_.planes().x, state.x);
-        layout.from_planes(state_.planes().v, state.v);
+        layout.from_planes(state_.planes().x, state.x, layout.all());
+        layout.from_planes(state_.planes().v, state.v, layout.all());
         for (Index i = 0; i < count; ++i) state.time += h;
     }
     void show(const Layout<Scalar>& layout, const State<Scalar, Dim>* state,
               const Points<Scalar, Dim>* force) {
         if (!watch_) return;
-        if (places_.empty()) places_ = layout.places();
         watch_->see({layout, places_, state_.planes().x}, {layout, places_, state_.planes().v},
                     outside_.time(), state, force);
     }
@@ -146,11 +162,11 @@ private:
         return !watch_ || watch_->passed(layout, places_, state_, outside_.time(), ahead_);
     }
     /// @returns whether all is finite
-    bool steps(const Forces& forces, Scalar h, Index count, int threads, Move move,
-               bool kick_alone = false);
-    void some_steps(const Forces& forces, Scalar h, Index count, int threads, Move move);
-    void step_block(const Forces& forces, const StatePlanes<Scalar>& planes, int block, Scalar h,
-                    Scalar* scratch, Move move) const;
+    bool steps(const Forces& forces, Scalar h, Index count, int threads, Move move);
+    /// @returns whether the last state is known to be finite
+    bool some_steps(const Forces& forces, Scalar h, Index count, int threads, Move move);
+    bool step_block(const Forces& forces, const StatePlanes<Scalar>& planes, int block, Scalar h,
+                    Scalar* scratch, Move move);
 
     StateMemory<Scalar> state_;
     PlaceUpdate<Scalar> update_;
@@ -173,6 +189,7 @@ void Steps<Scalar, Dim>::load(const Surroundings<Scalar, Dim>& surroundings,
                               Scalar ahead, const ReadAnywhere& read) {
     alpha_ = static_cast<Scalar>(surroundings.rayleigh.stiffness_proportional);
     if (new_plan) places_.clear();
+    if (watch_ && places_.empty()) places_ = layout.places();
     // A new plan may have other places for what is discarded.
     if (new_plan) scratch_.assign(scratch_.size(), Scalar(0));
     state_.resize(layout.planes(), layout.size() * layout.grain(), layout.stride(), ahead > 0,
@@ -183,8 +200,8 @@ void Steps<Scalar, Dim>::load(const Surroundings<Scalar, Dim>& surroundings,
         update_.load_masses(layout, surroundings.inverse_mass);
         masses_ = surroundings.revision;
     }
-    layout.to_planes(state.x, state_.planes().x);
-    layout.to_planes(state.v, state_.planes().v);
+    layout.to_planes(state.x, state_.planes().x, layout.all());
+    layout.to_planes(state.v, state_.planes().v, layout.all());
     ahead_ = ahead;
     if (ahead > 0) state_.look_ahead(ahead);
     outside_.begin(surroundings.external, static_cast<Scalar>(state.time));
@@ -216,7 +233,6 @@ bool Steps<Scalar, Dim>::run_verlet(const Forces& forces, AnyState& state, Scala
             state_.for_each_register([&](Index i) { kicked(i, -last_h_ / 2).store(v + i); });
             show(forces.layout(), nullptr, nullptr);
             std::copy_n(end_v_.data(), state_.whole(), v);
-            watch_->before(forces.layout(), places_, state_, outside_.time());
         }
         state_.for_each_register([&](Index i) {
             const Register half = kicked(i, h / 2);
@@ -231,44 +247,12 @@ bool Steps<Scalar, Dim>::run_verlet(const Forces& forces, AnyState& state, Scala
     if (!steps(forces, h, count - 1, threads, &Update::template move<VerletUpdate<2, false>>)) {
         return false;
     }
-    const auto last = &Update::template move<VerletUpdate<1, true>>;
-    if (!steps(forces, h, 1, threads, last, true)) return false;
+    if (!steps(forces, h, 1, threads, &Update::template move<VerletUpdate<1, true>>)) return false;
     acceleration_.resize(static_cast<std::size_t>(state_.whole()));
     std::copy_n(state_.planes().x.first, state_.whole(), acceleration_.data());
     state_.swap_positions();
-    if (watch_) watch_->kicked(forces.layout(), state_);
     store(forces.layout(), h, count, state);
     last_h_ = h;
-    return true;
-}
-
-template <class Scalar, int Dim>
-template <bool Ahead, class AnyState, class Correct>
-bool Steps<Scalar, Dim>::run_corrected(const Forces& forces, AnyState& state, Scalar h, Index count,
-                                       int threads, const Correct& correct) {
-    const bool one_by_one = outside_.asks_for_state();
-    if (one_by_one && !state_.finite()) return false;
-    if (places_.empty()) places_ = forces.layout().places();
-    for (Index i = 1; i <= count; ++i) {
-        if (Ahead && i > 1) state_.look_ahead(h);
-        update_.set_external(outside_.at_state(forces.layout(), state_.planes()));
-        some_steps(forces, h, 1, threads,
-                   &PlaceUpdate<Scalar>::template move<VerletUpdate<0, true>>);
-        const StatePlanes<Scalar> planes = state_.planes();
-        correct(PlaceVectors<Scalar, Dim>(forces.layout(), places_, planes.x),
-                PlaceVectors<Scalar, Dim>(forces.layout(), places_, planes.v));
-        const Register step(h);
-        state_.for_each_register([&](Index k) {
-            const Register a = Register::load(planes.x.first + k);
-            const Register v = Register::load(planes.v.first + k) + step * a;
-            v.store(planes.v.first + k);
-            (Register::load(planes.new_x.first + k) + step * v).store(planes.x.first + k);
-        });
-        const bool check = one_by_one || i == count || i % steps_between_checks == 0;
-        if (check && !state_.finite()) return false;
-        outside_.pass(h);
-    }
-    store(forces.layout(), h, count, state);
     return true;
 }
 

@@ -28,13 +28,8 @@ public:
     void add_forces(const WindView<Scalar>& view) const {
         const auto tile = static_cast<std::size_t>(view.tile);
         const std::size_t first = tile == 0 ? 0 : end_[tile - 1];
-        if (first == end_[tile]) return;
-        auto flow = flow_past(view, rows_[first]);
-        for (std::size_t r = first; r < end_[tile]; ++r) {
-            const auto next = flow_past(view, rows_[(std::min)(r + 1, end_[tile] - 1)]);
-            add_row(view, rows_[r], flow);
-            flow = next;
-        }
+        for (std::size_t r = first; r < end_[tile]; ++r)
+            add_row(view, rows_[r], flow_past(view, rows_[r]));
     }
 
 private:

@@ -32,6 +32,12 @@ struct SoloPairs {
     Buffer<Scalar> cap;    // p₁, m
     Buffer<Scalar> mass;   // kg
     detail::Few<Buffer<Scalar>, Dim> x, normal;
+
+    /// Of lane k.
+    int place(Index k) const {
+        constexpr Index width = step_detail::VectorRegister<Scalar>::width;
+        return first[k / width] + static_cast<int>(k % width);
+    }
 };
 
 /// Blocks that are touched in a step: what they were without contact, for undo.
@@ -69,7 +75,7 @@ public:
     using Vector = Eigen::Matrix<Scalar, Dim, 1>;
     using Place = Pose<Scalar, Dim>;
 
-    Body(const BodyOptions& options, const Place& pose) : options(options), begin(pose), end(pose) {
+    Body(const BodyOptions& how, const Place& pose) : options(how), begin(pose), end(pose) {
         motion.now = motion.next = pose;
     }
     virtual ~Body() = default;
@@ -114,8 +120,8 @@ public:
     using Vector = typename Base::Vector;
     using Place = typename Base::Place;
 
-    BodyOf(Obstacle shape, const BodyOptions& options, const Place& pose)
-        : Base(options, pose), shape_(std::move(shape)) {}
+    BodyOf(Obstacle shape, const BodyOptions& how, const Place& pose)
+        : Base(how, pose), shape_(std::move(shape)) {}
 
     Surface<Scalar, Dim> surface(const Vector& y) const override { return shape_.surface(y); }
     Scalar extent() const override { return shape_.extent(); }
@@ -164,18 +170,18 @@ private:
     EIGEN_ALWAYS_INLINE Register query(const Vectors& x, const Place& pose, Vectors& normal) const {
         Vectors from;
         for (int d = 0; d < Dim; ++d) from[d] = x[d] - Register(pose.position[d]);
-        const typename Pose<Scalar, Dim>::Rotation back = pose.rotation.transpose();
-        const Register distance = shape_.template query<Register>(times(back, from), normal);
+        const Register distance =
+            shape_.template query<Register>(times(pose.rotation.transpose(), from), normal);
         normal = times(pose.rotation, normal);
         return Register(this->thickness()) - distance;
     }
     void make_room() {
-        Hits<Scalar, Dim>& hits = this->hits;
+        Hits<Scalar, Dim>& met = this->hits;
         const Index size = this->solo.blocks * Register::width;
-        hits.count = 0;
-        hits.block.resize(this->solo.blocks);
-        for (auto* of : {&hits.depth, &hits.cap, &hits.touched, &hits.work}) of->resize(size);
-        for (auto* of : {&hits.x, &hits.v}) {
+        met.count = 0;
+        met.block.resize(this->solo.blocks);
+        for (auto* of : {&met.depth, &met.cap, &met.touched, &met.work}) of->resize(size);
+        for (auto* of : {&met.x, &met.v}) {
             for (int d = 0; d < Dim; ++d) (*of)[d].resize(size);
         }
     }
@@ -183,27 +189,27 @@ private:
     void resolve(Index block, const Penalty<Scalar>& penalty, const Moving<Scalar, Dim>& moving,
                  const Register& before, Vectors& x, Register& depth, Vectors& normal) {
         SoloPairs<Scalar, Dim>& pairs = this->solo;
-        Hits<Scalar, Dim>& hits = this->hits;
-        const Motion<Scalar, Dim>& motion = this->motion;
+        Hits<Scalar, Dim>& met = this->hits;
+        const Motion<Scalar, Dim>& moved = this->motion;
         const Register zero(Scalar(0)), one(Scalar(1)), h(penalty.h);
         const Index at = block * Register::width, place = pairs.first[block];
-        const Index kept = hits.count++ * Register::width;
-        hits.block[kept / Register::width] = static_cast<int>(block);
+        const Index kept = met.count++ * Register::width;
+        met.block[kept / Register::width] = static_cast<int>(block);
         Vectors from, n, v, u, w;
         for (int d = 0; d < Dim; ++d) {
             from[d] = Register::load(pairs.x[d].data() + at);
             n[d] = Register::load(pairs.normal[d].data() + at);
             v[d] = moving.v.row(d, place);
-            x[d].store(hits.x[d].data() + kept);
-            v[d].store(hits.v[d].data() + kept);
+            x[d].store(met.x[d].data() + kept);
+            v[d].store(met.v[d].data() + kept);
         }
-        before.store(hits.depth.data() + kept);
+        before.store(met.depth.data() + kept);
         Register cap = Register::load(pairs.cap.data() + at);
-        cap.store(hits.cap.data() + kept);
-        n = times(motion.turn, n);
-        const Vectors carried = times(motion.turn, from);
+        cap.store(met.cap.data() + kept);
+        n = times(moved.turn, n);
+        const Vectors carried = times(moved.turn, from);
         for (int d = 0; d < Dim; ++d) {
-            u[d] = (carried[d] + Register(motion.shift[d]) - from[d]) * Register(1 / penalty.h);
+            u[d] = (carried[d] + Register(moved.shift[d]) - from[d]) * Register(1 / penalty.h);
             w[d] = v[d] - u[d];
         }
         const Register deep = larger(before, zero);
@@ -215,7 +221,7 @@ private:
         Register touches = where_less(zero, larger(before, depth), one, zero);
         const Register pulls = where_less(impulse, zero, deep, zero);
         touches = where_less(zero, pulls, where_less(before, depth, touches, zero), touches);
-        touches.store(hits.touched.data() + kept);
+        touches.store(met.touched.data() + kept);
         Vectors along;
         for (int d = 0; d < Dim; ++d) along[d] = w[d] - into * n[d];
         const Register by_sliding = reciprocal_sqrt(
@@ -238,8 +244,8 @@ private:
             }
         }
         const Register mass = Register::load(pairs.mass.data() + at);
-        where_less(zero, touches, mass * work, zero).store(hits.work.data() + kept);
-        depth = query(x, motion.next, normal);
+        where_less(zero, touches, mass * work, zero).store(met.work.data() + kept);
+        depth = query(x, moved.next, normal);
         depth = where_less(zero, mass, depth, -one);
         where_less(zero, depth, cap, Register(std::numeric_limits<Scalar>::infinity()))
             .store(pairs.cap.data() + at);

@@ -38,6 +38,13 @@ struct Penalty {
 
     /// ½h²κ/m.
     Scalar block() const { return h * h * by_mass / 2; }
+    /// φ(p), J. @param depth  p   @param cap  p₁, m
+    double energy(Scalar depth, Scalar cap, Scalar mass) const {
+        if (!(depth > 0)) return 0;
+        const double k = static_cast<double>(by_mass) * static_cast<double>(mass);
+        const auto p = static_cast<double>(depth), most = static_cast<double>(cap);
+        return p <= most ? k * p * p / 2 : k * most * (p - most / 2);
+    }
 };
 
 /// Vectors by place, one or a register of them.
@@ -96,9 +103,8 @@ EIGEN_ALWAYS_INLINE Scalar sum_of_lanes(const step_detail::VectorRegister<Scalar
 }
 
 /// M y of vectors, a lane each.
-template <class Real, class Scalar, int Dim>
-EIGEN_ALWAYS_INLINE detail::Few<Real, Dim> times(const Eigen::Matrix<Scalar, Dim, Dim>& M,
-                                                 const detail::Few<Real, Dim>& y) {
+template <class Matrix, class Real, int Dim>
+EIGEN_ALWAYS_INLINE detail::Few<Real, Dim> times(const Matrix& M, const detail::Few<Real, Dim>& y) {
     detail::Few<Real, Dim> result;
     for (int d = 0; d < Dim; ++d) {
         result[d] = Real(M(d, 0)) * y[0];

@@ -15,10 +15,10 @@ namespace taut::contact_detail {
 
 /// A pair that touches and did not begin inside, or did so and has been out since.
 struct KnownPair {
-    int place, body;
+    int at, body;  // a place, or between frames a particle
 
     bool operator<(const KnownPair& other) const {
-        return place != other.place ? place < other.place : body < other.body;
+        return at != other.at ? at < other.at : body < other.body;
     }
 };
 
@@ -50,8 +50,7 @@ public:
         for (std::size_t b = 0; b < bodies.size(); ++b) {
             const auto& solo = bodies[b]->solo;
             for (Index k = 0; k < solo.blocks * Register::width; ++k) {
-                const auto lane = static_cast<int>(k % Register::width);
-                add(solo.first[k / Register::width] + lane, b, solo.depth[k], solo.cap[k]);
+                add(solo.place(k), b, solo.depth[k], solo.cap[k]);
             }
         }
         for (const Pair& pair : shared_)

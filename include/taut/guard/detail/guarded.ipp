@@ -88,26 +88,14 @@ bool Guarded<Stepper, System>::run(State& state, Frame frame, Kind kind, By& by,
     const bool stepwise = responds || held || (seen && !shows);
     const Index at_once = stepwise ? 1 : frame.steps;
     if (stepwise && !shows) work_.see(state);
-    static_assert(!touches || (shows && !held),
-                  "taut::Guarded: contacts need a trial by VelocityVerlet, SymplecticEuler or "
-                  "EnergyStableEuler");
-    const auto watch = [&] {
-        if constexpr (touches) {
-            respond.begin(frame.h * static_cast<Scalar>(frame.steps), frame.h, state.time);
-            return guard_detail::BooksAndContacts(seen ? &work_ : nullptr, respond);
-        } else {
-            return &work_;
-        }
-    };
-    auto watched = watch();
-    const auto pointer = [&] {
-        if constexpr (touches) {
-            return &watched;
-        } else {
-            return seen ? watched : nullptr;
-        }
-    };
-    const guard_detail::Watching watching(by, pointer());
+    step_detail::StepWatch<Scalar, System::Dim>* watch = seen ? &work_ : nullptr;
+    if constexpr (touches) {
+        static_assert(shows && !held,
+                      "taut::Guarded: contacts need a trial by VelocityVerlet, SymplecticEuler or "
+                      "EnergyStableEuler");
+        respond.begin(frame.h, frame.steps, std::exchange(watch, &respond));
+    }
+    const guard_detail::Watching watching(by, watch);
     for (Index done = 0; done < frame.steps; done += at_once) {
         if (shows && stepwise && done > 0) work_.repeat();  // where a call of its own begins
         if (!take(state, frame.h, at_once)) return false;
@@ -138,12 +126,7 @@ bool Guarded<Stepper, System>::run(State& state, Frame frame, Kind kind, By& by,
         }
     }
     work_.add_swing(state);
-    if constexpr (touches) {
-        const int which = static_cast<const void*>(&by) == static_cast<const void*>(&proved_);
-        respond.end(which);
-        work_.add_each(respond.work_of(which));
-        held_ = &respond.energy_of(which);
-    }
+    if constexpr (touches) work_.add_each(respond.end());
     return stepwise || !seen || work_.seen() == frame.steps + 1;
 }
 
@@ -252,9 +235,7 @@ bool Guarded<Stepper, System>::take_again(State& state, Scalar span, bool tried,
             state.v.col(i) = again_.v.col(i);
         }
         if constexpr (guard_detail::is_contacts_v<Respond>) {
-            held_ = &respond.choose([&](Index i) {
-                return taken_of(i, tried) == Taken::again || taken_of(i, tried) == Taken::frozen;
-            });
+            respond.choose([&](Index i) { return !tried || taken_of(i, tried) == Taken::again; });
         }
         measure(state, end_);
         bool stiff = false;
@@ -270,7 +251,7 @@ bool Guarded<Stepper, System>::take_again(State& state, Scalar span, bool tried,
     for (std::size_t p = 0; p < parts_.count(); ++p) {
         if (taken_[p] == Taken::again) settle_again(p, report);
     }
-    freeze(state);
+    freeze(state, respond);
     return true;
 }
 
@@ -308,12 +289,14 @@ void Guarded<Stepper, System>::settle_again(std::size_t part, GuardedReport<Scal
 
 /// Stops the frozen parts where the frame began: what then moves their energy is pins.
 template <class Stepper, class System>
-void Guarded<Stepper, System>::freeze(State& state) {
+template <class Respond>
+void Guarded<Stepper, System>::freeze(State& state, [[maybe_unused]] Respond& respond) {
     if (!any(Taken::frozen)) return;
     for (Index i = 0; i < system_->size(); ++i) {
         if (taken_of(i, true) != Taken::frozen) continue;
         state.x.col(i) = start_.x.col(i);
         state.v.col(i).setZero();
+        if constexpr (guard_detail::is_contacts_v<Respond>) respond.stay(i, start_.x.col(i));
     }
     measure(state, end_);
     for (std::size_t p = 0; p < parts_.count(); ++p) {
@@ -384,10 +367,7 @@ auto Guarded<Stepper, System>::advance(State& state, Scalar frame, Respond&& res
     GuardedReport<Scalar> report;
     renew();
     held_ = nullptr;
-    if constexpr (guard_detail::is_contacts_v<Respond>) {
-        respond.renew();
-        if (detail::fits(state, system_->size())) held_ = &respond.energy_at(state);
-    }
+    if constexpr (guard_detail::is_contacts_v<Respond>) held_ = &respond.open(state);
     const Scalar longest = trial_step();
     report.status = open(state, frame, longest, report);
     if (!report) return report;
@@ -415,10 +395,10 @@ auto Guarded<Stepper, System>::advance(State& state, Scalar frame, Respond&& res
         }
     } undo{*this, state};
     const bool tried = !parts_.all_skip() && try_frame(state, trial, respond);
-    judge(state, tried);
     if constexpr (guard_detail::is_contacts_v<Respond>) {
-        if (tried) held_ = &respond.choose([](Index) { return 0; });
+        if (tried) respond.choose([](Index) { return false; });
     }
+    judge(state, tried);
     if (!tried) state = start_;
     if ((!tried || any(Taken::again)) && !take_again(state, span, tried, report, respond)) {
         report.status = Status::diverged;

@@ -9,7 +9,6 @@
 #include "../../core/concepts.hpp"
 #include "../../conditions/visit.hpp"
 #include "../../network/state_view.hpp"
-#include "../../step/steps.hpp"
 
 namespace taut::guard_detail {
 
@@ -23,57 +22,27 @@ using added_kinetic_of = decltype(std::declval<const Stepper&>().added_kinetic(
 template <class Stepper>
 using watch_of = decltype(std::declval<Stepper&>().watch(nullptr));
 
+/// Whether what answers to a step is Contacts, which take part in it.
+template <class Respond>
+using opened_of =
+    decltype(std::declval<Respond&>().open(std::declval<const typename Respond::State&>()));
+template <class Respond>
+inline constexpr bool is_contacts_v = detail::is_detected_v<opened_of, std::decay_t<Respond>>;
+
 /// Lets a stepper that can show its steps to a meter, as long as this lives.
-template <class By, class Watch>
+template <class By, class Meter>
 class Watching {
 public:
-    Watching(By& by, Watch* meter) : by_(by) { set(meter); }
+    Watching(By& by, Meter* meter) : by_(by) { set(meter); }
     ~Watching() { set(nullptr); }
     Watching(const Watching&) = delete;
     Watching& operator=(const Watching&) = delete;
 
 private:
-    void set([[maybe_unused]] Watch* meter) {
+    void set([[maybe_unused]] Meter* meter) {
         if constexpr (detail::is_detected_v<watch_of, By>) by_.watch(meter);
     }
     By& by_;
-};
-
-/// Whether what answers to a step is Contacts, and taken inside it.
-template <class Respond>
-using chosen_tries_of = decltype(std::declval<Respond&>().energy_of(0));
-template <class Respond>
-inline constexpr bool is_contacts_v = detail::is_detected_v<chosen_tries_of, std::decay_t<Respond>>;
-
-/// Lets two look on at a stepper's steps: one books, maybe; the other one takes part.
-template <class Meter, class Contacts>
-class BooksAndContacts final
-    : public step_detail::StepWatch<typename Contacts::Scalar, Contacts::Dim> {
-    using Scalar = typename Contacts::Scalar;
-    static constexpr int Dim = Contacts::Dim;
-    using Layout = step_detail::Layout<Scalar>;
-    using Memory = step_detail::StateMemory<Scalar>;
-    using Places = step_detail::PlaceVectors<Scalar, Dim>;
-
-public:
-    BooksAndContacts(Meter* meter, Contacts& contacts) : meter_(meter), contacts_(contacts) {}
-    void see(const Places& x, const Places& v, Scalar time, const State<Scalar, Dim>* state,
-             const Points<Scalar, Dim>* force) override {
-        if (meter_) meter_->see(x, v, time, state, force);
-    }
-    void before(const Layout& layout, const Buffer<int>& places, const Memory& memory,
-                Scalar time) override {
-        contacts_.before(layout, places, memory, time);
-    }
-    bool passed(const Layout& layout, const Buffer<int>& places, Memory& memory, Scalar time,
-                Scalar ahead) override {
-        return contacts_.passed(layout, places, memory, time, ahead);
-    }
-    void kicked(const Layout& layout, Memory& memory) override { contacts_.kicked(layout, memory); }
-
-private:
-    Meter* meter_;
-    Contacts& contacts_;
 };
 
 struct NoResponse {

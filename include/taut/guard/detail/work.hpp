@@ -76,6 +76,10 @@ public:
         }
         see(x, v, state ? *state : own_, force);
     }
+    bool passed(const step_detail::Layout<Scalar>&, const Buffer<int>&,
+                step_detail::StateMemory<Scalar>&, Scalar, Scalar) override {
+        return true;
+    }
     /// The next state is seen for the second time.
     void repeat() { repeated_ = true; }
     /// Forces that held from the last state to this one, N, Dim × n or fewer columns.
@@ -88,7 +92,7 @@ public:
         add_held(system_->external_forces().constant, state);
         x_ = state.x;
     }
-    /// Books the work of contacts, J, of each particle.
+    /// The work of contacts on each particle, J.
     void add_each(const Buffer<double>& work) {
         for (Index i = 0; i < system_->size(); ++i) add(parts_->of(i), work[i]);
     }
