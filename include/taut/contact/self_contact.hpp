@@ -8,10 +8,8 @@
 #include <limits>
 #include <utility>
 
-#include "../integrator/energy_stable_euler.hpp"
-#include "../proof/energy_limit.hpp"
+#include "contacts.hpp"
 #include "detail/ball_pairs.hpp"
-#include "detail/motion.hpp"
 
 namespace taut {
 
@@ -52,6 +50,7 @@ public:
     static constexpr int Dim = System::Dim;
     using Vector = Eigen::Matrix<Scalar, Dim, 1>;
     using State = taut::State<Scalar, Dim>;
+    using Places = step_detail::PlaceVectors<Scalar, Dim>;
 
     /// Keeps a reference: the system must outlive this. Options out of range go to fail().
     explicit SelfContact(const System& system, const SelfContactOptions& options = {})
@@ -63,13 +62,19 @@ public:
         if (options.pairs < 1) fail("SelfContact: pairs is ", options.pairs, "; it must be >= 1");
     }
     explicit SelfContact(const System&&, const SelfContactOptions& = {}) = delete;
+    /// With bodies that the same particles touch, in the same steps. Keeps a reference to both.
+    SelfContact(const System& system, Contacts<System>& bodies,
+                const SelfContactOptions& options = {})
+        : SelfContact(system, options) {
+        bodies_ = &bodies;
+    }
 
     /// Of a particle's ball, m. Unchecked: 0 ≤ i < size().
     Scalar radius(Index i) {
         renew();
         return near_.radius[i];
     }
-    /// κ of a pair that touches, N/m; 0 where a spring joins it or both are pinned.
+    /// κ of a pair, N/m; 0 if both are pinned. One that a spring joins has no force.
     Scalar stiffness(Index i, Index j) {
         renew();
         return stiffness_of(i, j);
@@ -79,38 +84,126 @@ public:
     StepLimit<Scalar> limit(const State& state) {
         renew();
         StepLimit<Scalar> answer = limit_;
-        if (!list(state)) return {};
-        answer.certified = certified_with(near_.heaviest_load());
+        answer.certified = list(state) ? certified(near_.heaviest_load()) : Scalar(0);
         return answer;
     }
     /// ½κ(R − l)₊² of all pairs at a state, J; it also counts them.
     double energy(const State& state) {
         renew();
         if (!list(state)) return std::numeric_limits<double>::quiet_NaN();
-        double sum = 0;
-        touching_ = 0;
-        deepest_ = 0;
-        for (const auto& [a, b] : near_.pairs()) {
-            const Scalar deep =
-                near_.radius[a] + near_.radius[b] - Vector(state.x.col(b) - state.x.col(a)).norm();
-            if (!(deep > 0)) continue;
-            ++touching_;
-            deepest_ = (std::max)(deepest_, deep);
-            sum += static_cast<double>(stiffness_of(a, b)) * static_cast<double>(deep) *
-                   static_cast<double>(deep) / 2;
-        }
-        return sum;
+        return share_energy([&](Index i) -> Vector { return state.x.col(i); }, held_);
     }
-    /// Pairs that touched when energy() was last asked.
+    /// Pairs that touch, at the end of the last frame or where energy() was asked since.
     Index touching() const { return touching_; }
-    /// How far the deepest of them overlapped, m.
+    /// How far the deepest of them overlaps, m.
     Scalar deepest() const { return deepest_; }
     /// What pins that move did through pairs in the last frame, −Σ h u·f, J.
     double work() const { return work_; }
     /// How often near pairs were looked up anew.
     Index lookups() const { return lookups_; }
 
-    /// For steppers: looks whether the system was edited.
+    // What follows is for steppers.
+
+    /// First in a frame.
+    void open(const State& state) {
+        renew();
+        if (bodies_) bodies_->open(state);
+    }
+    /// The first, or another, try of a frame of `count` steps of h, s.
+    void begin(Scalar h, Index count, step_detail::StepWatch<Scalar, Dim>* books) {
+        h_ = h;
+        count_ = count;
+        passed_ = 0;
+        work_ = 0;
+        fresh_ = true;
+        waits_ = stopped_ = crowded_ = restless_ = false;
+        books_ = bodies_ ? bodies_ : books;
+        if (bodies_) bodies_->begin(h, count, books);
+        old_x_.resize(Dim, system_->size());
+        old_y_.resize(Dim, system_->size());
+        kick_.setZero(Dim, system_->size());
+        is_hit_.assign(system_->size(), 0);
+        hit_.clear();
+    }
+    /// Whether that ended for want of shorter steps, since more pairs were near than h allows.
+    bool crowded() const { return crowded_; }
+    /// Or since bodies pushed particles farther than the list of near pairs reaches.
+    bool restless() const { return restless_; }
+    /// Certified with a quarter more pairs a particle than are listed, s.
+    Scalar shorter() const { return certified(near_.heaviest_load() * Scalar(1.25)); }
+    /// The frame is over, and left this state.
+    void settle(const State& state) {
+        if (bodies_) {
+            bodies_->end();
+            bodies_->choose([](Index) { return false; });
+            bodies_->settle(state);
+        }
+        energy(state);
+    }
+
+    void see(const Places& x, const Places& v, Scalar time, const State* state,
+             const Points<Scalar, Dim>* force) override {
+        // A stepper that seeks a step that failed shows where it began once more.
+        stopped_ = stopped_ || std::exchange(waits_, true);
+        if (books_) books_->see(x, v, time, state, force);
+        for (Index i = 0; i < system_->size(); ++i) {
+            old_x_.col(i) = x(i);
+            old_y_.col(i) = v(i);
+        }
+    }
+    bool passed(const step_detail::Layout<Scalar>& layout, const Buffer<int>& places,
+                step_detail::StateMemory<Scalar>& memory, Scalar time, Scalar ahead) override {
+        waits_ = false;
+        if (stopped_) return false;
+        const auto& planes = memory.planes();
+        const Places x(layout, places, planes.x), v(layout, places, planes.v);
+        const auto at_rest = [&](Index i) -> Vector { return x(i); };
+        // Of velocity Verlet the first and the last kick are half ones.
+        const bool ends = passed_ == count_;
+        kick_time_ = ahead > 0 || (passed_ > 0 && !ends) ? h_ : h_ / 2;
+        if (ahead > 0) old_y_ = old_x_ + ahead * old_y_;
+        const auto& y = ahead > 0 ? old_y_ : old_x_;
+        ++passed_;
+        if (near_.widest() > 0) {
+            if (std::exchange(fresh_, false)) {
+                const auto old = [&](Index i) -> Vector { return old_x_.col(i); };
+                const bool held = listed_ && holds(old, 1);
+                if ((!held || crowded_with(near_.heaviest_load())) && !look_back()) return false;
+            }
+            push(y);
+            if (!ends) {
+                const auto kicked = [&](Index i) -> Vector { return x(i) + h_ * kick_.col(i); };
+                // Bodies may push farther.
+                const Scalar part = bodies_ ? Scalar(0.7) : Scalar(1);
+                for (bool again = false; !holds(kicked, part); again = true) {
+                    if (again) by_step_ *= 2;
+                    if (!again && lived_ > 8) by_step_ = (std::max)(by_step_ / 2, Scalar(1));
+                    if (!memory.finite() || !look_back()) return !(stopped_ = true);
+                    push(y);
+                }
+            }
+            ++lived_;
+            work_ += step_work_;
+            const Places spring_x(layout, places, planes.spring_x);
+            for (const int i : hit_) {
+                const Vector now = v(i) + kick_.col(i);
+                v.set(i, now);
+                if (ends) continue;
+                x.set(i, x(i) + h_ * kick_.col(i));
+                if (ahead > 0) spring_x.set(i, x(i) + ahead * now);
+            }
+        }
+        if (!bodies_) return true;
+        stopped_ = !bodies_->passed(layout, places, memory, time, ahead);
+        if (stopped_ || ends || !(near_.widest() > 0)) return !stopped_;
+        if (holds(at_rest, 1)) return true;
+        by_step_ *= 2;
+        listed_ = false;
+        restless_ = detail::is_finite(by_step_);
+        return !(stopped_ = true);
+    }
+
+private:
     void renew() {
         if (revision_ == system_->revision() + 1) return;
         revision_ = system_->revision() + 1;
@@ -128,72 +221,6 @@ public:
         by_mass_ = left / (2 * q * q * h * h * static_cast<double>(options_.pairs));
         set_balls();
     }
-    /// Steps of h, s, follow.
-    void begin(Scalar h) {
-        renew();
-        h_ = h;
-        work_ = 0;
-        stopped_ = crowded_ = false;
-        fresh_ = true;
-    }
-    /// Whether steps were stopped since more pairs were near than h allows.
-    bool crowded() const { return crowded_; }
-    /// Certified with a quarter more pairs a particle than stopped them, s.
-    Scalar shorter() const { return certified_with(near_.heaviest_load() * Scalar(1.25)); }
-
-    void see(const step_detail::PlaceVectors<Scalar, Dim>&,
-             const step_detail::PlaceVectors<Scalar, Dim>&, Scalar, const State*,
-             const Points<Scalar, Dim>*) override {}
-    void before(const step_detail::Layout<Scalar>& layout, const Buffer<int>& places,
-                const step_detail::StateMemory<Scalar>& memory, Scalar) override {
-        if (stopped_ || !(near_.widest() > 0)) return;
-        const auto& planes = memory.planes();
-        const auto whole = static_cast<std::size_t>(memory.whole());
-        for (auto* of : {&old_x_, &old_y_, &kick_}) of->resize(whole);
-        std::copy_n(planes.x.first, whole, old_x_.data());
-        std::copy_n(planes.spring_x.first, whole, old_y_.data());
-        if (std::exchange(fresh_, false)) {
-            detail::set_zero(kick_.data(), memory.whole());
-            in_planes_ = false;  // places may have changed
-            const bool held = listed_ && detail::all_finite(old_x_.data(), memory.whole()) &&
-                              holds(layout, places, old_x_.data());
-            if (!held || crowded_with(near_.heaviest_load())) stopped_ = !look_back(layout, places);
-            if (stopped_) return;
-        }
-        push(layout, places);
-    }
-    bool passed(const step_detail::Layout<Scalar>& layout, const Buffer<int>& places,
-                step_detail::StateMemory<Scalar>& memory, Scalar, Scalar ahead) override {
-        if (stopped_) return false;
-        if (!(near_.widest() > 0)) return true;
-        const auto& planes = memory.planes();
-        for (bool again = false; !holds(layout, places, planes.x.first); again = true) {
-            if (again) by_step_ *= 2;
-            if (!again && lived_ > 8) by_step_ = (std::max)(by_step_ / 2, Scalar(1));
-            stopped_ = !memory.finite() || !look_back(layout, places);
-            if (stopped_) return false;
-            push(layout, places);
-        }
-        ++lived_;
-        work_ += step_work_;
-        if (!pushes_) return true;
-        const Register h(h_), to_y(ahead);
-        memory.for_each_register([&](Index i) {
-            const Register kick = Register::load(kick_.data() + i);
-            const Register v = Register::load(planes.v.first + i) + kick;
-            const Register x = Register::load(planes.x.first + i) + h * kick;
-            v.store(planes.v.first + i);
-            x.store(planes.x.first + i);
-            (x + to_y * v).store(planes.spring_x.first + i);
-        });
-        return true;
-    }
-
-private:
-    using Register = step_detail::VectorRegister<Scalar>;
-    using Access = contact_detail::PlaneAccess<Scalar, Dim>;
-    using Places = step_detail::PlaceVectors<Scalar, Dim>;
-
     void set_balls() {
         const Index count = system_->size();
         near_.radius.assign(count, Scalar(0));
@@ -215,13 +242,14 @@ private:
     }
     /// The largest step, s, with that load of near_: q of limit_ for which
     /// q²(L) + q(1 − q)·(damping) + 2q²h²·(load) is 1.
-    Scalar certified_with(Scalar load) const {
+    Scalar certified(Scalar load) const {
         if (!(load > 0)) return limit_.certified;
         const auto h = static_cast<double>(limit_.certified);
         const double a = 1 - damped_ + 2 * h * h * by_mass_ * static_cast<double>(load);
         const double q = 2 / (damped_ + std::sqrt(damped_ * damped_ + 4 * a));
         return (std::min)(limit_.certified, proof_detail::round_down<Scalar>(q * h));
     }
+    bool crowded_with(Scalar load) const { return h_ > certified(load); }
     Scalar stiffness_of(Index i, Index j) const {
         const Scalar w = (std::max)(near_.inverse_mass[i], near_.inverse_mass[j]);
         return w > 0 ? static_cast<Scalar>(by_mass_) / w : Scalar(0);
@@ -231,13 +259,19 @@ private:
     /// is not finite
     bool list(const State& state) {
         if (state.x.cols() != system_->size() || !detail::all_finite(state.x)) return false;
-        if (listed_) {
-            const Vector least = (state.x - listed_x_).rowwise().minCoeff();
-            const Vector most = (state.x - listed_x_).rowwise().maxCoeff();
-            if ((most - least).squaredNorm() < margin_ * margin_) return true;
-        }
-        build([&](Index i) -> Vector { return state.x.col(i); }, near_.widest() / 4);
+        const auto x = [&](Index i) -> Vector { return state.x.col(i); };
+        if (!(near_.widest() > 0)) return true;
+        if (!listed_ || !holds(x, 1)) build(x, near_.widest() / 4);
         return true;
+    }
+    /// Lists pairs where the step began. @returns false where they are too many for h
+    bool look_back() {
+        const Scalar margin = by_step_ * near_.widest() / 4;
+        const bool finite = detail::all_finite(old_x_) && detail::is_finite(margin * margin);
+        if (finite) build([&](Index i) -> Vector { return old_x_.col(i); }, margin);
+        crowded_ = finite && crowded_with(near_.heaviest_load());
+        stopped_ = !finite || crowded_;
+        return !stopped_;
     }
     template <class Positions>
     void build(const Positions& x, Scalar margin) {
@@ -248,122 +282,112 @@ private:
         for (Index i = 0; i < system_->size(); ++i) listed_x_.col(i) = x(i);
         listed_ = true;
         lived_ = 0;
-        in_planes_ = false;
     }
-    /// Whether no two particles have moved apart by the margin since they were listed, where the
-    /// step and its kicks take them: then no pair that is not listed touches.
-    bool holds(const step_detail::Layout<Scalar>& layout, const Buffer<int>& places,
-               const Scalar* x) {
-        if (!in_planes_ || listed_planes_.size() != kick_.size()) {
-            listed_planes_.assign(kick_.size(), Scalar(0));
-            const Access to(layout, {listed_planes_.data(), layout.stride()});
-            for (Index i = 0; i < layout.size(); ++i) to.set(places[i], listed_x_.col(i));
-            in_planes_ = true;
+    /// Whether no two particles have moved apart by that part of the margin since they were listed:
+    /// then no pair that is not listed touches.
+    template <class Positions>
+    bool holds(const Positions& x, Scalar part) const {
+        if (system_->size() == 0) return true;
+        Vector least = x(0) - listed_x_.col(0), most = least;
+        for (Index i = 1; i < system_->size(); ++i) {
+            const Vector way = x(i) - listed_x_.col(i);
+            least = least.cwiseMin(way);
+            most = most.cwiseMax(way);
         }
-        const Scalar infinity = std::numeric_limits<Scalar>::infinity();
-        const Index size = layout.size() * layout.grain();
-        Scalar spread2 = 0;
-        for (int plane = 0; plane < layout.planes(); ++plane) {
-            const Index first = plane * layout.stride();
-            std::array<Scalar, 4> least, most;  // of points an axis each
-            least.fill(infinity);
-            most.fill(-infinity);
-            const auto see = [&](Index i, std::size_t lane) {
-                const Index at = first + i;
-                const Scalar way = x[at] + h_ * kick_[at] - listed_planes_[at];
-                least[lane] = (std::min)(least[lane], way);
-                most[lane] = (std::max)(most[lane], way);
-            };
-            Index i = 0;
-            for (; i + 4 <= size; i += 4) {
-                for (std::size_t lane = 0; lane < 4; ++lane)
-                    see(i + static_cast<Index>(lane), lane);
-            }
-            for (; i < size; ++i) see(i, 0);
-            if (!layout.has_stars()) {
-                least[0] = *std::min_element(least.begin(), least.end());
-                most[0] = *std::max_element(most.begin(), most.end());
-            }
-            for (std::size_t d = 0; d < (layout.has_stars() ? std::size_t(Dim) : 1); ++d)
-                spread2 += (most[d] - least[d]) * (most[d] - least[d]);
+        const Scalar far = Scalar(0.98) * part * margin_;
+        return (most - least).squaredNorm() < far * far;
+    }
+    /// The pairs' forces where the step began, by what they do to velocities.
+    void push(const Points<Scalar, Dim>& y) {
+        for (const int i : hit_) {
+            kick_.col(i).setZero();
+            is_hit_[i] = 0;
         }
-        return spread2 < Scalar(0.96) * margin_ * margin_;
-    }
-    /// Lists pairs where the step began. @returns false where they are too many for h
-    bool look_back(const step_detail::Layout<Scalar>& layout, const Buffer<int>& places) {
-        const Scalar margin = by_step_ * near_.widest() / 4;
-        if (!detail::all_finite(old_x_.data(), static_cast<Index>(old_x_.size())) ||
-            !detail::is_finite(margin * margin))
-            return false;
-        build(Places(layout, places, {old_x_.data(), layout.stride()}), margin);
-        crowded_ = crowded_with(near_.heaviest_load());
-        return !crowded_;
-    }
-    bool crowded_with(Scalar load) const { return h_ > certified_with(load); }
-    /// The pairs' forces in a step, h/m of them.
-    void push(const step_detail::Layout<Scalar>& layout, const Buffer<int>& places) {
-        detail::set_zero(kick_.data(), static_cast<Index>(kick_.size()));
-        pushes_ = false;
+        hit_.clear();
         step_work_ = 0;
-        const Access x(layout, {old_x_.data(), layout.stride()});
-        const Access y(layout, {old_y_.data(), layout.stride()});
-        const Access kick(layout, {kick_.data(), layout.stride()});
+        const auto add = [&](int i, const Vector& kick) {
+            if (!std::exchange(is_hit_[i], 1)) hit_.push_back(i);
+            kick_.col(i) += kick;
+        };
         for (const auto& [a, b] : near_.pairs()) {
-            const int at = places[a], to = places[b];
-            const Scalar R = near_.radius[a] + near_.radius[b];
-            Vector n = x.vector(to) - x.vector(at);
+            Vector n = old_x_.col(b) - old_x_.col(a);
             const Scalar l2 = n.squaredNorm();
             if (l2 > (std::numeric_limits<Scalar>::min)()) {
                 n /= std::sqrt(l2);
             } else {
                 n = Vector::Unit(0);
             }
-            const Vector y_a = y.vector(at), y_b = y.vector(to);
-            const Scalar deep = R - n.dot(y_b - y_a);
+            const Scalar deep = near_.radius[a] + near_.radius[b] - n.dot(y.col(b) - y.col(a));
             if (!(deep > 0)) continue;
-            pushes_ = true;
             const Vector f = stiffness_of(a, b) * deep * n;  // on b
             const Scalar w_a = near_.inverse_mass[a], w_b = near_.inverse_mass[b];
-            kick.set(at, kick.vector(at) - h_ * w_a * f);
-            kick.set(to, kick.vector(to) + h_ * w_b * f);
-            if (!(w_a > 0)) step_work_ += static_cast<double>(f.dot(y_a - x.vector(at)));
-            if (!(w_b > 0)) step_work_ -= static_cast<double>(f.dot(y_b - x.vector(to)));
+            if (w_a > 0) add(a, -kick_time_ * w_a * f);
+            if (w_b > 0) add(b, kick_time_ * w_b * f);
+            if (!(w_a > 0)) step_work_ += static_cast<double>(f.dot(y.col(a) - old_x_.col(a)));
+            if (!(w_b > 0)) step_work_ -= static_cast<double>(f.dot(y.col(b) - old_x_.col(b)));
         }
+    }
+    /// The pairs' energy at x, half of it for either particle; all for one beside a pin.
+    /// @returns its sum, J
+    template <class Positions>
+    double share_energy(const Positions& x, Buffer<double>& energy) {
+        energy.assign(system_->size(), 0);
+        double sum = 0;
+        touching_ = 0;
+        deepest_ = 0;
+        for (const auto& [a, b] : near_.pairs()) {
+            const Scalar deep = near_.radius[a] + near_.radius[b] - Vector(x(b) - x(a)).norm();
+            if (!(deep > 0)) continue;
+            ++touching_;
+            deepest_ = (std::max)(deepest_, deep);
+            const auto k = static_cast<double>(stiffness_of(a, b));
+            const double held = k * static_cast<double>(deep) * static_cast<double>(deep) / 2;
+            sum += held;
+            energy[near_.inverse_mass[a] > 0 ? a : b] += held / 2;
+            energy[near_.inverse_mass[b] > 0 ? b : a] += held / 2;
+        }
+        return sum;
     }
 
     const System* system_;
     SelfContactOptions options_;
+    Contacts<System>* bodies_ = nullptr;
     std::uint64_t revision_ = 0;  // of what limit_ belongs to, and one
     StepLimit<Scalar> limit_;     // without pairs
     double damped_ = 0;           // the share that damping may have in it
     double by_mass_ = 0;          // κ₁, 1/s²
-    Scalar h_ = 0;                // s
-    bool fresh_ = false, stopped_ = false, crowded_ = false;
     contact_detail::BallPairs<Scalar, Dim> near_;
-    bool listed_ = false;              // whether near_ has its pairs
-    bool in_planes_ = false;           // and listed_planes_ is listed_x_
-    Scalar margin_ = 0;                // m, of that list
-    Scalar by_step_ = 1;               // the next one's, in widths by default
-    Index lived_ = 0;                  // steps that it has held
-    Points<Scalar, Dim> listed_x_;     // where particles were, m
-    Buffer<Scalar> listed_planes_;     // the same by place
-    Buffer<Scalar> old_x_, old_y_;     // planes, where the step began and y, m
-    Buffer<Scalar> kick_;              // planes, m/s
-    bool pushes_ = false;              // whether any pair does
-    double step_work_ = 0, work_ = 0;  // J
+    bool listed_ = false;           // whether near_ has its pairs
+    Scalar margin_ = 0;             // m, of that list
+    Scalar by_step_ = 1;            // the next one's, by what it is where nothing hurries
+    Index lived_ = 0;               // steps that it has held
+    Points<Scalar, Dim> listed_x_;  // where particles were, m
+    // Of a try.
+    step_detail::StepWatch<Scalar, Dim>* books_ = nullptr;
+    Scalar h_ = 0;                  // s
+    Index count_ = 0, passed_ = 0;  // steps
+    bool fresh_ = false, waits_ = false, stopped_ = false, crowded_ = false, restless_ = false;
+    // Of a step.
+    Points<Scalar, Dim> old_x_, old_y_;  // where it began; v there, then y; m, m/s
+    Scalar kick_time_ = 0;               // s
+    Points<Scalar, Dim> kick_;           // m/s
+    Buffer<int> hit_, is_hit_;           // particles that have one; of each, whether
+    double step_work_ = 0, work_ = 0;    // J
+    Buffer<double> held_;                // J
     Index touching_ = 0;
     Scalar deepest_ = 0;
     Index lookups_ = 0;
 };
 
-/// Takes `count` steps of h, s, with self-contact; where more balls are near each other than h
-/// allows, more and shorter ones over the same time, from the start. Of a failed call the state is
-/// as it was before.
+/// Takes `count` steps of h, s, with self-contact and its bodies, one frame for these; where more
+/// balls are near each other than h allows, more and shorter ones over the same time, from the
+/// start. Of a failed call the state is as it was before.
 /// @returns as step(); `iterations` tells how many steps were taken
-template <class System, class AnyState>
-Report step_through(EnergyStableEuler<System>& stepper, AnyState& state, typename System::Scalar h,
-                    Index count, SelfContact<System>& contact) {
+template <class System>
+Report step_through(EnergyStableEuler<System>& stepper, typename System::State& state,
+                    typename System::Scalar h, Index count, SelfContact<System>& contact) {
     using Scalar = typename System::Scalar;
+    if (count <= 0) return stepper.step(state, h, count);
     const Scalar span = h * static_cast<Scalar>(count);
     const struct Watching {
         EnergyStableEuler<System>& stepper;
@@ -371,9 +395,12 @@ Report step_through(EnergyStableEuler<System>& stepper, AnyState& state, typenam
     } watching{stepper};
     stepper.watch(&contact);
     for (;;) {
-        contact.begin(h);
+        contact.open(state);
+        contact.begin(h, count, nullptr);
         const Report report = stepper.step(state, h, count);
-        if (report || !contact.crowded()) return report;
+        if (report) contact.settle(state);
+        if (report || !(contact.crowded() || contact.restless())) return report;
+        if (contact.restless()) continue;
         const Scalar longest = contact.shorter();
         if (!(longest > 0) || !(longest < h)) return report;
         count = static_cast<Index>(std::ceil(span / longest));
