@@ -113,10 +113,10 @@ public:
     const Buffer<double>& end() {
         contact_detail::Outcome& outcome = outcomes_[tries_ > 1];
         outcome.take(step_, particle_);
-        held_ = outcome.energy;
+        if (tries_ == 1) choose([](Index) { return false; });
         return outcome.work;
     }
-    /// Takes for each particle the first or the last try.
+    /// Takes for each particle the first or the last try; after one try this is done.
     /// @param last  last(i): whether the last one
     template <class Last>
     void choose(const Last& last) {
@@ -245,9 +245,9 @@ private:
 };
 
 /// Takes `count` steps of h, s, one frame for the bodies.
-template <class System, class AnyState>
-Report step_through(EnergyStableEuler<System>& stepper, AnyState& state, typename System::Scalar h,
-                    Index count, Contacts<System>& contacts) {
+template <class System>
+Report step_through(EnergyStableEuler<System>& stepper, typename System::State& state,
+                    typename System::Scalar h, Index count, Contacts<System>& contacts) {
     if (count <= 0) return stepper.step(state, h, count);
     contacts.open(state);
     contacts.begin(h, count, nullptr);
@@ -259,7 +259,6 @@ Report step_through(EnergyStableEuler<System>& stepper, AnyState& state, typenam
     const Report report = stepper.step(state, h, count);
     if (!report) return report;
     contacts.end();
-    contacts.choose([](Index) { return false; });
     contacts.settle(state);
     return report;
 }

@@ -395,9 +395,6 @@ auto Guarded<Stepper, System>::advance(State& state, Scalar frame, Respond&& res
         }
     } undo{*this, state};
     const bool tried = !parts_.all_skip() && try_frame(state, trial, respond);
-    if constexpr (guard_detail::is_contacts_v<Respond>) {
-        if (tried) respond.choose([](Index) { return false; });
-    }
     judge(state, tried);
     if (!tried) state = start_;
     if ((!tried || any(Taken::again)) && !take_again(state, span, tried, report, respond)) {

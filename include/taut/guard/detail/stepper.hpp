@@ -24,10 +24,9 @@ using watch_of = decltype(std::declval<Stepper&>().watch(nullptr));
 
 /// Whether what answers to a step is Contacts, which take part in it.
 template <class Respond>
-using opened_of =
-    decltype(std::declval<Respond&>().open(std::declval<const typename Respond::State&>()));
+using touching_of = decltype(std::declval<const Respond&>().touching());
 template <class Respond>
-inline constexpr bool is_contacts_v = detail::is_detected_v<opened_of, std::decay_t<Respond>>;
+inline constexpr bool is_contacts_v = detail::is_detected_v<touching_of, std::decay_t<Respond>>;
 
 /// Lets a stepper that can show its steps to a meter, as long as this lives.
 template <class By, class Meter>
