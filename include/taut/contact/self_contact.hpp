@@ -84,37 +84,65 @@ public:
     StepLimit<Scalar> limit(const State& state) {
         renew();
         StepLimit<Scalar> answer = limit_;
-        answer.certified = list(state) ? certified(near_.heaviest_load()) : Scalar(0);
+        answer.certified =
+            list(state) ? certified(near_.heaviest_load(), limit_.certified) : Scalar(0);
         return answer;
     }
-    /// ½κ(R − l)₊² of all pairs at a state, J; it also counts them.
+    /// ½κ(R − l)₊² of all pairs at a state, J.
     double energy(const State& state) {
         renew();
         if (!list(state)) return std::numeric_limits<double>::quiet_NaN();
-        return share_energy([&](Index i) -> Vector { return state.x.col(i); }, held_);
+        share_energy([&](Index i) -> Vector { return state.x.col(i); }, asked_);
+        return asked_.energy;
     }
-    /// Pairs that touch, at the end of the last frame or where energy() was asked since.
-    Index touching() const { return touching_; }
+    /// The same at the end of the last frame.
+    double energy() const { return chosen_.energy; }
+    /// Pairs that touch there.
+    Index touching() const { return chosen_.touching; }
     /// How far the deepest of them overlaps, m.
-    Scalar deepest() const { return deepest_; }
+    Scalar deepest() const { return chosen_.deepest; }
     /// What pins that move did through pairs in the last frame, −Σ h u·f, J.
-    double work() const { return work_; }
+    double work() const { return chosen_.own_work; }
     /// How often near pairs were looked up anew.
     Index lookups() const { return lookups_; }
 
     // What follows is for steppers.
 
-    /// First in a frame.
-    void open(const State& state) {
+    /// First in a frame. @returns what pairs and bodies hold of each particle, J: at `state`, later
+    /// at the end of the last try, and then of what was chosen
+    const Buffer<double>& open(const State& state) {
         renew();
-        if (bodies_) bodies_->open(state);
+        tries_ = 0;
+        proved_ = limit_.certified;
+        last_most_ = std::exchange(most_, Scalar(0));
+        if (bodies_) bodies_held_ = &bodies_->open(state);
+        if (!list(state)) {
+            begun_.held.assign(system_->size(), 0);
+            return add_bodies(begun_);
+        }
+        most_ = near_.heaviest_load();
+        if (settled_x_.cols() != state.x.cols() || settled_x_ != state.x) {
+            share_energy([&](Index i) -> Vector { return state.x.col(i); }, begun_);
+        } else {
+            begun_ = chosen_;
+        }
+        return add_bodies(begun_);
     }
-    /// The first, or another, try of a frame of `count` steps of h, s.
+    /// The longest step that is proved with pairs, s. @param proved  the same without them, in
+    /// place of energy_limit's
+    Scalar longest(Scalar proved) {
+        proved_ = proved;
+        return longest();
+    }
+    Scalar longest() const { return certified((std::max)(most_, last_most_), proved_); }
+    /// The first, or another, try of a frame of `count` steps of h, s. @param books  sees the
+    /// states between steps, too; may be null
     void begin(Scalar h, Index count, step_detail::StepWatch<Scalar, Dim>* books) {
+        ++tries_;
         h_ = h;
         count_ = count;
         passed_ = 0;
-        work_ = 0;
+        work_.assign(system_->size(), 0);
         fresh_ = true;
         waits_ = stopped_ = crowded_ = restless_ = false;
         books_ = bodies_ ? bodies_ : books;
@@ -125,20 +153,44 @@ public:
         is_hit_.assign(system_->size(), 0);
         hit_.clear();
     }
-    /// Whether that ended for want of shorter steps, since more pairs were near than h allows.
-    bool crowded() const { return crowded_; }
-    /// Or since bodies pushed particles farther than the list of near pairs reaches.
-    bool restless() const { return restless_; }
-    /// Certified with a quarter more pairs a particle than are listed, s.
-    Scalar shorter() const { return certified(near_.heaviest_load() * Scalar(1.25)); }
+    /// Why a try ended early, if it can be mended: more pairs were near than are proved for h, of
+    /// which longest() knows now; or bodies pushed particles farther than the list of pairs
+    /// reaches, which it will.
+    bool wants_another() const { return crowded_ || restless_; }
+    /// After all its steps. @returns the work on each particle, J
+    const Buffer<double>& end() {
+        Outcome& outcome = outcomes_[tries_ > 1];
+        share_energy([&](Index i) -> Vector { return old_x_.col(i); }, outcome);
+        outcome.own_work = 0;
+        for (const double work : work_) outcome.own_work += work;
+        if (tries_ == 1) chosen_ = outcome;
+        if (bodies_) {
+            const auto& of_bodies = bodies_->end();
+            for (Index i = 0; i < system_->size(); ++i) work_[i] += of_bodies[i];
+        }
+        add_bodies(outcome);
+        return work_;
+    }
+    /// Takes the first or the last try, for all particles the same. @param last  last(i)
+    template <class Last>
+    void choose(const Last& last) {
+        bool other = false;
+        for (Index i = 0; i < system_->size(); ++i)
+            other = other || (!system_->is_pinned(i) && last(i));
+        chosen_ = outcomes_[tries_ > 1 && other];
+        if (bodies_) bodies_->choose(last);
+        add_bodies(chosen_);
+    }
+    /// Particle i, and all, stays at x, where the frame began, m.
+    void stay(Index i, const Vector& x) {
+        if (bodies_) bodies_->stay(i, x);
+        chosen_ = begun_;
+        add_bodies(chosen_);
+    }
     /// The frame is over, and left this state.
     void settle(const State& state) {
-        if (bodies_) {
-            bodies_->end();
-            bodies_->choose([](Index) { return false; });
-            bodies_->settle(state);
-        }
-        energy(state);
+        if (bodies_) bodies_->settle(state);
+        settled_x_ = state.x;
     }
 
     void see(const Places& x, const Places& v, Scalar time, const State* state,
@@ -164,11 +216,12 @@ public:
         if (ahead > 0) old_y_ = old_x_ + ahead * old_y_;
         const auto& y = ahead > 0 ? old_y_ : old_x_;
         ++passed_;
+        ahead_ = ahead;
         if (near_.widest() > 0) {
             if (std::exchange(fresh_, false)) {
                 const auto old = [&](Index i) -> Vector { return old_x_.col(i); };
                 const bool held = listed_ && holds(old, 1);
-                if ((!held || crowded_with(near_.heaviest_load())) && !look_back()) return false;
+                if ((!held || too_many()) && !look_back()) return false;
             }
             push(y);
             if (!ends) {
@@ -183,7 +236,7 @@ public:
                 }
             }
             ++lived_;
-            work_ += step_work_;
+            for (const auto& [i, work] : step_work_) work_[i] += work;
             const Places spring_x(layout, places, planes.spring_x);
             for (const int i : hit_) {
                 const Vector now = v(i) + kick_.col(i);
@@ -208,6 +261,8 @@ private:
         if (revision_ == system_->revision() + 1) return;
         revision_ = system_->revision() + 1;
         listed_ = false;
+        settled_x_.resize(Dim, 0);
+        most_ = 0;
         limit_ = energy_limit(*system_);
         if (limit_.unbounded() || !(limit_.certified > 0)) {
             fail("SelfContact: the system's energy_limit is ", limit_.certified,
@@ -215,9 +270,9 @@ private:
         }
         const auto h = static_cast<double>(limit_.certified);
         const Pencil halved = Pencil::any_pose(*system_, Pencil::Damping::half);
-        damped_ = (std::min)(1.0, h * (std::max)(0.0, halved.upper_bound(matrices::D)));
+        damping_ = (std::max)(0.0, halved.upper_bound(matrices::D));
         const double q = 1 - options_.budget;
-        const double left = 1 - q * q - q * (1 - q) * damped_;
+        const double left = 1 - q * q - q * (1 - q) * (std::min)(1.0, h * damping_);
         by_mass_ = left / (2 * q * q * h * h * static_cast<double>(options_.pairs));
         set_balls();
     }
@@ -240,16 +295,23 @@ private:
         near_.reserve(options_.pairs);
         near_.exclude([&](const auto& visit) { system_->for_each_spring(visit); });
     }
-    /// The largest step, s, with that load of near_: q of limit_ for which
-    /// q²(L) + q(1 − q)·(damping) + 2q²h²·(load) is 1.
-    Scalar certified(Scalar load) const {
-        if (!(load > 0)) return limit_.certified;
-        const auto h = static_cast<double>(limit_.certified);
-        const double a = 1 - damped_ + 2 * h * h * by_mass_ * static_cast<double>(load);
-        const double q = 2 / (damped_ + std::sqrt(damped_ * damped_ + 4 * a));
-        return (std::min)(limit_.certified, proof_detail::round_down<Scalar>(q * h));
+    /// The largest step, s, with that load of near_, of steps that are proved up to h without: qh
+    /// for which q²(L_k and D) + q(1 − q)(D) + 2q²(load) is 1.
+    Scalar certified(Scalar load, Scalar proved) const {
+        if (!(load > 0)) return proved;
+        const auto h = static_cast<double>(proved);
+        const double d = (std::min)(1.0, h * damping_);
+        const double a = 1 - d + 2 * h * h * by_mass_ * static_cast<double>(load);
+        const double q = 2 / (d + std::sqrt(d * d + 4 * a));
+        return (std::min)(proved, proof_detail::round_down<Scalar>(q * h));
     }
-    bool crowded_with(Scalar load) const { return h_ > certified(load); }
+    /// Whether pairs are too many for h, as far as it is proved without them.
+    bool too_many() {
+        if (!(ahead_ > 0)) return false;
+        crowded_ = h_ > certified(near_.heaviest_load(), proved_);
+        if (crowded_) most_ = near_.heaviest_load() * Scalar(1.25);  // there will be some more
+        return crowded_;
+    }
     Scalar stiffness_of(Index i, Index j) const {
         const Scalar w = (std::max)(near_.inverse_mass[i], near_.inverse_mass[j]);
         return w > 0 ? static_cast<Scalar>(by_mass_) / w : Scalar(0);
@@ -269,8 +331,7 @@ private:
         const Scalar margin = by_step_ * near_.widest() / 4;
         const bool finite = detail::all_finite(old_x_) && detail::is_finite(margin * margin);
         if (finite) build([&](Index i) -> Vector { return old_x_.col(i); }, margin);
-        crowded_ = finite && crowded_with(near_.heaviest_load());
-        stopped_ = !finite || crowded_;
+        stopped_ = !finite || too_many();
         return !stopped_;
     }
     template <class Positions>
@@ -282,6 +343,7 @@ private:
         for (Index i = 0; i < system_->size(); ++i) listed_x_.col(i) = x(i);
         listed_ = true;
         lived_ = 0;
+        most_ = (std::max)(most_, near_.heaviest_load());
     }
     /// Whether no two particles have moved apart by that part of the margin since they were listed:
     /// then no pair that is not listed touches.
@@ -304,10 +366,14 @@ private:
             is_hit_[i] = 0;
         }
         hit_.clear();
-        step_work_ = 0;
+        step_work_.clear();
         const auto add = [&](int i, const Vector& kick) {
             if (!std::exchange(is_hit_[i], 1)) hit_.push_back(i);
             kick_.col(i) += kick;
+        };
+        const auto way = [&](int pin) -> Vector { return y.col(pin) - old_x_.col(pin); };
+        const auto book = [&](int i, Scalar work) {
+            if (work != 0) step_work_.push_back({i, static_cast<double>(work)});
         };
         for (const auto& [a, b] : near_.pairs()) {
             Vector n = old_x_.col(b) - old_x_.col(a);
@@ -323,30 +389,45 @@ private:
             const Scalar w_a = near_.inverse_mass[a], w_b = near_.inverse_mass[b];
             if (w_a > 0) add(a, -kick_time_ * w_a * f);
             if (w_b > 0) add(b, kick_time_ * w_b * f);
-            if (!(w_a > 0)) step_work_ += static_cast<double>(f.dot(y.col(a) - old_x_.col(a)));
-            if (!(w_b > 0)) step_work_ -= static_cast<double>(f.dot(y.col(b) - old_x_.col(b)));
+            if (!(w_a > 0)) book(b, f.dot(way(a)));
+            if (!(w_b > 0)) book(a, -f.dot(way(b)));
         }
     }
+    /// What pairs came to at the end of a try.
+    struct Outcome {
+        Buffer<double> held;  // of each particle, J
+        double energy = 0;    // its sum
+        double own_work = 0;  // without bodies, J
+        Index touching = 0;
+        Scalar deepest = 0;  // m
+    };
+    struct PairWork {
+        int at;
+        double work;  // J
+    };
     /// The pairs' energy at x, half of it for either particle; all for one beside a pin.
-    /// @returns its sum, J
     template <class Positions>
-    double share_energy(const Positions& x, Buffer<double>& energy) {
-        energy.assign(system_->size(), 0);
-        double sum = 0;
-        touching_ = 0;
-        deepest_ = 0;
+    void share_energy(const Positions& x, Outcome& outcome) {
+        outcome.held.assign(system_->size(), 0);
+        outcome.energy = 0;
+        outcome.touching = 0;
+        outcome.deepest = 0;
         for (const auto& [a, b] : near_.pairs()) {
             const Scalar deep = near_.radius[a] + near_.radius[b] - Vector(x(b) - x(a)).norm();
             if (!(deep > 0)) continue;
-            ++touching_;
-            deepest_ = (std::max)(deepest_, deep);
+            ++outcome.touching;
+            outcome.deepest = (std::max)(outcome.deepest, deep);
             const auto k = static_cast<double>(stiffness_of(a, b));
             const double held = k * static_cast<double>(deep) * static_cast<double>(deep) / 2;
-            sum += held;
-            energy[near_.inverse_mass[a] > 0 ? a : b] += held / 2;
-            energy[near_.inverse_mass[b] > 0 ? b : a] += held / 2;
+            outcome.energy += held;
+            outcome.held[near_.inverse_mass[a] > 0 ? a : b] += held / 2;
+            outcome.held[near_.inverse_mass[b] > 0 ? b : a] += held / 2;
         }
-        return sum;
+    }
+    const Buffer<double>& add_bodies(const Outcome& own) {
+        held_ = own.held;
+        for (Index i = 0; bodies_ && i < system_->size(); ++i) held_[i] += (*bodies_held_)[i];
+        return held_;
     }
 
     const System* system_;
@@ -354,17 +435,19 @@ private:
     Contacts<System>* bodies_ = nullptr;
     std::uint64_t revision_ = 0;  // of what limit_ belongs to, and one
     StepLimit<Scalar> limit_;     // without pairs
-    double damped_ = 0;           // the share that damping may have in it
+    double damping_ = 0;          // a bound on half of that in M⁻¹D, 1/s
     double by_mass_ = 0;          // κ₁, 1/s²
     contact_detail::BallPairs<Scalar, Dim> near_;
-    bool listed_ = false;           // whether near_ has its pairs
-    Scalar margin_ = 0;             // m, of that list
-    Scalar by_step_ = 1;            // the next one's, by what it is where nothing hurries
-    Index lived_ = 0;               // steps that it has held
-    Points<Scalar, Dim> listed_x_;  // where particles were, m
+    bool listed_ = false;              // whether near_ has its pairs
+    Scalar margin_ = 0;                // m, of that list
+    Scalar by_step_ = 1;               // the next one's, by what it is where nothing hurries
+    Index lived_ = 0;                  // steps that it has held
+    Scalar most_ = 0, last_most_ = 0;  // load of this frame and the last one
+    Points<Scalar, Dim> listed_x_;     // where particles were, m
     // Of a try.
     step_detail::StepWatch<Scalar, Dim>* books_ = nullptr;
-    Scalar h_ = 0;                  // s
+    Scalar h_ = 0, ahead_ = 0;      // s
+    Scalar proved_ = 0;             // s, without pairs
     Index count_ = 0, passed_ = 0;  // steps
     bool fresh_ = false, waits_ = false, stopped_ = false, crowded_ = false, restless_ = false;
     // Of a step.
@@ -372,10 +455,14 @@ private:
     Scalar kick_time_ = 0;               // s
     Points<Scalar, Dim> kick_;           // m/s
     Buffer<int> hit_, is_hit_;           // particles that have one; of each, whether
-    double step_work_ = 0, work_ = 0;    // J
-    Buffer<double> held_;                // J
-    Index touching_ = 0;
-    Scalar deepest_ = 0;
+    Buffer<PairWork> step_work_;         // of pins
+    // Of frames.
+    int tries_ = 0;
+    Buffer<double> work_, held_;                   // with bodies, J
+    const Buffer<double>* bodies_held_ = nullptr;  // theirs, J
+    detail::Few<Outcome, 2> outcomes_;
+    Outcome begun_, chosen_, asked_;
+    Points<Scalar, Dim> settled_x_;  // m
     Index lookups_ = 0;
 };
 
@@ -394,16 +481,19 @@ Report step_through(EnergyStableEuler<System>& stepper, typename System::State& 
         ~Watching() { stepper.watch(nullptr); }
     } watching{stepper};
     stepper.watch(&contact);
+    contact.open(state);
     for (;;) {
-        contact.open(state);
         contact.begin(h, count, nullptr);
         const Report report = stepper.step(state, h, count);
-        if (report) contact.settle(state);
-        if (report || !(contact.crowded() || contact.restless())) return report;
-        if (contact.restless()) continue;
-        const Scalar longest = contact.shorter();
-        if (!(longest > 0) || !(longest < h)) return report;
-        count = static_cast<Index>(std::ceil(span / longest));
+        if (report) {
+            contact.end();
+            contact.choose([](Index) { return true; });
+            contact.settle(state);
+        }
+        if (report || !contact.wants_another()) return report;
+        const Scalar longest = contact.longest();
+        if (!(longest > 0)) return report;
+        if (longest < h) count = static_cast<Index>(std::ceil(span / longest));
         h = span / static_cast<Scalar>(count);
     }
 }
