@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include <taut/contact/self_contact.hpp>
+#include <taut/guard/guard.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/energy_steps.hpp"
@@ -249,6 +250,49 @@ TEMPLATE_TEST_CASE("self_contact: balls that would pass each other in a step do 
         REQUIRE(taut::step_through(stepper, state, h, 1, contact));
         CHECK((state.x.col(2) - state.x.col(0)).dot(way) > 0);
     }
+}
+
+TEMPLATE_TEST_CASE("self_contact: a guard books the energy of pairs", "[contact]",
+                   (Case<double, 1>), (Case<double, 2>), (Case<double, 3>)) {
+    using Scalar = typename TestType::Scalar;
+    constexpr int Dim = TestType::Dim;
+    using System = taut::SpringSystem<Scalar, Dim>;
+    Random random(9);
+    Index touched = 0, trimmed = 0, again = 0;
+    for (int scene = 0; scene < 60; ++scene) {
+        const auto system = random_network<System>(random, 1, scene % 3 == 0);
+        if (taut::energy_limit(system).unbounded()) continue;
+        taut::SelfContactOptions options;
+        options.radius = random.uniform(0.3, 2);
+        taut::SelfContact contact(system, options);
+        const AllPairs<System> pairs(system, contact);
+        taut::Guarded guard(system);
+        auto state = thrown(random, system);
+        const auto frame = contact.limit(state).certified * static_cast<Scalar>(20);
+        double before = 0, balance = 0, reported = 0;
+        for (int n = 0; n < 30; ++n) {
+            const auto report = guard.advance(state, frame, contact);
+            REQUIRE(report);
+            // Of all particles: pins at rest hold energy that is no part's, and always the same.
+            const auto touching = static_cast<double>(pairs.energy(state));
+            const double energy = static_cast<double>(total_energy(system, state)) + touching;
+            const double size = std::abs(energy) + touching + report.slack / 1e-12;
+            if (n > 0) {
+                CHECK_THAT(report.energy - reported, WithinAbs(energy - before, 1e-11 * size));
+                CHECK(energy - before - report.work <=
+                      report.balance - balance + report.slack + 1e-11 * size);
+            }
+            reported = report.energy;
+            touched += contact.touching();
+            trimmed += report.trimmed;
+            again += report.again;
+            before = energy;
+            balance = report.balance;
+        }
+    }
+    CHECK(touched > 300);
+    CHECK(trimmed > 0);
+    CHECK(again > 0);
 }
 
 }  // namespace taut_test::self_contact_test
