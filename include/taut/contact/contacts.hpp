@@ -142,7 +142,9 @@ public:
     }
     /// The frame is over, and left this state.
     void settle(const State& state) {
-        settled_ = {work_, held_, known_};
+        settled_.work = work_;
+        settled_.energy = held_;
+        settled_.known = known_;
         settled_x_ = state.x;
         for (const auto& body : step_.bodies) body->begin = body->end;
     }

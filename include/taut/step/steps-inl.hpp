@@ -43,9 +43,8 @@ void Outside<Scalar, Dim>::ask(const Layout<Scalar>& layout, const StatePlanes<S
 }
 
 template <class Scalar, int Dim>
-Index Steps<Scalar, Dim>::first_not_finite(const Layout<Scalar>& layout) const {
-    State<Scalar, Dim> last;
-    last.x = last.v = last.zero(layout.size());
+Index Steps<Scalar, Dim>::first_not_finite(const Layout<Scalar>& layout,
+                                           State<Scalar, Dim>& last) const {
     store(layout, 0, 0, last);
     return last.first_not_finite();
 }

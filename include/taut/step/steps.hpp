@@ -124,7 +124,7 @@ public:
     void load(const Surroundings<Scalar, Dim>& surroundings, const Layout<Scalar>& layout,
               bool new_plan, const AnyState& state, Scalar ahead, const ReadAnywhere& read);
     /// As of Sweep.
-    Index first_not_finite(const Layout<Scalar>& layout) const;
+    Index first_not_finite(const Layout<Scalar>& layout, State<Scalar, Dim>& last) const;
     template <class AnyState>
     bool run(const Forces& forces, AnyState& state, Scalar h, Index count, int threads, Move move);
     template <class AnyState>
