@@ -89,7 +89,8 @@ fi
 # shellcheck disable=SC2086  # a list of words
 if newer "$work/lab.wasm" $headers lab/*.cpp; then
     echo "lab: compiling the library to WebAssembly, two minutes"
-    compile em++ "$work/wasm" -O3 -msimd128
+    # shellcheck disable=SC2046  # a list of words
+    compile em++ "$work/wasm" -O3 $(scripts/wasm_simd.sh "$work/headers")
     em++ -O3 "$work"/wasm/*.o --no-entry -s ALLOW_MEMORY_GROWTH=1 -s MAXIMUM_MEMORY=4GB -o "$work/lab.wasm"
 fi
 node lab/build_site.mjs "$work/lab.wasm" "$packages" "$site"

@@ -14,6 +14,7 @@
 #include <taut/core/status.hpp>
 #include <taut/core/types.hpp>
 #include <taut/network/spring_system.hpp>
+#include <taut/solver/solver_concept.hpp>
 #include <taut/own_matrices/own_matrices.hpp>
 #include <taut/network/buckling.hpp>
 #include <taut/network/tension_only.hpp>

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "../between/between_steps.hpp"
-#include "../core/concepts.hpp"
 #include "../core/detail/fits.hpp"
 #include "obstacle.hpp"
 

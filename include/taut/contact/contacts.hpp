@@ -149,6 +149,7 @@ public:
         for (const auto& body : step_.bodies) body->begin = body->end;
     }
 
+    /// The state between two steps.
     void see(const step_detail::PlaceVectors<Scalar, Dim>& x,
              const step_detail::PlaceVectors<Scalar, Dim>& v, Scalar time, const State* state,
              const Points<Scalar, Dim>* force) override {
@@ -156,6 +157,7 @@ public:
         failed_ = failed_ || std::exchange(waits_, true);
         if (books_) books_->see(x, v, time, state, force);
     }
+    /// Contact of a step, on what it came to without.
     bool passed(const step_detail::Layout<Scalar>& layout, const Buffer<int>& places,
                 step_detail::StateMemory<Scalar>& memory, Scalar, Scalar ahead) override {
         waits_ = false;

@@ -10,6 +10,7 @@
 #include "../core/buffer.hpp"
 #include "../core/error.hpp"
 #include "../core/types.hpp"
+#include "obstacle_concept.hpp"
 
 namespace taut {
 
@@ -73,6 +74,8 @@ public:
     }
     /// How far from the origin its points are, m.
     Scalar extent() const { return std::numeric_limits<Scalar>::infinity(); }
+    /// The radius of a ball that fits in anywhere, m.
+    Scalar inner() const { return std::numeric_limits<Scalar>::infinity(); }
 
 private:
     Vector point_;   // m
@@ -109,6 +112,8 @@ public:
     }
     /// How far from the origin its points are, m.
     Scalar extent() const { return centre_.norm() + radius_; }
+    /// The radius of a ball that fits in anywhere, m.
+    Scalar inner() const { return radius_; }
 
 private:
     Vector centre_;  // m
@@ -161,6 +166,8 @@ public:
     }
     /// How far from the origin its points are, m.
     Scalar extent() const { return (std::max)(a_.norm(), (a_ + axis_).norm()) + radius_; }
+    /// The radius of a ball that fits in anywhere, m.
+    Scalar inner() const { return radius_; }
 
 private:
     /// A unit vector across the axis.
@@ -225,6 +232,8 @@ public:
     }
     /// How far from the origin its points are, m.
     Scalar extent() const { return half_.norm(); }
+    /// The radius of a ball that fits in, m.
+    Scalar inner() const { return half_.minCoeff(); }
 
 private:
     Vector half_;  // m

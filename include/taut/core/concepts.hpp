@@ -34,16 +34,6 @@ using revision_of = decltype(std::declval<const T&>().revision());
 template <class T>
 using force_revision_of = decltype(std::declval<const T&>().force_revision());
 
-template <class Solver, class Matrix>
-using analyze_pattern_of =
-    decltype(std::declval<Solver&>().analyzePattern(std::declval<const Matrix&>()));
-template <class Solver, class Matrix>
-using factorize_of = decltype(std::declval<Solver&>().factorize(std::declval<const Matrix&>()));
-template <class Solver, class Vector>
-using solve_of = decltype(std::declval<const Solver&>().solve(std::declval<const Vector&>()));
-template <class Solver>
-using up_lo_of = decltype(Solver::UpLo);
-
 template <class Law, class Scalar>
 using parameters_of = typename Law::template Parameters<Scalar>;
 template <class Parameters>
@@ -111,28 +101,6 @@ struct LawHas<Law, Scalar, false> {
                           energy = true, stiffness_bound = true, convex = true, slope_range = true;
 };
 
-template <class Obstacle, class Vector>
-using surface_of = decltype(std::declval<const Obstacle&>().surface(std::declval<const Vector&>()));
-template <class Surface, class Scalar>
-using distance_of = number_of<decltype(std::declval<Surface>().distance), Scalar>;
-template <class Surface, class Vector>
-using normal_of = number_of<decltype(std::declval<Surface>().normal), Vector>;
-
-/// What an obstacle has of the Obstacle concept.
-template <class Obstacle, class Vector, bool = is_detected_v<surface_of, Obstacle, Vector>>
-struct ObstacleHas {
-    using Surface = surface_of<Obstacle, Vector>;
-    static constexpr bool surface = true;
-    static constexpr bool distance = is_detected_v<distance_of, Surface, typename Vector::Scalar>;
-    static constexpr bool normal = is_detected_v<normal_of, Surface, Vector>;
-    static constexpr bool all = distance && normal;
-};
-template <class Obstacle, class Vector>
-struct ObstacleHas<Obstacle, Vector, false> {
-    static constexpr bool surface = false, all = false;
-    static constexpr bool distance = true, normal = true;
-};
-
 }  // namespace detail
 
 /// The System concept (docs/concepts.md): one readable sentence for each missing member.
@@ -154,17 +122,6 @@ constexpr void require_system() {
     static_assert(
         detail::is_detected_v<detail::force_revision_of, T>,
         "taut::System: needs `force_revision() const`, a number that changes with the force");
-}
-
-/// The Solver concept: Eigen's own sparse solver interface, so that every Eigen solver fits.
-template <class Solver, class Scalar>
-constexpr void require_solver() {
-    static_assert(detail::is_detected_v<detail::analyze_pattern_of, Solver, SparseMatrix<Scalar>>,
-                  "taut::Solver: needs `analyzePattern(const SparseMatrix&)`");
-    static_assert(detail::is_detected_v<detail::factorize_of, Solver, SparseMatrix<Scalar>>,
-                  "taut::Solver: needs `factorize(const SparseMatrix&)`");
-    static_assert(detail::is_detected_v<detail::solve_of, Solver, VectorX<Scalar>>,
-                  "taut::Solver: needs `solve(const VectorX&) const`");
 }
 
 /// The Law concept (docs/concepts.md), for one Scalar: one readable sentence for each missing
@@ -201,25 +158,5 @@ constexpr void require_law() {
                   "slope_range(const Parameters<Scalar>& p, Scalar L, Scalar low, Scalar high)`, "
                   "N/m, for every Scalar (docs/concepts.md, Law)");
 }
-
-/// The Obstacle concept (docs/concepts.md), for points of the type Vector: one readable sentence
-/// for each missing member. resolve_contacts asks it.
-template <class Obstacle, class Vector>
-constexpr void require_obstacle() {
-    using Has = detail::ObstacleHas<Obstacle, Vector>;
-    static_assert(Has::surface,
-                  "taut::Obstacle: needs `Surface<Scalar, Dim> surface(const Vector& point) "
-                  "const` (docs/concepts.md, Obstacle)");
-    static_assert(Has::distance,
-                  "taut::Obstacle: what surface(point) returns needs `Scalar distance`, m, < 0 "
-                  "inside (docs/concepts.md, Obstacle)");
-    static_assert(Has::normal,
-                  "taut::Obstacle: what surface(point) returns needs `Vector normal`, unit, the "
-                  "way out (docs/concepts.md, Obstacle)");
-}
-
-/// Whether a solver reads one triangle only, as Eigen's symmetric solvers declare by `UpLo`.
-template <class Solver>
-inline constexpr bool is_symmetric_solver_v = detail::is_detected_v<detail::up_lo_of, Solver>;
 
 }  // namespace taut

@@ -12,6 +12,7 @@
 #include "../network/free_particles.hpp"
 #include "../newton/detail/step_objective.hpp"
 #include "../solver/interleaved_llt.hpp"
+#include "../solver/solver_concept.hpp"
 #include "../proof/pencil_matrix.hpp"
 #include "detail/limited_memory.hpp"
 

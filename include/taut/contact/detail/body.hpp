@@ -83,6 +83,7 @@ public:
     /// In the body's frame.
     virtual Surface<Scalar, Dim> surface(const Vector& y) const = 0;
     virtual Scalar extent() const = 0;
+    virtual Scalar inner() const = 0;
     /// The depths of registers of places, m, at a pose. @param first  the first place of each
     virtual void depths(const PlaneAccess<Scalar, Dim>& x, const Buffer<int>& first,
                         const Place& pose, Scalar* depth) const = 0;
@@ -96,6 +97,35 @@ public:
         const Surface<Scalar, Dim> found = surface(pose.inside(x));
         normal = pose.rotation * found.normal;
         return thickness() - found.distance;
+    }
+
+    /// A way in a step, in the body's frame, that is not longer cannot go through the body unseen:
+    /// at most a 32nd of its smallest radius is cut off, m.
+    Scalar short_way() const { return (inner() + thickness()) / 2; }
+    /// Whether the way of a particle in the step meets the body; never of a short way.
+    /// @param from, to  in the world, where the step begins and ends, m
+    bool meets(const Vector& from, const Vector& to) const {
+        Vector a = motion.now.inside(from), b = motion.next.inside(to);
+        Scalar length = (b - a).norm();
+        if (!(length > short_way())) return false;
+        // The distance is convex along the way, and changes no faster than that goes.
+        const auto away = [&](const Vector& y) { return surface(y).distance - thickness(); };
+        Scalar at_a = away(a), at_b = away(b);
+        while (at_a > 0 && at_b > 0 && at_a + at_b < length) {
+            const Vector left = a + (b - a) * Scalar(0.45), right = a + (b - a) * Scalar(0.55);
+            const Scalar at_left = away(left), at_right = away(right);
+            if (!(at_left > 0) || !(at_right > 0)) return true;
+            if (at_left < at_right) {
+                b = right;
+                at_b = at_right;
+            } else {
+                a = left;
+                at_a = at_left;
+            }
+            if (!((b - a).norm() < length)) return false;
+            length = (b - a).norm();
+        }
+        return !(at_a > 0) || !(at_b > 0);
     }
 
     /// How far a point of it goes at most in the frame, beside a way of everything, m.
@@ -125,6 +155,7 @@ public:
 
     Surface<Scalar, Dim> surface(const Vector& y) const override { return shape_.surface(y); }
     Scalar extent() const override { return shape_.extent(); }
+    Scalar inner() const override { return shape_.inner(); }
     void depths(const PlaneAccess<Scalar, Dim>& x, const Buffer<int>& first, const Place& pose,
                 Scalar* depth) const override {
         for (const int place : first) {
@@ -140,16 +171,30 @@ public:
         const Register zero(Scalar(0)), one(Scalar(1));
         Register count = zero, deepest = zero;
         make_room();
+        const Motion<Scalar, Dim>& moved = this->motion;
+        const Vector gone = moved.next.position - moved.now.position;
+        const Scalar turned = (moved.turn - Place::Rotation::Identity()).norm();
+        const Scalar by_turn = turned > 0 ? 2 * turned * extent() : Scalar(0);
+        const Scalar quick = (std::max)(this->short_way() - by_turn, Scalar(0));
+        const Register quick2(quick * quick);
         for (Index block = 0; block < pairs.blocks; ++block) {
             const Index at = block * Register::width;
             const Register mass = Register::load(pairs.mass.data() + at);
             const Register before = Register::load(pairs.depth.data() + at);
             Vectors x, normal;
-            for (int d = 0; d < Dim; ++d) x[d] = moving.x.row(d, pairs.first[block]);
-            Register depth = query(x, this->motion.next, normal);
+            Register way2 = zero;
+            for (int d = 0; d < Dim; ++d) {
+                x[d] = moving.x.row(d, pairs.first[block]);
+                const Register went =
+                    x[d] - Register(gone[d]) - Register::load(pairs.x[d].data() + at);
+                way2 += went * went;
+            }
+            Register depth = query(x, moved.next, normal);
             depth = where_less(zero, mass, depth, -one);
-            if (largest_lane(larger(before, depth)) > 0) {
-                resolve(block, penalty, moving, before, x, depth, normal);
+            Register meets = larger(before, depth);
+            if (largest_lane(way2 - quick2) > 0) look_along(pairs, at, x, meets);
+            if (largest_lane(meets) > 0) {
+                resolve(block, penalty, moving, before, meets, x, depth, normal);
                 count += where_less(zero, depth, one, zero);
                 deepest = larger(deepest, depth);
             }
@@ -185,9 +230,29 @@ private:
             for (int d = 0; d < Dim; ++d) (*of)[d].resize(size);
         }
     }
+    /// Those that meet the body on the way of a step, meet it.
+    void look_along(const SoloPairs<Scalar, Dim>& pairs, Index at, const Vectors& x,
+                    Register& meets) const {
+        detail::Few<Scalar, Register::width> lanes;
+        detail::Few<detail::Few<Scalar, Register::width>, Dim> to;
+        meets.store(lanes.data());
+        for (int d = 0; d < Dim; ++d) x[d].store(to[d].data());
+        for (int k = 0; k < Register::width; ++k) {
+            if (lanes[k] > 0 || !(pairs.mass[at + k] > 0)) continue;
+            Vector a, b;
+            for (int d = 0; d < Dim; ++d) {
+                a[d] = pairs.x[d][at + k];
+                b[d] = to[d][k];
+            }
+            if (Base::meets(a, b)) lanes[k] = 1;
+        }
+        meets = Register::load(lanes.data());
+    }
     /// Contact of a block: x, depth and normal with it, from those without.
+    /// @param meets  > 0 where it touches
     void resolve(Index block, const Penalty<Scalar>& penalty, const Moving<Scalar, Dim>& moving,
-                 const Register& before, Vectors& x, Register& depth, Vectors& normal) {
+                 const Register& before, const Register& meets, Vectors& x, Register& depth,
+                 Vectors& normal) {
         SoloPairs<Scalar, Dim>& pairs = this->solo;
         Hits<Scalar, Dim>& met = this->hits;
         const Motion<Scalar, Dim>& moved = this->motion;
@@ -218,7 +283,7 @@ private:
         const Register out = (into + h * push) * Register(1 / (1 + penalty.block()));
         const Register impulse = out - into;  // hλ/m
         // A pair that would pull is left out if it goes no deeper so.
-        Register touches = where_less(zero, larger(before, depth), one, zero);
+        Register touches = where_less(zero, meets, one, zero);
         const Register pulls = where_less(impulse, zero, deep, zero);
         touches = where_less(zero, pulls, where_less(before, depth, touches, zero), touches);
         touches.store(met.touched.data() + kept);

@@ -41,7 +41,7 @@ public:
                     const Penalty<Scalar>& penalty, Vector& x, Vector& speed, Scalar& work) {
         bool near = false;
         for (std::size_t j = 0; j < count && !near; ++j)
-            near = pairs[j].depth > 0 || depth(bodies, pairs[j], x) > 0;
+            near = pairs[j].depth > 0 || meets(bodies, pairs[j], pairs[0].x, x, Scalar(0));
         if (!near) return false;
         start(bodies, pairs, count, penalty.h);
         Vector v = speed;
@@ -52,7 +52,8 @@ public:
                 Active& a = active_[j];
                 if (a.in) continue;
                 const Scalar may = (std::max)(pairs[j].depth, Scalar(0));
-                if (!(depth(bodies, pairs[j], pairs[0].x + penalty.h * v) > may)) continue;
+                const Vector to = pairs[0].x + penalty.h * v;
+                if (!meets(bodies, pairs[j], pairs[0].x, to, may)) continue;
                 a.in = a.stays = added = true;
             }
             if (!added) break;
@@ -86,10 +87,13 @@ private:
         bool stays;       // whether it was added again
     };
 
-    static Scalar depth(const Bodies& bodies, const Pair& pair, const Vector& x) {
+    /// Whether it ends deeper than that, m, or meets the body on the way.
+    static bool meets(const Bodies& bodies, const Pair& pair, const Vector& from, const Vector& to,
+                      Scalar depth) {
         Vector normal;
         const Body<Scalar, Dim>& body = *bodies[static_cast<std::size_t>(pair.body)];
-        return body.depth(x, body.motion.next, normal);
+        if (body.depth(to, body.motion.next, normal) > depth) return true;
+        return !(pair.depth > 0) && body.meets(from, to);
     }
     void start(const Bodies& bodies, const Pair* pairs, std::size_t count, Scalar h) {
         active_.clear();

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "../../core/concepts.hpp"
+#include "../../solver/solver_concept.hpp"
 
 namespace taut {
 namespace integrator_detail {
