@@ -9,7 +9,8 @@
 #include <utility>
 
 #include "contact.hpp"
-#include "detail/ball_pairs.hpp"
+#include "detail/ball_list.hpp"
+#include "detail/ball_step.hpp"
 
 namespace taut {
 
@@ -51,6 +52,8 @@ public:
     using Vector = Eigen::Matrix<Scalar, Dim, 1>;
     using State = taut::State<Scalar, Dim>;
     using Places = step_detail::PlaceVectors<Scalar, Dim>;
+    using Layout = step_detail::Layout<Scalar>;
+    using Memory = step_detail::StateMemory<Scalar>;
 
     /// Keeps a reference: the system must outlive this. Options out of range go to fail().
     explicit SelfContact(const System& system, const SelfContactOptions& options = {})
@@ -72,7 +75,7 @@ public:
     /// Of a particle's ball, m. Unchecked: 0 ≤ i < size().
     Scalar radius(Index i) {
         renew();
-        return near_.radius[i];
+        return near_.pairs.radius[i];
     }
     /// κ of a pair, N/m; 0 if both are pinned. One that a spring joins has no force.
     Scalar stiffness(Index i, Index j) {
@@ -84,15 +87,14 @@ public:
     StepLimit<Scalar> limit(const State& state) {
         renew();
         StepLimit<Scalar> answer = limit_;
-        answer.certified =
-            list(state) ? certified(near_.heaviest_load(), limit_.certified) : Scalar(0);
+        answer.certified = list(state) ? certified(near_.load(), limit_.certified) : Scalar(0);
         return answer;
     }
-    /// ½κ(R − l)₊² of all pairs at a state, J.
+    /// ½κ(R − l)₊² of all pairs at a state, J; NaN if that is not finite.
     double energy(const State& state) {
         renew();
         if (!list(state)) return std::numeric_limits<double>::quiet_NaN();
-        share_energy([&](Index i) -> Vector { return state.x.col(i); }, asked_);
+        measure(state, asked_);
         return asked_.energy;
     }
     /// The same at the end of the last frame.
@@ -100,11 +102,11 @@ public:
     /// Pairs that touch there.
     Index touching() const { return chosen_.touching; }
     /// How far the deepest of them overlaps, m.
-    Scalar deepest() const { return chosen_.deepest; }
+    Scalar deepest() const { return static_cast<Scalar>(chosen_.deepest); }
     /// What pins that move did through pairs in the last frame, −Σ h u·f, J.
-    double work() const { return chosen_.own_work; }
+    double work() const { return chosen_.work; }
     /// How often near pairs were looked up anew.
-    Index lookups() const { return lookups_; }
+    Index lookups() const { return near_.lookups(); }
 
     // What follows is for steppers.
 
@@ -116,15 +118,16 @@ public:
         proved_ = limit_.certified;
         last_most_ = std::exchange(most_, Scalar(0));
         if (bodies_) bodies_held_ = &bodies_->open(state);
+        const bool settled = settled_x_.cols() == state.x.cols() && settled_x_ == state.x;
         if (!list(state)) {
             begun_.held.assign(system_->size(), 0);
             return add_bodies(begun_);
         }
-        most_ = near_.heaviest_load();
-        if (settled_x_.cols() != state.x.cols() || settled_x_ != state.x) {
-            share_energy([&](Index i) -> Vector { return state.x.col(i); }, begun_);
-        } else {
+        most_ = near_.load();
+        if (settled) {
             begun_ = chosen_;
+        } else {
+            measure(state, begun_);
         }
         return add_bodies(begun_);
     }
@@ -142,34 +145,27 @@ public:
         h_ = h;
         count_ = count;
         passed_ = 0;
-        work_.assign(system_->size(), 0);
-        fresh_ = true;
         waits_ = stopped_ = crowded_ = restless_ = false;
         books_ = bodies_ ? bodies_ : books;
         if (bodies_) bodies_->begin(h, count, books);
-        old_x_.resize(Dim, system_->size());
-        old_y_.resize(Dim, system_->size());
-        kick_.setZero(Dim, system_->size());
-        is_hit_.assign(system_->size(), 0);
-        hit_.clear();
+        step_.begin(system_->size());
     }
     /// Why a try ended early, if it can be mended: more pairs were near than are proved for h, of
-    /// which longest() knows now; or bodies pushed particles farther than the list of pairs
-    /// reaches, which it will.
+    /// which longest() knows now; or bodies pushed particles farther than was looked, which will
+    /// be.
     bool wants_another() const { return crowded_ || restless_; }
     /// After all its steps. @returns the work on each particle, J
     const Buffer<double>& end() {
-        Outcome& outcome = outcomes_[tries_ > 1];
-        share_energy([&](Index i) -> Vector { return old_x_.col(i); }, outcome);
-        outcome.own_work = 0;
-        for (const double work : work_) outcome.own_work += work;
+        auto& outcome = outcomes_[tries_ > 1];
+        outcome.work = 0;
+        for (const double work : step_.work) outcome.work += work;
         if (tries_ == 1) chosen_ = outcome;
         if (bodies_) {
             const auto& of_bodies = bodies_->end();
-            for (Index i = 0; i < system_->size(); ++i) work_[i] += of_bodies[i];
+            for (Index i = 0; i < system_->size(); ++i) step_.work[i] += of_bodies[i];
         }
         add_bodies(outcome);
-        return work_;
+        return step_.work;
     }
     /// Takes the first or the last try, for all particles the same. @param last  last(i)
     template <class Last>
@@ -191,6 +187,7 @@ public:
     void settle(const State& state) {
         if (bodies_) bodies_->settle(state);
         settled_x_ = state.x;
+        by_step_ = (std::max)(Scalar(0.9) * by_step_, Scalar(1));
     }
 
     void see(const Places& x, const Places& v, Scalar time, const State* state,
@@ -198,69 +195,55 @@ public:
         // A stepper that seeks a step that failed shows where it began once more.
         stopped_ = stopped_ || std::exchange(waits_, true);
         if (books_) books_->see(x, v, time, state, force);
-        for (Index i = 0; i < system_->size(); ++i) {
-            old_x_.col(i) = x(i);
-            old_y_.col(i) = v(i);
-        }
     }
-    bool passed(const step_detail::Layout<Scalar>& layout, const Buffer<int>& places,
-                step_detail::StateMemory<Scalar>& memory, Scalar time, Scalar ahead) override {
+    bool passed(const Layout& layout, const Buffer<int>& places, Memory& memory, Scalar now,
+                Scalar ahead) override {
         waits_ = false;
         if (stopped_) return false;
+        stopped_ = true;  // unless this is one more
+        const bool ends = passed_ == count_, first = passed_ == 0, last = ++passed_ == count_;
         const auto& planes = memory.planes();
-        const Places x(layout, places, planes.x), v(layout, places, planes.v);
-        const auto at_rest = [&](Index i) -> Vector { return x(i); };
-        // Of velocity Verlet the first and the last kick are half ones.
-        const bool ends = passed_ == count_;
-        kick_time_ = ahead > 0 || (passed_ > 0 && !ends) ? h_ : h_ / 2;
-        if (ahead > 0) old_y_ = old_x_ + ahead * old_y_;
-        const auto& y = ahead > 0 ? old_y_ : old_x_;
-        ++passed_;
-        ahead_ = ahead;
-        if (near_.widest() > 0) {
-            if (std::exchange(fresh_, false)) {
-                const auto old = [&](Index i) -> Vector { return old_x_.col(i); };
-                const bool held = listed_ && holds(old, 1);
-                if ((!held || too_many()) && !look_back()) return false;
+        if (near_.pairs.widest() > 0) {
+            const auto& x = ends ? planes.new_x : planes.x;  // accelerations have the place of x
+            const typename Step::Where where{places,
+                                             {layout, x},
+                                             {layout, planes.v},
+                                             ends ? Scalar(0) : h_,
+                                             {layout, ahead > 0 ? planes.new_spring_x : x},
+                                             ahead};
+            // Of velocity Verlet the first and the last kick are half ones.
+            const Scalar time = ahead > 0 || !(first || ends) ? h_ : h_ / 2;
+            if (ends) {
+                step_.push(near_.pairs, where, time);
+            } else if (!push(layout, memory, where, time, first)) {
+                return false;
             }
-            push(y);
-            if (!ends) {
-                const auto kicked = [&](Index i) -> Vector { return x(i) + h_ * kick_.col(i); };
-                // Bodies may push farther.
-                const Scalar part = bodies_ ? Scalar(0.7) : Scalar(1);
-                for (bool again = false; !holds(kicked, part); again = true) {
-                    if (again) by_step_ *= 2;
-                    if (!again && lived_ > 8) by_step_ = (std::max)(by_step_ / 2, Scalar(1));
-                    if (!memory.finite() || !look_back()) return !(stopped_ = true);
-                    push(y);
+            step_.apply(where, {layout, planes.spring_x}, ends ? Scalar(0) : h_);
+        }
+        if (bodies_ && !bodies_->passed(layout, places, memory, now, ahead)) return false;
+        if (near_.pairs.widest() > 0 && !ends) {
+            if (bodies_) {
+                near_.look(layout, planes.x.first);
+                if (!near_.covers(0)) {
+                    by_step_ *= 2;
+                    restless_ = detail::is_finite(by_step_);
+                    return false;
                 }
             }
-            ++lived_;
-            for (const auto& [i, work] : step_work_) work_[i] += work;
-            const Places spring_x(layout, places, planes.spring_x);
-            for (const int i : hit_) {
-                const Vector now = v(i) + kick_.col(i);
-                v.set(i, now);
-                if (ends) continue;
-                x.set(i, x(i) + h_ * kick_.col(i));
-                if (ahead > 0) spring_x.set(i, x(i) + ahead * now);
-            }
         }
-        if (!bodies_) return true;
-        stopped_ = !bodies_->passed(layout, places, memory, time, ahead);
-        if (stopped_ || ends || !(near_.widest() > 0)) return !stopped_;
-        if (holds(at_rest, 1)) return true;
-        by_step_ *= 2;
-        listed_ = false;
-        restless_ = detail::is_finite(by_step_);
-        return !(stopped_ = true);
+        if (last)
+            Step::measure(near_.pairs, Places(layout, places, planes.x), outcomes_[tries_ > 1]);
+        stopped_ = false;
+        return true;
     }
 
 private:
+    using Step = contact_detail::BallStep<Scalar, Dim>;
+
     void renew() {
         if (revision_ == system_->revision() + 1) return;
         revision_ = system_->revision() + 1;
-        listed_ = false;
+        near_.forget();
         settled_x_.resize(Dim, 0);
         most_ = 0;
         limit_ = energy_limit(*system_);
@@ -273,15 +256,16 @@ private:
         damping_ = (std::max)(0.0, halved.upper_bound(matrices::D));
         const double q = 1 - options_.budget;
         const double left = 1 - q * q - q * (1 - q) * (std::min)(1.0, h * damping_);
-        by_mass_ = left / (2 * q * q * h * h * static_cast<double>(options_.pairs));
+        near_.pairs.by_mass =
+            static_cast<Scalar>(left / (2 * q * q * h * h * static_cast<double>(options_.pairs)));
         set_balls();
     }
     void set_balls() {
         const Index count = system_->size();
-        near_.radius.assign(count, Scalar(0));
-        near_.inverse_mass.resize(count);
+        near_.pairs.radius.assign(count, Scalar(0));
+        near_.pairs.inverse_mass.resize(count);
         const auto shorten = [&](Index i, Scalar length) {
-            Scalar& radius = near_.radius[i];
+            Scalar& radius = near_.pairs.radius[i];
             if (length > 0 && !(radius > 0 && radius < length)) radius = length;
         };
         system_->visit_springs([&](const auto& spring) {
@@ -289,11 +273,11 @@ private:
             shorten(spring.b, spring.rest_length);
         });
         for (Index i = 0; i < count; ++i) {
-            near_.radius[i] *= static_cast<Scalar>(options_.radius);
-            near_.inverse_mass[i] = system_->inverse_mass()[i];
+            near_.pairs.radius[i] *= static_cast<Scalar>(options_.radius);
+            near_.pairs.inverse_mass[i] = system_->inverse_mass()[i];
         }
-        near_.reserve(options_.pairs);
-        near_.exclude([&](const auto& visit) { system_->for_each_spring(visit); });
+        near_.pairs.reserve(options_.pairs);
+        near_.pairs.exclude([&](const auto& visit) { system_->for_each_spring(visit); });
     }
     /// The largest step, s, with that load of near_, of steps that are proved up to h without: qh
     /// for which q²(L_k and D) + q(1 − q)(D) + 2q²(load) is 1.
@@ -301,130 +285,48 @@ private:
         if (!(load > 0)) return proved;
         const auto h = static_cast<double>(proved);
         const double d = (std::min)(1.0, h * damping_);
-        const double a = 1 - d + 2 * h * h * by_mass_ * static_cast<double>(load);
+        const double a = 1 - d + 2 * h * h * static_cast<double>(near_.pairs.by_mass * load);
         const double q = 2 / (d + std::sqrt(d * d + 4 * a));
         return (std::min)(proved, proof_detail::round_down<Scalar>(q * h));
     }
-    /// Whether pairs are too many for h, as far as it is proved without them.
-    bool too_many() {
-        if (!(ahead_ > 0)) return false;
-        crowded_ = h_ > certified(near_.heaviest_load(), proved_);
-        if (crowded_) most_ = near_.heaviest_load() * Scalar(1.25);  // there will be some more
-        return crowded_;
-    }
     Scalar stiffness_of(Index i, Index j) const {
-        const Scalar w = (std::max)(near_.inverse_mass[i], near_.inverse_mass[j]);
-        return w > 0 ? static_cast<Scalar>(by_mass_) / w : Scalar(0);
+        const Scalar w = (std::max)(near_.pairs.inverse_mass[i], near_.pairs.inverse_mass[j]);
+        return w > 0 ? near_.pairs.by_mass / w : Scalar(0);
+    }
+    void measure(const State& state, contact_detail::Overlap& overlap) {
+        const auto x = [&](Index i) -> Vector { return state.x.col(i); };
+        Step::measure(near_.pairs, x, overlap);
     }
 
-    /// Lists the pairs near a state, if those that are listed do not hold. @returns false where it
-    /// is not finite
+    /// Counts the pairs near a state. @returns false where it is not finite
     bool list(const State& state) {
         if (state.x.cols() != system_->size() || !detail::all_finite(state.x)) return false;
-        const auto x = [&](Index i) -> Vector { return state.x.col(i); };
-        if (!(near_.widest() > 0)) return true;
-        if (!listed_ || !holds(x, 1)) build(x, near_.widest() / 4);
+        near_.list(state.x);
         return true;
     }
-    /// Lists pairs where the step began. @returns false where they are too many for h
-    bool look_back() {
-        const Scalar margin = by_step_ * near_.widest() / 4;
-        const bool finite = detail::all_finite(old_x_) && detail::is_finite(margin * margin);
-        if (finite) build([&](Index i) -> Vector { return old_x_.col(i); }, margin);
-        stopped_ = !finite || too_many();
-        return !stopped_;
-    }
-    template <class Positions>
-    void build(const Positions& x, Scalar margin) {
-        ++lookups_;
-        margin_ = margin;
-        near_.build(x, margin);
-        listed_x_.resize(Dim, system_->size());
-        for (Index i = 0; i < system_->size(); ++i) listed_x_.col(i) = x(i);
-        listed_ = true;
-        lived_ = 0;
-        most_ = (std::max)(most_, near_.heaviest_load());
-    }
-    /// Whether no two particles have moved apart by that part of the margin since they were listed:
-    /// then no pair that is not listed touches.
-    template <class Positions>
-    bool holds(const Positions& x, Scalar part) const {
-        if (system_->size() == 0) return true;
-        Vector least = x(0) - listed_x_.col(0), most = least;
-        for (Index i = 1; i < system_->size(); ++i) {
-            const Vector way = x(i) - listed_x_.col(i);
-            least = least.cwiseMin(way);
-            most = most.cwiseMax(way);
-        }
-        const Scalar far = Scalar(0.98) * part * margin_;
-        return (most - least).squaredNorm() < far * far;
-    }
-    /// The pairs' forces where the step began, by what they do to velocities.
-    void push(const Points<Scalar, Dim>& y) {
-        for (const int i : hit_) {
-            kick_.col(i).setZero();
-            is_hit_[i] = 0;
-        }
-        hit_.clear();
-        step_work_.clear();
-        const auto add = [&](int i, const Vector& kick) {
-            if (!std::exchange(is_hit_[i], 1)) hit_.push_back(i);
-            kick_.col(i) += kick;
-        };
-        const auto way = [&](int pin) -> Vector { return y.col(pin) - old_x_.col(pin); };
-        const auto book = [&](int i, Scalar work) {
-            if (work != 0) step_work_.push_back({i, static_cast<double>(work)});
-        };
-        for (const auto& [a, b] : near_.pairs()) {
-            Vector n = old_x_.col(b) - old_x_.col(a);
-            const Scalar l2 = n.squaredNorm();
-            if (l2 > (std::numeric_limits<Scalar>::min)()) {
-                n /= std::sqrt(l2);
-            } else {
-                n = Vector::Unit(0);
+    /// Finds what pairs do in a step, once all that may touch in it count.
+    /// @returns whether h is proved with them
+    bool push(const Layout& layout, Memory& memory, const typename Step::Where& where, Scalar time,
+              bool first) {
+        if (first) near_.start(layout, memory, h_);
+        near_.look(layout, memory.planes().x.first);
+        const Scalar spare = bodies_ ? by_step_ * near_.pairs.widest() / 8 : Scalar(0);
+        for (Scalar more = spare;;) {
+            const bool reaches = near_.count(more);
+            crowded_ = reaches && where.ahead > 0 && h_ > certified(near_.load(), proved_);
+            if (reaches && !crowded_) {
+                step_.push(near_.pairs, where, time);
+                more = spare + 2 * h_ * step_.largest_kick();
+                if (near_.covers(more)) return true;
+            } else if (crowded_ && near_.is_young()) {
+                most_ = Scalar(1.25) * near_.load();  // there will be some more
+                return false;
+            } else if (!near_.look_back(layout, memory, h_, more)) {
+                return false;
             }
-            const Scalar deep = near_.radius[a] + near_.radius[b] - n.dot(y.col(b) - y.col(a));
-            if (!(deep > 0)) continue;
-            const Vector f = stiffness_of(a, b) * deep * n;  // on b
-            const Scalar w_a = near_.inverse_mass[a], w_b = near_.inverse_mass[b];
-            if (w_a > 0) add(a, -kick_time_ * w_a * f);
-            if (w_b > 0) add(b, kick_time_ * w_b * f);
-            if (!(w_a > 0)) book(b, f.dot(way(a)));
-            if (!(w_b > 0)) book(a, -f.dot(way(b)));
         }
     }
-    /// What pairs came to at the end of a try.
-    struct Outcome {
-        Buffer<double> held;  // of each particle, J
-        double energy = 0;    // its sum
-        double own_work = 0;  // without bodies, J
-        Index touching = 0;
-        Scalar deepest = 0;  // m
-    };
-    struct PairWork {
-        int at;
-        double work;  // J
-    };
-    /// The pairs' energy at x, half of it for either particle; all for one beside a pin.
-    template <class Positions>
-    void share_energy(const Positions& x, Outcome& outcome) {
-        outcome.held.assign(system_->size(), 0);
-        outcome.energy = 0;
-        outcome.touching = 0;
-        outcome.deepest = 0;
-        for (const auto& [a, b] : near_.pairs()) {
-            const Scalar deep = near_.radius[a] + near_.radius[b] - Vector(x(b) - x(a)).norm();
-            if (!(deep > 0)) continue;
-            ++outcome.touching;
-            outcome.deepest = (std::max)(outcome.deepest, deep);
-            const auto k = static_cast<double>(stiffness_of(a, b));
-            const double held = k * static_cast<double>(deep) * static_cast<double>(deep) / 2;
-            outcome.energy += held;
-            outcome.held[near_.inverse_mass[a] > 0 ? a : b] += held / 2;
-            outcome.held[near_.inverse_mass[b] > 0 ? b : a] += held / 2;
-        }
-    }
-    const Buffer<double>& add_bodies(const Outcome& own) {
+    const Buffer<double>& add_bodies(const contact_detail::Overlap& own) {
         held_ = own.held;
         for (Index i = 0; bodies_ && i < system_->size(); ++i) held_[i] += (*bodies_held_)[i];
         return held_;
@@ -436,34 +338,22 @@ private:
     std::uint64_t revision_ = 0;  // of what limit_ belongs to, and one
     StepLimit<Scalar> limit_;     // without pairs
     double damping_ = 0;          // a bound on half of that in M⁻¹D, 1/s
-    double by_mass_ = 0;          // κ₁, 1/s²
-    contact_detail::BallPairs<Scalar, Dim> near_;
-    bool listed_ = false;              // whether near_ has its pairs
-    Scalar margin_ = 0;                // m, of that list
-    Scalar by_step_ = 1;               // the next one's, by what it is where nothing hurries
-    Index lived_ = 0;                  // steps that it has held
+    contact_detail::BallList<Scalar, Dim> near_;
+    Scalar by_step_ = 1;               // how far bodies may push, by what is usual
     Scalar most_ = 0, last_most_ = 0;  // load of this frame and the last one
-    Points<Scalar, Dim> listed_x_;     // where particles were, m
     // Of a try.
     step_detail::StepWatch<Scalar, Dim>* books_ = nullptr;
-    Scalar h_ = 0, ahead_ = 0;      // s
-    Scalar proved_ = 0;             // s, without pairs
+    Scalar h_ = 0, proved_ = 0;     // s; without pairs
     Index count_ = 0, passed_ = 0;  // steps
-    bool fresh_ = false, waits_ = false, stopped_ = false, crowded_ = false, restless_ = false;
-    // Of a step.
-    Points<Scalar, Dim> old_x_, old_y_;  // where it began; v there, then y; m, m/s
-    Scalar kick_time_ = 0;               // s
-    Points<Scalar, Dim> kick_;           // m/s
-    Buffer<int> hit_, is_hit_;           // particles that have one; of each, whether
-    Buffer<PairWork> step_work_;         // of pins
+    bool waits_ = false, stopped_ = false, crowded_ = false, restless_ = false;
+    Step step_;
     // Of frames.
     int tries_ = 0;
-    Buffer<double> work_, held_;                   // with bodies, J
+    Buffer<double> held_;                          // with bodies, J
     const Buffer<double>* bodies_held_ = nullptr;  // theirs, J
-    detail::Few<Outcome, 2> outcomes_;
-    Outcome begun_, chosen_, asked_;
+    detail::Few<contact_detail::Overlap, 2> outcomes_;
+    contact_detail::Overlap begun_, chosen_, asked_;
     Points<Scalar, Dim> settled_x_;  // m
-    Index lookups_ = 0;
 };
 
 /// Takes `count` steps of h, s, with self-contact and its bodies, one frame for these; where more
