@@ -72,7 +72,7 @@ public:
                 along += from * Register::load(y[d].data());
             }
             // n·y does not forget a pair that passes through, and |y| would.
-            const Register by_length = reciprocal_sqrt(larger(r2, tiny));
+            const Register by_length = Register(Scalar(1)) / sqrt(larger(r2, tiny));
             const Register held = Register::load(apart.data());
             const Register overlap = where_less(tiny, r2, held - along * by_length, held);
             if (!(largest_lane(overlap) > 0)) continue;
