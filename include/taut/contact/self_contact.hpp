@@ -119,7 +119,7 @@ public:
         last_most_ = std::exchange(most_, Scalar(0));
         if (bodies_) bodies_held_ = &bodies_->open(state);
         const bool settled = settled_x_.cols() == state.x.cols() && settled_x_ == state.x;
-        if (!list(state)) {
+        if (!list(state, settled)) {
             begun_.held.assign(system_->size(), 0);
             return add_bodies(begun_);
         }
@@ -298,10 +298,11 @@ private:
         Step::measure(near_.pairs, x, overlap);
     }
 
-    /// Counts the pairs near a state. @returns false where it is not finite
-    bool list(const State& state) {
+    /// Counts the pairs near a state. @param settled  whether the last frame ended there
+    /// @returns false where it is not finite
+    bool list(const State& state, bool settled = false) {
         if (state.x.cols() != system_->size() || !detail::all_finite(state.x)) return false;
-        near_.list(state.x);
+        near_.list(state.x, settled);
         return true;
     }
     /// Finds what pairs do in a step, once all that may touch in it count.

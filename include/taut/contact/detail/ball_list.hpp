@@ -27,12 +27,12 @@ public:
     Scalar load() const { return pairs.heaviest_load(); }
 
     /// Counts those that may touch before two particles at x, Dim × n, finite, m, have moved a
-    /// quarter of the widest pair towards each other.
-    void list(const Points<Scalar, Dim>& x) {
+    /// quarter of the widest pair towards each other. @param seen  whether the last look was there
+    void list(const Points<Scalar, Dim>& x, bool seen) {
         const Scalar near = pairs.widest() / 4;
         if (!(near > 0)) return;
-        Scalar gone = 0;
-        if (listed_) {
+        Scalar gone = spread_.gone();
+        if (listed_ && !(seen && looked_)) {
             Vector least = x.col(0) - x_.col(0), most = least;
             for (Index i = 1; i < x.cols(); ++i) {
                 const Vector way = x.col(i) - x_.col(i);
@@ -45,6 +45,7 @@ public:
         if (!listed_ || stale || !(2 * gone < pairs.skin())) {
             x_ = x;
             build(pairs.widest());
+            looked_ = false;
             gone = 0;
         }
         pairs.count_within(gone + near);
@@ -61,6 +62,7 @@ public:
     /// Looks how far particles have gone. @param x  planes, after a step, m
     void look(const Layout& layout, const Scalar* x) {
         ++age_;
+        looked_ = true;
         spread_(layout, x, pairs.skin());
     }
     /// Counts all that may touch if any two come nearer by `more`, m. @returns false where the list
@@ -109,8 +111,8 @@ private:
         return {old_.data(), memory.planes().x.stride};
     }
 
-    bool listed_ = false;
-    Points<Scalar, Dim> x_;  // where particles were listed, m
+    bool listed_ = false, looked_ = false;  // this list
+    Points<Scalar, Dim> x_;                 // where particles were listed, m
     Spread<Scalar, Dim> spread_;
     Scalar begun_ = 0;             // of it where the try began
     Buffer<Scalar> old_;           // planes, m
