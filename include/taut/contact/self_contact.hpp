@@ -137,6 +137,7 @@ public:
         proved_ = proved;
         return longest();
     }
+    /// The same, of the step that it was last asked for.
     Scalar longest() const { return certified((std::max)(most_, last_most_), proved_); }
     /// The first, or another, try of a frame of `count` steps of h, s. @param books  sees the
     /// states between steps, too; may be null
@@ -190,12 +191,14 @@ public:
         by_step_ = (std::max)(Scalar(0.9) * by_step_, Scalar(1));
     }
 
+    /// The state between two steps.
     void see(const Places& x, const Places& v, Scalar time, const State* state,
              const Points<Scalar, Dim>* force) override {
         // A stepper that seeks a step that failed shows where it began once more.
         stopped_ = stopped_ || std::exchange(waits_, true);
         if (books_) books_->see(x, v, time, state, force);
     }
+    /// Pairs, then bodies, of a step, on what it came to without.
     bool passed(const Layout& layout, const Buffer<int>& places, Memory& memory, Scalar now,
                 Scalar ahead) override {
         waits_ = false;
