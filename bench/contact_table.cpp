@@ -3,7 +3,7 @@
 
 // What contact costs: steps of EnergyStableEuler of a cloth that lies on a row of 14 capsules,
 // beside the same steps without bodies, in turns; in float, processor time. And what a fast ball
-// leaves before it. Prints Markdown.
+// leaves before it. The same of cloth on cloth. Prints Markdown.
 
 #include <algorithm>
 #include <cstdio>
@@ -11,7 +11,7 @@
 #include <exception>
 #include <random>
 #include <string>
-#include <taut/contact/contact.hpp>
+#include <taut/contact/self_contact.hpp>
 #include <taut/network/tension_only.hpp>
 #include <taut/scene/cloth.hpp>
 #include <taut/scene/with_law.hpp>
@@ -66,6 +66,45 @@ void row(const char* label, float below, float spread, int upper) {
     std::printf("| %s | %.1f %% | %s%s |\n", label,
                 100 * double(touching) / 22 / double(cloth.size()), both.cells().c_str(),
                 ok ? "" : " A STEP FAILED");
+    std::fflush(stdout);
+}
+
+/// Steps with cloth on cloth: a cloth that swings, or one folded, its upper half lying on the lower
+/// one, which is pinned.
+void layers(const char* label, bool folded) {
+    constexpr Index side = 64;
+    taut::ClothOptions options{side, side};
+    options.rayleigh = {folded ? 5.0 : 1.0, 2e-5};
+    Cloth cloth = taut::with_law<taut::TensionOnly>(taut::hanging_cloth<float>(options));
+    if (folded) cloth.set_gravity({0, 0, -9.81f});
+    auto state = cloth.initial_state();
+    for (Index i = 0; folded && i < cloth.size(); ++i) {
+        if (i % side < side / 2) {
+            cloth.pin(i);
+        } else {
+            state.x(0, i) = 1 - state.x(0, i);
+            state.x(2, i) = 1.0f / (side - 1);
+            cloth.unpin(i);
+        }
+    }
+    taut::SelfContact contact(cloth);
+    const Index count = Index(frame / (0.9f * taut::energy_limit(cloth).certified)) + 1;
+    const float h = frame / float(count);
+    taut::EnergyStableEuler<Cloth> stepper(cloth), alone(cloth);
+    bool ok = true;
+    Index pairs = 0;
+    const auto with = [&] { ok = bool(step_through(stepper, state, h, count, contact)) && ok; };
+    for (int f = 0; f < 30 && folded; ++f) with();  // until it lies
+    auto free = state;
+    bench::Turns both;
+    both.run(
+        21, [&] { ok = bool(alone.step(free, h, count)) && ok; },
+        [&] {
+            with();
+            pairs += contact.touching();
+        });
+    std::printf("| %s | %d | %.0f | %s%s |\n", label, int(count), double(pairs) / 22,
+                both.cells().c_str(), ok ? "" : " A STEP FAILED");
     std::fflush(stdout);
 }
 
@@ -126,6 +165,12 @@ int main() try {
     row("four of them", 0, 0.14f, 4);
     row("all 14 cm apart", 0, 0.14f, capsules);
     row("all side by side", 0, 0.0705f, capsules);
+    std::printf(
+        "\n## The same with cloth on cloth beside one without, ms\n\n"
+        "| the cloth | steps | pairs that touch | without | with | ratio |\n"
+        "|---|---|---|---|---|---|\n");
+    layers("swings, nothing near", false);
+    layers("one half lies on the other", true);
     std::printf(
         "\n## A ball of 5 cm radius at 20 m/s through a held cloth of 1 m\n\n"
         "| particles | aims | a step's way, mm | went through | deepest, mm | cut off on a way, mm "

@@ -5,6 +5,7 @@
 // second, with 10 000 contacts or without: neither by operator new nor by Eigen.
 
 #define EIGEN_RUNTIME_NO_MALLOC
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <new>
@@ -17,7 +18,7 @@ bool eigen_allocated = false;
 
 // Eigen asserts on every allocation while none is allowed.
 #define eigen_assert(condition) ((condition) ? void() : void(eigen_allocated = true))
-#include <taut/contact/contact.hpp>
+#include <taut/contact/self_contact.hpp>
 #include <taut/guard/guard.hpp>
 #include <taut/taut.hpp>
 
@@ -135,10 +136,55 @@ bool contacts_allocate() {
     return found;
 }
 
+/// A cloth that falls on the other half of itself, and on a ball.
+bool self_contact_allocates() {
+    auto cloth = taut::hanging_cloth<float>({30, 20});
+    cloth.set_rayleigh({1, 0});
+    auto start = cloth.initial_state();
+    for (taut::Index i = 0; i < cloth.size(); ++i) {
+        if (start.x(1, i) > 0.5f) {
+            start.x(2, i) = 0.1f;
+            start.x(1, i) = 1 - start.x(1, i);
+        }
+    }
+    auto state = start;
+    taut::Contacts bodies(cloth);
+    bodies.add(taut::Sphere<float, 3>({0.5f, 0.3f, -0.35f}, 0.3f));
+    taut::SelfContact contact(cloth, bodies);
+    taut::Guarded guard(cloth);
+    taut::EnergyStableEuler stepper(cloth);
+    const float h = 0.8f * taut::energy_limit(cloth).certified;
+    taut::Index touched = 0, most = 0;
+    const auto fall = [&] {
+        for (const bool guarded : {true, false}) {
+            state = start;
+            for (int frame = 0; frame < 120; ++frame) {
+                if (guarded && !guard.advance(state, 1.0f / 60, contact)) return false;
+                if (!guarded && !taut::step_through(stepper, state, h, 60, contact)) return false;
+                most = std::max(most, contact.touching());
+                touched += bodies.touching() > 0;
+            }
+        }
+        return touched > 0 && most > 0;
+    };
+    if (!fall()) return true;
+    const long before = allocations;
+    eigen_allocated = false;
+    Eigen::internal::set_is_malloc_allowed(false);
+    const bool fell = fall();
+    Eigen::internal::set_is_malloc_allowed(true);
+    const bool found = allocations != before || eigen_allocated || !fell;
+    if (found) {
+        std::fprintf(stderr, "SelfContact allocates %ld times, or nothing touches\n",
+                     allocations - before);
+    }
+    return found;
+}
+
 }  // namespace
 
 int main() {
-    if (guarded_frames_allocate() || contacts_allocate()) return 1;
+    if (guarded_frames_allocate() || contacts_allocate() || self_contact_allocates()) return 1;
     auto cloth = taut::hanging_cloth<double>({60, 60});
     if (any_allocates(cloth)) return 1;
     cloth.set_rayleigh({0.1, 1e-6});

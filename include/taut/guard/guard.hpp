@@ -150,7 +150,7 @@ private:
         Scalar h;
         Index steps;
     };
-    void renew();
+    void renew(bool touch);
     Scalar trial_step() const;
     Status open(const State& state, Scalar frame, Scalar longest, GuardedReport<Scalar>& report);
     static Frame cut(Scalar span, Scalar longest, Index most = (std::numeric_limits<Index>::max)());
@@ -209,6 +209,7 @@ private:
     bool too_stiff_ = false;      // whether a code force asked for shorter steps
     Index where_ = -1;            // and of which particle
     bool edited_ = true;          // whether anything was since the last frame
+    Scalar proved_step_ = 0;      // of proved_limit_, with what touches, s
     Scalar shortest_ = 0;         // step that a frame may take, s
     std::vector<double> slack_;   // ρ and σ, J
     std::vector<double> booked_;  // W, J

@@ -52,14 +52,6 @@ void Outside<Scalar, Dim>::ask(const Layout<Scalar>& layout, const StatePlanes<S
 }
 
 template <class Scalar, int Dim>
-Index Steps<Scalar, Dim>::first_not_finite(const Layout<Scalar>& layout) const {
-    State<Scalar, Dim> last;
-    last.x = last.v = last.zero(layout.size());
-    store(layout, 0, 0, last);
-    return last.first_not_finite();
-}
-
-template <class Scalar, int Dim>
 bool Steps<Scalar, Dim>::steps(const Forces& forces, Scalar h, Index count, int threads,
                                Move move) {
     const bool asks = outside_.asks_for_state();

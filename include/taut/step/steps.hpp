@@ -123,8 +123,13 @@ public:
     template <class AnyState>
     void load(const Surroundings<Scalar, Dim>& surroundings, const Layout<Scalar>& layout,
               bool new_plan, const AnyState& state, Scalar ahead, const ReadAnywhere& read);
-    /// As of Sweep.
-    Index first_not_finite(const Layout<Scalar>& layout) const;
+    /// Puts the state back after `count` steps.
+    template <class AnyState>
+    void store(const Layout<Scalar>& layout, Scalar h, Index count, AnyState& state) const {
+        layout.from_planes(state_.planes().x, state.x, layout.all());
+        layout.from_planes(state_.planes().v, state.v, layout.all());
+        for (Index i = 0; i < count; ++i) state.time += h;
+    }
     template <class AnyState>
     bool run(const Forces& forces, AnyState& state, Scalar h, Index count, int threads, Move move);
     template <class AnyState>
@@ -144,13 +149,6 @@ private:
     static constexpr Index tile_stride = tile_size + 2 * max_width;
     static constexpr Index scratch_size = Dim * (3 * scratch_stride + tile_stride);
 
-    /// Puts the state back after `count` steps.
-    template <class AnyState>
-    void store(const Layout<Scalar>& layout, Scalar h, Index count, AnyState& state) const {
-        layout.from_planes(state_.planes().x, state.x, layout.all());
-        layout.from_planes(state_.planes().v, state.v, layout.all());
-        for (Index i = 0; i < count; ++i) state.time += h;
-    }
     void show(const Layout<Scalar>& layout, const State<Scalar, Dim>* state,
               const Points<Scalar, Dim>* force) {
         if (!watch_) return;

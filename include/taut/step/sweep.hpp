@@ -25,8 +25,8 @@ public:
         load(system, state, 0, false);
         return steps_.run(Forces<false>(plan_), state, h, count, threads, move<Update>);
     }
-    /// The particle that the last call left not finite, or −1.
-    Index first_not_finite() const { return steps_.first_not_finite(plan_.layout()); }
+    /// Where the last call came to, finite or not.
+    void store(State<Scalar, Dim>& last) const { steps_.store(plan_.layout(), 0, 0, last); }
     /// The same with the springs one step ahead: they pull along their new direction, push along
     /// the old one [T42].
     template <class AnyState, class Update>

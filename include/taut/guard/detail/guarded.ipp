@@ -5,7 +5,7 @@
 namespace taut {
 
 template <class Stepper, class System>
-void Guarded<Stepper, System>::renew() {
+void Guarded<Stepper, System>::renew(bool touch) {
     const bool first = !proved_limit_;
     const bool edited = first || proved_limit_->revision != system_->revision();
     if (edited) frames_to_sharpen_ = first ? 1 : 60;
@@ -15,7 +15,8 @@ void Guarded<Stepper, System>::renew() {
         any_pose_limit_ = any_pose_limit(*system_);
         proved_limit_ = energy_limit(*system_);  // last: its revision stands for both
     }
-    parts_.update(*system_);
+    parts_.update(*system_, touch);
+    proved_step_ = proved_limit_->certified;
 }
 
 /// The longest, s.
@@ -24,8 +25,9 @@ auto Guarded<Stepper, System>::trial_step() const -> Scalar {
     Scalar h = std::numeric_limits<Scalar>::infinity();
     if constexpr (any_pose == method::AnyPose::limited) {
         h = Scalar(0.95) * any_pose_limit_->certified;
+        if (proved_step_ < proved_limit_->certified) h *= proved_step_ / proved_limit_->certified;
     } else if constexpr (any_pose == method::AnyPose::proved) {
-        h = proved_limit_->certified;
+        h = proved_step_;
     }
     return (std::min)(options_.max_step, h);
 }
@@ -37,8 +39,8 @@ Status Guarded<Stepper, System>::open(const State& state, Scalar frame, Scalar l
     const Report checked = integrator_detail::StepLoop<State>::examine(*system_, state, frame);
     report.where = checked.where;
     if (!checked) return checked.status;
-    if (!(longest > 0) || !(proved_limit_->certified > 0)) return Status::invalid_step;
-    shortest_ = (std::min)(frame, proved_limit_->certified);
+    if (!(longest > 0) || !(proved_step_ > 0)) return Status::invalid_step;
+    shortest_ = (std::min)(frame, proved_step_);
     edited_ = !last_.is(*system_, state);
     if (!edited_ && end_.size() == parts_.count()) {
         begin_ = end_;
@@ -220,10 +222,18 @@ bool Guarded<Stepper, System>::take_again(State& state, Scalar span, bool tried,
     };
     for (int halvings = 0; halvings <= most_halvings; ++halvings) {
         too_stiff_ = too_stiff_ || halvings > 0;
-        const Index steps = cut(span, proved_limit_->certified).steps << halvings;
+        if (!(proved_step_ > 0)) return false;
+        const Index steps = cut(span, proved_step_).steps << halvings;
         const Frame frame{span / static_cast<Scalar>(steps), steps};
         again_ = start_;
         if (!run(again_, frame, Kind::ahead, proved_, take, respond)) {
+            if constexpr (guard_detail::is_self_contact_v<Respond>) {
+                if (respond.wants_another()) {
+                    proved_step_ = respond.longest();
+                    --halvings;
+                    continue;
+                }
+            }
             if (blamed_ || !stiff_by_code()) return false;
             if (halvings == most_halvings)
                 std::replace(taken_.begin(), taken_.end(), Taken::again, Taken::frozen);
@@ -365,19 +375,21 @@ template <class Respond>
 auto Guarded<Stepper, System>::advance(State& state, Scalar frame, Respond&& respond)
     -> GuardedReport<Scalar> {
     GuardedReport<Scalar> report;
-    renew();
+    renew(guard_detail::is_self_contact_v<Respond>);
     held_ = nullptr;
     if constexpr (guard_detail::is_contacts_v<Respond>) held_ = &respond.open(state);
+    if constexpr (guard_detail::is_self_contact_v<Respond>)
+        proved_step_ = respond.longest(proved_limit_->certified);
     const Scalar longest = trial_step();
     report.status = open(state, frame, longest, report);
     if (!report) return report;
     // Of what is taken again as many steps as an Index can count.
     const Scalar span = (std::min)({frame, longest * static_cast<Scalar>(options_.max_substeps),
-                                    proved_limit_->certified * Scalar(1 << 28)});
+                                    proved_step_ * Scalar(1 << 28)});
     const Frame trial = cut(span, longest, options_.max_substeps);
     report.substeps = trial.steps;
     report.h = trial.h;
-    const double proved = std::ceil(static_cast<double>(span / proved_limit_->certified));
+    const double proved = std::ceil(static_cast<double>(span / proved_step_));
     for (std::size_t p = 0; p < parts_.count(); ++p) {
         slack_[p] = 4 * unit * std::sqrt((std::max)(1.0, proved)) * begin_[p].terms;
         // An edit may have taken with it what would have paid.

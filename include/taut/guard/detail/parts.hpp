@@ -28,17 +28,25 @@ class Parts {
 public:
     /// Follows the system's springs and pins. Where parts join, balances add; where one splits,
     /// the pieces share its balance by free mass [T43].
+    /// @param touch  whether any two particles may push each other: then they are one part
     template <class System>
-    void update(const System& system) {
-        if (of_.size() == static_cast<std::size_t>(system.size()) &&
+    void update(const System& system, bool touch) {
+        if (of_.size() == static_cast<std::size_t>(system.size()) && touch_ == touch &&
             revision_ == system.topology_revision())
             return;
         revision_ = system.topology_revision();
+        touch_ = touch;
         root_.resize(static_cast<std::size_t>(system.size()));
         std::iota(root_.begin(), root_.end(), Index(0));
         system.for_each_spring([&](Index a, Index b) {
             if (!system.is_pinned(a) && !system.is_pinned(b)) root_[at(root(a))] = root(b);
         });
+        Index last = -1;
+        for (Index i = 0; touch && i < system.size(); ++i) {
+            if (system.is_pinned(i)) continue;
+            if (last >= 0) root_[at(root(last))] = root(i);
+            last = i;
+        }
         std::vector<Index> of(root_.size(), -1);
         std::vector<Part> list;
         for (Index i = 0; i < system.size(); ++i) {
@@ -92,6 +100,7 @@ private:
     std::vector<Index> root_;  // workspace
     std::vector<Part> list_, kept_;
     std::uint64_t revision_ = 0;
+    bool touch_ = false;
 };
 
 /// The energy of a part, of free particles and springs, with gravity.

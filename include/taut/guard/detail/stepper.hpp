@@ -26,6 +26,12 @@ template <class Respond>
 using touching_of = decltype(std::declval<const Respond&>().touching());
 template <class Respond>
 inline constexpr bool is_contacts_v = detail::is_detected_v<touching_of, std::decay_t<Respond>>;
+/// Whether it is SelfContact, which has a share of the proved step and joins all parts.
+template <class Respond>
+using wants_another_of = decltype(std::declval<Respond&>().wants_another());
+template <class Respond>
+inline constexpr bool is_self_contact_v =
+    detail::is_detected_v<wants_another_of, std::decay_t<Respond>>;
 
 struct NoResponse {
     template <class State>

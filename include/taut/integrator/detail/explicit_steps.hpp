@@ -141,7 +141,8 @@ private:
         // Not finite: which step and which particle, one by one.
         return loop_.run(system, state, h, count, [&](State& own) -> Report {
             if (sweep(own, Index(1))) return {};
-            return {Status::diverged, 0, 0, sweep_.first_not_finite()};
+            sweep_.store(own);
+            return {Status::diverged, 0, 0, own.first_not_finite()};
         });
     }
 
