@@ -60,6 +60,7 @@ export class Run {
     const due = Math.floor(this.owed / h);
     const wanted = Math.min(due, most);
     const begin = performance.now();
+    const since = lab.time();
     let taken = 0;
     let chunk = Math.min(wanted, lab.size() > 5000 ? 1 : 8);
     while (taken < wanted && !this.blown) {
@@ -73,7 +74,7 @@ export class Run {
     if (taken > 0 && spent > 0.002) this.cost = Math.min(spent / taken, Number.isFinite(this.cost) ? 1.02 * this.cost : Infinity);
     if (taken < due) this.owed = 0;
     else this.owed -= taken * h;
-    this.pace += 0.1 * ((taken * h) / Math.max(elapsed, 1e-3) - this.pace);
+    this.pace += 0.1 * ((lab.time() - since) / Math.max(elapsed, 1e-3) - this.pace);
     if (taken > 0) this.observe(taken);
     return { taken, slowed: most < due };
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <taut/guard/guard.hpp>
 #include <taut/recommend/candidate.hpp>
@@ -29,7 +30,7 @@ public:
             return std::visit(go, *stepper_);
         }
         for (taut::Index i = 0; i < count; ++i) {
-            const auto report = guard().advance(state, h);
+            const auto report = guard().advance(state, span(h));
             if (!report) return report.status;
         }
         return taut::Status::ok;
@@ -37,6 +38,13 @@ public:
     auto& guard() {
         if (!guard_) guard_.emplace(*system_);
         return *guard_;
+    }
+    /// As much of a frame of h, s, as the guard takes in hundreds of steps: of a light and stiff
+    /// cloth a whole one would take the page minutes.
+    Scalar span(Scalar h) {
+        const auto& limit = guard().limit();
+        return std::min(
+            h, 300 * (limit ? limit->certified : taut::any_pose_limit(*system_).certified));
     }
     taut::EnergyStableEuler<System>& energy_stable() {
         constexpr auto method = taut::Method::energy_stable_euler;

@@ -52,11 +52,13 @@ public:
                 .status;
         }
         for (taut::Index i = 0; i < count; ++i) {
-            walk(h);
             if (method == Stepping<Cloth>::guarded) {
-                const auto report = stepping_->guard().advance(state, h, *contacts_);
+                const float span = stepping_->span(h);
+                walk(span);
+                const auto report = stepping_->guard().advance(state, span, *contacts_);
                 if (!report) return report.status;
             } else {
+                walk(h);
                 const taut::Status status = stepping_->step(method, h, 1);
                 if (status != taut::Status::ok) return status;
                 push_out(h);
