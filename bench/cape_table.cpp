@@ -79,10 +79,10 @@ std::string taut_row(int frames, float away = 0) {
     char text[600];
     std::snprintf(
         text, sizeof text,
-        "\nTaut, of %d frames of %d steps: %d refused, %d taken again, %d blind. Deepest between "
-        "two steps: "
-        "%.3f mm into the 5 mm\nthat are kept above the skin, %.2f mm below the skin. What is near "
-        "was looked up %d times. The cloth ends\nwith %.2f J of %.2f J; the bodies did %.2f J of "
+        "\nTaut, of %d frames of %d steps: %d refused, %d taken again, %d blind. Deepest "
+        "between two steps:\n%.3f mm into the 5 mm that are kept above the skin, %.2f mm below the "
+        "skin. What is near was looked up\n%d times. The cloth ends with %.2f J of %.2f J; the "
+        "bodies did %.2f J of "
         "work.\n",
         taut.frames(), int(taut.substeps()), taut.refused(), taut.again(), taut.blind(),
         1e3 * double(taut.seen().deepest()), std::max(0.0, 1e3 * double(taut.seen().deepest()) - 5),

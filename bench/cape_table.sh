@@ -17,7 +17,7 @@ mkdir -p $into
 npm install --silent --no-audit --no-fund --prefix $into jolt-physics@1.1.0
 set -- "$program" "${2:-60}"
 for each in "1 5" "4 10" "8 15"; do
-    set -- "$@" "Jolt soft body (WebAssembly, by the wall): ${each% *} × ${each#* } iterations" \
+    set -- "$@" "Jolt soft body (WebAssembly in node): ${each% *} × ${each#* } iterations" \
         "node bench/jolt/cape.mjs $into/node_modules/jolt-physics $each"
 done
 "$@"

@@ -136,7 +136,7 @@ inline void many_contacts() {
     });
     std::printf(
         "\n## Many contacts at once\n\nA cloth of %d × %d lies on the ground: at least %d of its "
-        "%d particles touch in every frame. A frame of Guarded:\n\n"
+        "%d particles touch in every frame. A frame\nof Guarded:\n\n"
         "| falls freely, ms | lies, ms: least (median) | ratio |\n|---|---|---|\n| %s |\n%s",
         104, 104, int(least), int(cloth.size()), turns.cells().c_str(),
         ok ? "" : "\nA FRAME WAS REFUSED.\n");
