@@ -78,9 +78,18 @@ public:
     /// What touching pairs hold at its end, J.
     double energy() const { return sum(settled_.energy); }
     /// Particles and bodies that touch, at the end of the last step.
-    Index touching() const { return step_.touching.count; }
-    /// m.
-    Scalar deepest() const { return step_.touching.deepest; }
+    Index touching() const {
+        Index count = 0;
+        step_.nearby.each_touching(step_.bodies, [&](const auto&) { ++count; });
+        return count;
+    }
+    /// How deep the deepest of them is then, m.
+    Scalar deepest() const {
+        Scalar depth = 0;
+        step_.nearby.each_touching(
+            step_.bodies, [&](const auto& pair) { depth = (std::max)(depth, pair.depth); });
+        return depth;
+    }
     /// How often what is near was looked up anew.
     Index lookups() const { return step_.lookups; }
 
@@ -113,7 +122,7 @@ public:
         failed_ = false;
         step_.penalty.h = h;
         step_.nearby.clear();
-        step_.work.assign(system_->size() + step_detail::max_width, Scalar(0));
+        step_.work.assign(system_->size(), Scalar(0));
         const Scalar frame = h * static_cast<Scalar>(count);
         drift_ = Vector::Zero();
         for (const auto& body : step_.bodies) {
@@ -183,34 +192,32 @@ public:
         if (failed_) return false;
         const auto& planes = memory.planes();
         const contact_detail::Moving<Scalar, Dim> moving{
-            {layout, planes.x}, {layout, planes.v}, {layout, planes.spring_x}};
+            {layout, planes.x}, {layout, planes.v}, {layout, planes.spring_x}, ahead};
         if (passed_ == count_) {
             step_.stop(moving.v);
             return true;
         }
         if (passed_ == 0) know(places);
-        step_.penalty.ahead = ahead;
         ++passed_;
         const Scalar share = static_cast<Scalar>(passed_) / static_cast<Scalar>(count_);
         const Scalar time = static_cast<Scalar>(passed_) * step_.penalty.h;
         for (const auto& body : step_.bodies) body->motion.go_to(body->way(share));
         step_.nearby.go_to(step_.bodies, time);
-        bool listed = step_.nearby.holds(moving.x, layout.size());
+        // What ends within reach, began so: it has met no body that does not list it.
+        bool listed = step_.nearby.built();
         for (Scalar margin = margin_;; margin *= 4) {
             if (!listed) {
                 if (!detail::is_finite(margin)) return !(failed_ = true);
                 if (step_.nearby.built()) step_.nearby.remember(step_.bodies, step_.known);
                 step_.look_back(layout, planes, margin, longest_, drift_, time);
                 step_.nearby.go_to(step_.bodies, time);
-                listed = step_.nearby.holds(moving.x, layout.size());
-                if (!listed) continue;
             }
             step_.touch(moving);
-            if (step_.pushed_in_reach(moving.x)) break;
+            listed = step_.nearby.holds(moving.x, layout.size());
+            if (listed) break;
             step_.undo(moving);
-            listed = false;
         }
-        step_.book();
+        step_.accept();
         return true;
     }
 
@@ -254,7 +261,7 @@ private:
     }
     /// Before the first step.
     void know(const Buffer<int>& places) {
-        step_.mass.assign(system_->size() + step_detail::max_width, 0);
+        step_.mass.assign(system_->size(), 0);
         particle_.resize(system_->size());
         for (Index i = 0; i < system_->size(); ++i) {
             particle_[places[i]] = static_cast<int>(i);

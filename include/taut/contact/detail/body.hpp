@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
+#include <algorithm>
 #include <limits>
 #include <utility>
-#include <vector>
 
 #include "../../core/concepts.hpp"
 #include "../obstacle.hpp"
-#include "motion.hpp"
+#include "near_pairs.hpp"
 
 namespace taut {
 
@@ -22,58 +21,13 @@ struct BodyOptions {
 
 namespace contact_detail {
 
-/// Particles near one body and no other, at the start of a step: a register of places in a row for
-/// each block, some lanes of which are near. The mass of the others is 0.
-template <class Scalar, int Dim>
-struct SoloPairs {
-    Index blocks = 0;
-    Buffer<int> first;     // place of each block
-    Buffer<Scalar> depth;  // p, m; < 0 of other lanes
-    Buffer<Scalar> cap;    // p₁, m
-    Buffer<Scalar> mass;   // kg
-    detail::Few<Buffer<Scalar>, Dim> x, normal;
-
-    /// Of lane k.
-    int place(Index k) const {
-        constexpr Index width = step_detail::VectorRegister<Scalar>::width;
-        return first[k / width] + static_cast<int>(k % width);
-    }
-};
-
-/// Blocks that are touched in a step: what they were without contact, for undo.
-template <class Scalar, int Dim>
-struct Hits {
-    Index count = 0;
-    Buffer<int> block;
-    Buffer<Scalar> depth, cap, touched, work;  // the last is h ū·f, J
-    detail::Few<Buffer<Scalar>, Dim> x, v;
-};
-
-/// How many pairs touch, and the deepest, m.
-template <class Scalar>
-struct Touching {
-    Index count = 0;
-    Scalar deepest = 0;
-
-    void see(Scalar depth, Index pairs = 1) {
-        if (!(depth > 0)) return;
-        count += pairs;
-        deepest = (std::max)(deepest, depth);
-    }
-};
-
-/// The planes that contact reads and writes.
-template <class Scalar, int Dim>
-struct Moving {
-    PlaneAccess<Scalar, Dim> x, v, spring_x;
-};
-
 /// A convex body.
 template <class Scalar, int Dim>
 class Body {
 public:
     using Vector = Eigen::Matrix<Scalar, Dim, 1>;
     using Place = Pose<Scalar, Dim>;
+    using Access = PlaneAccess<Scalar, Dim>;
 
     Body(const BodyOptions& how, const Place& pose) : options(how), begin(pose), end(pose) {
         motion.now = motion.next = pose;
@@ -84,12 +38,10 @@ public:
     virtual Surface<Scalar, Dim> surface(const Vector& y) const = 0;
     virtual Scalar extent() const = 0;
     virtual Scalar inner() const = 0;
-    /// The depths of registers of places, m, at a pose. @param first  the first place of each
-    virtual void depths(const PlaneAccess<Scalar, Dim>& x, const Buffer<int>& first,
-                        const Place& pose, Scalar* depth) const = 0;
-    /// A step of solo pairs: from what is at v, x without contact to what is with it.
-    virtual void step(const Penalty<Scalar>& penalty, const Moving<Scalar, Dim>& moving,
-                      Touching<Scalar>& touching) = 0;
+    /// p, m, and n in the world of `count` points, in whole registers, at a pose.
+    /// @param x, normal  planes side by side
+    virtual void query(const Access& x, Index count, const Place& pose, Scalar* depth,
+                       const Access& normal) const = 0;
 
     Scalar thickness() const { return static_cast<Scalar>(options.thickness); }
     /// p, m. @param normal  in the world
@@ -102,6 +54,13 @@ public:
     /// A way in a step, in the body's frame, that is not longer cannot go through the body unseen:
     /// at most a 32nd of its smallest radius is cut off, m.
     Scalar short_way() const { return (inner() + thickness()) / 2; }
+    /// The same beside the body's position: what is farther away turns with it, m.
+    Scalar quick() const {
+        if (!detail::is_finite(short_way())) return short_way();
+        const Scalar turned = (motion.turn - Place::Rotation::Identity()).norm();
+        const Scalar by_turn = turned > 0 ? 2 * turned * extent() : Scalar(0);
+        return (std::max)(short_way() - by_turn, Scalar(0));
+    }
     /// Whether the way of a particle in the step meets the body; never of a short way.
     /// @param from, to  in the world, where the step begins and ends, m
     bool meets(const Vector& from, const Vector& to) const {
@@ -139,8 +98,8 @@ public:
     Place begin, end;      // of the frame
     Way<Scalar, Dim> way;  // from one to the other
     Motion<Scalar, Dim> motion;
-    SoloPairs<Scalar, Dim> solo;
-    Hits<Scalar, Dim> hits;
+    NearPairs<Scalar, Dim> near_pairs;
+    Touching<Scalar, Dim> touching;
 };
 
 template <class Scalar, int Dim, class Obstacle>
@@ -149,6 +108,7 @@ public:
     using Base = Body<Scalar, Dim>;
     using Vector = typename Base::Vector;
     using Place = typename Base::Place;
+    using Access = typename Base::Access;
 
     BodyOf(Obstacle shape, const BodyOptions& how, const Place& pose)
         : Base(how, pose), shape_(std::move(shape)) {}
@@ -165,55 +125,26 @@ public:
         if constexpr (in_registers) return shape_.inner();
         return 0;
     }
-    void depths(const PlaneAccess<Scalar, Dim>& x, const Buffer<int>& first, const Place& pose,
-                Scalar* depth) const override {
-        for (const int place : first) {
-            Vectors at, normal;
-            for (int d = 0; d < Dim; ++d) at[d] = x.row(d, place);
-            query(at, pose, normal).store(depth);
-            depth += Register::width;
-        }
-    }
-    void step(const Penalty<Scalar>& penalty, const Moving<Scalar, Dim>& moving,
-              Touching<Scalar>& touching) override {
-        SoloPairs<Scalar, Dim>& pairs = this->solo;
-        const Register zero(Scalar(0)), one(Scalar(1));
-        Register count = zero, deepest = zero;
-        make_room();
-        const Motion<Scalar, Dim>& moved = this->motion;
-        const Vector gone = moved.next.position - moved.now.position;
-        const Scalar turned = (moved.turn - Place::Rotation::Identity()).norm();
-        const Scalar by_turn = turned > 0 ? 2 * turned * extent() : Scalar(0);
-        const Scalar quick = (std::max)(this->short_way() - by_turn, Scalar(0));
-        const Register quick2(quick * quick);
-        for (Index block = 0; block < pairs.blocks; ++block) {
-            const Index at = block * Register::width;
-            const Register mass = Register::load(pairs.mass.data() + at);
-            const Register before = Register::load(pairs.depth.data() + at);
-            Vectors x, normal;
-            Register way2 = zero;
-            for (int d = 0; d < Dim; ++d) {
-                x[d] = moving.x.row(d, pairs.first[block]);
-                const Register went =
-                    x[d] - Register(gone[d]) - Register::load(pairs.x[d].data() + at);
-                way2 += went * went;
+    void query(const Access& x, Index count, const Place& pose, Scalar* depth,
+               const Access& normal) const override {
+        if constexpr (in_registers) {
+            const Register thickness(this->thickness());
+            for (Index k = 0; k < count; k += Register::width) {
+                Vectors from, out;
+                for (int d = 0; d < Dim; ++d) from[d] = x.row(d, k) - Register(pose.position[d]);
+                from = times(pose.rotation.transpose(), from);
+                const Register distance = shape_.template query<Register>(from, out);
+                out = times(pose.rotation, out);
+                (thickness - distance).store(depth + k);
+                for (int d = 0; d < Dim; ++d) out[d].store(&normal(d, k));
             }
-            Register depth = query(x, moved.next, normal);
-            depth = where_less(zero, mass, depth, -one);
-            Register meets = larger(before, depth);
-            if (largest_lane(way2 - quick2) > 0) look_along(pairs, at, x, meets);
-            if (largest_lane(meets) > 0) {
-                resolve(block, penalty, moving, before, meets, x, depth, normal);
-                count += where_less(zero, depth, one, zero);
-                deepest = larger(deepest, depth);
-            }
-            depth.store(pairs.depth.data() + at);
-            for (int d = 0; d < Dim; ++d) {
-                x[d].store(pairs.x[d].data() + at);
-                normal[d].store(pairs.normal[d].data() + at);
+        } else {
+            for (Index k = 0; k < count; ++k) {
+                Vector out;
+                depth[k] = this->depth(x.vector(k), pose, out);
+                normal.set(k, out);
             }
         }
-        touching.see(largest_lane(deepest), static_cast<Index>(sum_of_lanes(count)));
     }
 
 private:
@@ -224,143 +155,6 @@ private:
     using query_of = decltype(std::declval<const Shape&>().template query<Register>(
         std::declval<const Vectors&>(), std::declval<Vectors&>()));
     static constexpr bool in_registers = detail::is_detected_v<query_of, Obstacle>;
-
-    /// p, and n in the world, of a lane each.
-    EIGEN_ALWAYS_INLINE Register query(const Vectors& x, const Place& pose, Vectors& normal) const {
-        Vectors from;
-        for (int d = 0; d < Dim; ++d) from[d] = x[d] - Register(pose.position[d]);
-        from = times(pose.rotation.transpose(), from);
-        Register distance(Scalar(0));
-        if constexpr (in_registers) {
-            distance = shape_.template query<Register>(from, normal);
-        } else {
-            distance = one_by_one(from, normal);
-        }
-        normal = times(pose.rotation, normal);
-        return Register(this->thickness()) - distance;
-    }
-    /// Of a shape that answers for one point alone.
-    Register one_by_one(const Vectors& y, Vectors& normal) const {
-        using Lanes = detail::Few<Scalar, Register::width>;
-        detail::Few<Lanes, Dim> at, out;
-        Lanes distance;
-        for (int d = 0; d < Dim; ++d) y[d].store(at[d].data());
-        for (int k = 0; k < Register::width; ++k) {
-            Vector point;
-            for (int d = 0; d < Dim; ++d) point[d] = at[d][k];
-            const Surface<Scalar, Dim> found = surface(point);
-            distance[k] = found.distance;
-            for (int d = 0; d < Dim; ++d) out[d][k] = found.normal[d];
-        }
-        for (int d = 0; d < Dim; ++d) normal[d] = Register::load(out[d].data());
-        return Register::load(distance.data());
-    }
-    void make_room() {
-        Hits<Scalar, Dim>& met = this->hits;
-        const Index size = this->solo.blocks * Register::width;
-        met.count = 0;
-        met.block.resize(this->solo.blocks);
-        for (auto* of : {&met.depth, &met.cap, &met.touched, &met.work}) of->resize(size);
-        for (auto* of : {&met.x, &met.v}) {
-            for (int d = 0; d < Dim; ++d) (*of)[d].resize(size);
-        }
-    }
-    /// Those that meet the body on the way of a step, meet it.
-    void look_along(const SoloPairs<Scalar, Dim>& pairs, Index at, const Vectors& x,
-                    Register& meets) const {
-        detail::Few<Scalar, Register::width> lanes;
-        detail::Few<detail::Few<Scalar, Register::width>, Dim> to;
-        meets.store(lanes.data());
-        for (int d = 0; d < Dim; ++d) x[d].store(to[d].data());
-        for (int k = 0; k < Register::width; ++k) {
-            if (lanes[k] > 0 || !(pairs.mass[at + k] > 0)) continue;
-            Vector a, b;
-            for (int d = 0; d < Dim; ++d) {
-                a[d] = pairs.x[d][at + k];
-                b[d] = to[d][k];
-            }
-            if (Base::meets(a, b)) lanes[k] = 1;
-        }
-        meets = Register::load(lanes.data());
-    }
-    /// Contact of a block: x, depth and normal with it, from those without.
-    /// @param meets  > 0 where it touches
-    void resolve(Index block, const Penalty<Scalar>& penalty, const Moving<Scalar, Dim>& moving,
-                 const Register& before, const Register& meets, Vectors& x, Register& depth,
-                 Vectors& normal) {
-        SoloPairs<Scalar, Dim>& pairs = this->solo;
-        Hits<Scalar, Dim>& met = this->hits;
-        const Motion<Scalar, Dim>& moved = this->motion;
-        const Register zero(Scalar(0)), one(Scalar(1)), h(penalty.h);
-        const Index at = block * Register::width, place = pairs.first[block];
-        const Index kept = met.count++ * Register::width;
-        met.block[kept / Register::width] = static_cast<int>(block);
-        Vectors from, n, v, u, w;
-        for (int d = 0; d < Dim; ++d) {
-            from[d] = Register::load(pairs.x[d].data() + at);
-            n[d] = Register::load(pairs.normal[d].data() + at);
-            v[d] = moving.v.row(d, place);
-            x[d].store(met.x[d].data() + kept);
-            v[d].store(met.v[d].data() + kept);
-        }
-        before.store(met.depth.data() + kept);
-        Register cap = Register::load(pairs.cap.data() + at);
-        cap.store(met.cap.data() + kept);
-        n = times(moved.turn, n);
-        const Vectors carried = times(moved.turn, from);
-        for (int d = 0; d < Dim; ++d) {
-            u[d] = (carried[d] + Register(moved.shift[d]) - from[d]) * Register(1 / penalty.h);
-            w[d] = v[d] - u[d];
-        }
-        const Register deep = larger(before, zero);
-        const Register push = Register(penalty.by_mass) * where_less(deep, cap, deep, cap);
-        const Register into = dot(w, n);
-        const Register by_block(1 / (1 + penalty.block()));
-        Register out = rest(into * by_block, h * push * by_block);
-        // What began inside leaves no faster than is asked, and comes to rest at the surface: less
-        // of φ′ will do where it goes out.
-        const Register infinity(std::numeric_limits<Scalar>::infinity());
-        const Register most(static_cast<Scalar>(this->options.push_out));
-        Register asked = deep * Register(1 / (2 * penalty.h));
-        asked = where_less(asked, most, asked, most);
-        const Register slow = larger(where_less(out, asked, out, asked), into * by_block);
-        out = where_less(cap, infinity, slow, out);
-        const Register impulse = out - into;  // hλ/m
-        // A pair that would pull is left out if it goes no deeper so; what began inside is braked.
-        Register touches = where_less(zero, meets, one, zero);
-        const Register pulls =
-            where_less(cap, infinity, zero, where_less(impulse, zero, deep, zero));
-        touches = where_less(zero, pulls, where_less(before, depth, touches, zero), touches);
-        touches.store(met.touched.data() + kept);
-        Vectors along;
-        for (int d = 0; d < Dim; ++d) along[d] = w[d] - into * n[d];
-        const Register by_sliding = reciprocal_sqrt(
-            larger(dot(along, along), Register((std::numeric_limits<Scalar>::min)())));
-        const Register keep =
-            larger(zero, one - Register(static_cast<Scalar>(this->options.friction)) *
-                                   larger(impulse, zero) * by_sliding);
-        Register work = zero;
-        for (int d = 0; d < Dim; ++d) {
-            const Register after = u[d] + out * n[d] + keep * along[d];
-            work += u[d] * (after - v[d]);
-            x[d] = where_less(zero, touches, from[d] + h * after, x[d]);
-            v[d] = where_less(zero, touches, after, v[d]);
-            moving.x.set_row(d, place, x[d]);
-            moving.v.set_row(d, place, v[d]);
-            if (penalty.ahead > 0) {
-                const Register ahead = x[d] + Register(penalty.ahead) * v[d];
-                moving.spring_x.set_row(
-                    d, place, where_less(zero, touches, ahead, moving.spring_x.row(d, place)));
-            }
-        }
-        const Register mass = Register::load(pairs.mass.data() + at);
-        where_less(zero, touches, mass * work, zero).store(met.work.data() + kept);
-        depth = query(x, moved.next, normal);
-        depth = where_less(zero, mass, depth, -one);
-        // φ does not change by that: it is the same on this side of p₁.
-        where_less(cap * Register(Scalar(1) / 16), depth, cap, infinity)
-            .store(pairs.cap.data() + at);
-    }
 
     Obstacle shape_;
 };

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "near.hpp"
+#include "push.hpp"
+#include "shared.hpp"
 
 namespace taut::contact_detail {
 
@@ -23,85 +25,48 @@ public:
     NearList<Scalar, Dim> nearby;
     Penalty<Scalar> penalty{};
     Buffer<Scalar> mass;           // by place, kg; 0 if pinned; padded
-    Buffer<Scalar> work;           // by place, J; padded
-    Touching<Scalar> touching;     // at the end of the last step
+    Buffer<Scalar> work;           // by place, J
     std::vector<KnownPair> known;  // at the start of the list
     Index lookups = 0;
 
-    /// Takes a step that is there without contact, and finds those it pushes.
+    /// Takes a step that is there without contact. Those that one body touches are pushed in
+    /// registers; a particle that meets another one then, or at once, is solved by itself.
     void touch(const Moving<Scalar, Dim>& moving) {
-        touching = {};
-        touched_.clear();
-        old_pairs_.clear();
-        for (const auto& body : bodies) body->step(penalty, moving, touching);
-        auto& shared = nearby.shared();
-        for (std::size_t first = 0, end; first < shared.size(); first = end) {
-            const int place = shared[first].place;
-            for (end = first; end < shared.size() && shared[end].place == place;) ++end;
-            if (nearby.away(moving.x, &shared[first], end - first)) {
-                shared[first].old = true;
-                continue;
-            }
-            touch_shared(moving, first, end);
-        }
+        solved_.clear();
+        meets_.assign(nearby.several(), 0);
+        pushed_by_.assign(nearby.several(), Link{-1, -1});
+        queue_.clear();
+        for (const auto& body : bodies) look(*body, moving);
+        for (int b = 0; b < static_cast<int>(bodies.size()); ++b) push_alone(b, moving);
+        for (const auto& body : bodies) look_again(*body, moving);
+        for (const int i : queue_) solve(i, moving);
     }
-    /// Whether those that were pushed have met no body that does not list them.
-    bool pushed_in_reach(const Access& x) const {
-        const Register zero(Scalar(0)), below(Scalar(-1));
-        for (const auto& body : bodies) {
-            const auto& hits = body->hits;
-            Register worst = below;
-            for (Index k = 0; k < hits.count; ++k) {
-                const Register pushed = Register::load(hits.touched.data() + k * Register::width);
-                const Index place = body->solo.first[hits.block[k]];
-                worst = larger(worst, where_less(zero, pushed, nearby.beyond(x, place), below));
-            }
-            if (!(largest_lane(worst) < 0)) return false;
-        }
-        for (const auto& touched : touched_) {
-            if (!nearby.holds_of(x, touched.place)) return false;
-        }
-        return true;
-    }
-    /// The step without contact again, and the lists as they were. Where two bodies were touched in
-    /// one register, what the second one kept has the first one's contact in it: the last one
-    /// first.
+    /// The step without contact again.
     void undo(const Moving<Scalar, Dim>& moving) {
-        for (auto each = bodies.rbegin(); each != bodies.rend(); ++each) {
-            const auto& body = *each;
-            const auto& hits = body->hits;
-            for (Index k = 0; k < hits.count; ++k) {
-                const Index from = k * Register::width, to = hits.block[k] * Register::width;
-                const Index place = body->solo.first[hits.block[k]];
-                for (int d = 0; d < Dim; ++d) {
-                    const Register x = Register::load(hits.x[d].data() + from);
-                    const Register v = Register::load(hits.v[d].data() + from);
-                    moving.x.set_row(d, place, x);
-                    moving.v.set_row(d, place, v);
-                    if (penalty.ahead > 0)
-                        moving.spring_x.set_row(d, place, x + Register(penalty.ahead) * v);
-                }
-                Register::load(hits.depth.data() + from).store(body->solo.depth.data() + to);
-                Register::load(hits.cap.data() + from).store(body->solo.cap.data() + to);
-            }
-        }
-        auto old = old_pairs_.begin();
-        for (const auto& touched : touched_) {
-            set(moving, touched.place, touched.x, touched.v);
-            for (std::size_t k = touched.first; k < touched.end; ++k) nearby.shared()[k] = *old++;
-        }
-    }
-    /// Books the work of the step.
-    void book() {
         for (const auto& body : bodies) {
-            const auto& hits = body->hits;
-            for (Index k = 0; k < hits.count; ++k) {
-                Scalar* on = work.data() + body->solo.first[hits.block[k]];
-                (Register::load(on) + Register::load(hits.work.data() + k * Register::width))
-                    .store(on);
+            auto& touching = body->touching;
+            for (Index j = 0; j < touching.pushed_count; ++j) {
+                const Index row = touching.row[j];
+                if (touching.pushed()[row] > 0)
+                    moving.set(touching.place[j], touching.x().vector(row),
+                               touching.v().vector(row));
             }
         }
-        for (const auto& touched : touched_) work[touched.place] += touched.work;
+        for (const auto& one : solved_) moving.set(one.place, one.x, one.v);
+    }
+    /// The step is over: books its work.
+    void accept() {
+        for (const auto& body : bodies) {
+            auto& pairs = body->near_pairs;
+            auto& touching = body->touching;
+            for (Index j = 0; j < touching.pushed_count; ++j) {
+                const Index row = touching.row[j];
+                if (touching.pushed()[row] > 0)
+                    work[touching.place[j]] += pairs.mass[touching.at[j]] * touching.work()[row];
+            }
+            std::swap(pairs.now, pairs.next);
+        }
+        for (const auto& one : solved_) work[one.place] += one.work;
     }
     /// Lists what is near where the step began, and before.
     void look_back(const step_detail::Layout<Scalar>& layout,
@@ -124,46 +89,175 @@ public:
 
 private:
     using Register = step_detail::VectorRegister<Scalar>;
-    /// A particle of shared pairs that was pushed: what it was without contact.
-    struct Touched {
+    /// A particle that was solved by itself: what it was without contact.
+    struct Solved {
         int place;
-        Vector x, v;             // m, m/s
-        Scalar work;             // that contact did, J
-        std::size_t first, end;  // its pairs
+        Vector x, v;  // m, m/s
+        Scalar work;  // that contact did, J
     };
 
-    void set(const Moving<Scalar, Dim>& moving, int place, const Vector& x, const Vector& v) {
-        moving.x.set(place, x);
-        moving.v.set(place, v);
-        if (penalty.ahead > 0) moving.spring_x.set(place, x + penalty.ahead * v);
-    }
-    void touch_shared(const Moving<Scalar, Dim>& moving, std::size_t first, std::size_t end) {
-        auto& shared = nearby.shared();
-        const int place = shared[first].place;
-        Touched touched{place, moving.x.vector(place), moving.v.vector(place), 0, first, end};
-        Vector x = touched.x, v = touched.v;
-        if (std::exchange(shared[first].old, false)) {
-            for (std::size_t k = first; k < end; ++k) {
-                auto& pair = shared[k];
-                const auto& body = *bodies[static_cast<std::size_t>(pair.body)];
-                pair.x = x - penalty.h * v;
-                pair.depth = body.depth(pair.x, body.motion.now, pair.normal);
+    Body<Scalar, Dim>& body_of(int b) { return *bodies[static_cast<std::size_t>(b)]; }
+    /// Where near particles go without contact, and which of them touch.
+    void look(Body<Scalar, Dim>& body, const Moving<Scalar, Dim>& moving) {
+        auto& pairs = body.near_pairs;
+        auto& touching = body.touching;
+        touching.begin(pairs.size);
+        pairs.again.clear();
+        const Access x = pairs.next.x(), old = pairs.now.x();
+        moving.x.gather(pairs.place.data(), pairs.size, x);
+        body.query(x, pairs.size, body.motion.next, pairs.next.depth(), pairs.next.normal());
+        const Vector gone = body.motion.next.position - body.motion.now.position;
+        const Scalar quick = body.quick();
+        const Register zero(Scalar(0)), one(Scalar(1)), quick2(quick * quick);
+        for (Index at = 0; at < pairs.size; at += Register::width) {
+            Register::load(pairs.now.cap() + at).store(pairs.next.cap() + at);
+            const Register depth =
+                where_less(zero, Register::load(pairs.mass.data() + at),
+                           Register::load(pairs.next.depth() + at), Register(Scalar(-1)));
+            depth.store(pairs.next.depth() + at);
+            Register way2 = zero;
+            for (int d = 0; d < Dim; ++d) {
+                const Register went = x.row(d, at) - Register(gone[d]) - old.row(d, at);
+                way2 += went * went;
+            }
+            Register meets = larger(Register::load(pairs.now.depth() + at), depth);
+            if (largest_lane(way2 - quick2) > 0) meets = along(body, at, meets);
+            if (!(largest_lane(meets) > 0)) continue;
+            const Index k = touching.count * Register::width;
+            touching.first[touching.count++] = static_cast<int>(at);
+            where_less(zero, meets, one, zero).store(touching.pushed() + k);
+            if (pairs.mixed[at / Register::width] == 0) continue;
+            for (int lane = 0; lane < Register::width; ++lane) {
+                const int several = pairs.several[at + lane];
+                if (several >= 0 && touching.pushed()[k + lane] > 0 && ++meets_[several] == 2)
+                    queue_.push_back(several);
             }
         }
-        if (solve_(bodies, &shared[first], end - first, penalty, x, v, touched.work)) {
-            set(moving, place, x, v);
-            touched.work *= mass[place];
-            for (std::size_t k = first; k < end; ++k) old_pairs_.push_back(shared[k]);
-            touched_.push_back(touched);
+    }
+    /// > 0 where a register of pairs touches, on its way, too.
+    static Register along(Body<Scalar, Dim>& body, Index at, const Register& meets) {
+        auto& pairs = body.near_pairs;
+        detail::Few<Scalar, Register::width> lanes;
+        meets.store(lanes.data());
+        for (int lane = 0; lane < Register::width; ++lane) {
+            const Index k = at + lane;
+            if (lanes[lane] > 0 || !(pairs.mass[k] > 0)) continue;
+            if (body.meets(pairs.now.x().vector(k), pairs.next.x().vector(k))) lanes[lane] = 1;
         }
-        for (std::size_t k = first; k < end; ++k) {
-            auto& pair = shared[k];
-            const auto& body = *bodies[static_cast<std::size_t>(pair.body)];
-            pair.x = x;
-            pair.depth = body.depth(x, body.motion.next, pair.normal);
-            if (!(pair.depth > pair.cap / 16)) pair.cap = std::numeric_limits<Scalar>::infinity();
-            touching.see(pair.depth);
+        return Register::load(lanes.data());
+    }
+    /// Those that this body alone touches.
+    void push_alone(int b, const Moving<Scalar, Dim>& moving) {
+        Body<Scalar, Dim>& body = body_of(b);
+        auto& pairs = body.near_pairs;
+        auto& touching = body.touching;
+        if (touching.count == 0) return;
+        Index several = 0;  // registers with such
+        for (Index t = 0; t < touching.count; ++t) {
+            const Index k = t * Register::width, at = touching.first[t];
+            const int* place = pairs.place.data() + at;
+            moving.v.gather(place, Register::width, touching.v().beyond(k));
+            for (int d = 0; d < Dim; ++d) pairs.next.x().row(d, at).store(&touching.x()(d, k));
+            if (pairs.mixed[at / Register::width] == 0) continue;
+            ++several;
+            for (int lane = 0; lane < Register::width; ++lane) {
+                const int particle = pairs.several[at + lane];
+                if (particle >= 0 && meets_[particle] > 1) touching.pushed()[k + lane] = 0;
+            }
         }
+        push(body, penalty, moving.ahead);
+        body.query(touching.end(), touching.count * Register::width, body.motion.next,
+                   touching.depth(), touching.normal());
+        for (Index t = 0; t < touching.count; ++t) {
+            settle(pairs, touching, t);
+        }
+        touching.list_pushed(pairs.place);
+        moving.scatter(touching);
+        for (Index j = 0; several > 0 && j < touching.pushed_count; ++j) {
+            const int particle = pairs.several[touching.at[j]];
+            if (particle < 0) continue;
+            pushed_by_[particle] = {b, touching.row[j]};
+            nearby.each_link(particle, [&](const Link& link) {
+                if (link.body != b) body_of(link.body).near_pairs.again.push_back(link.pair);
+            });
+        }
+    }
+    /// A register of pairs at the end of the step.
+    static void settle(NearPairs<Scalar, Dim>& pairs, Touching<Scalar, Dim>& touching, Index t) {
+        const Index k = t * Register::width, at = touching.first[t];
+        const Register zero(Scalar(0)), pushed = Register::load(touching.pushed() + k);
+        const auto take = [&](const Scalar* from, Scalar* to) {
+            where_less(zero, pushed, Register::load(from), Register::load(to)).store(to);
+        };
+        for (int d = 0; d < Dim; ++d) {
+            take(&touching.end()(d, k), &pairs.next.x()(d, at));
+            take(&touching.normal()(d, k), &pairs.next.normal()(d, at));
+        }
+        take(touching.depth() + k, pairs.next.depth() + at);
+        const Register cap = Register::load(pairs.next.cap() + at);
+        const Register infinity(std::numeric_limits<Scalar>::infinity());
+        // φ does not change by that: it is the same on this side of p₁.
+        where_less(cap * Register(Scalar(1) / 16), Register::load(pairs.next.depth() + at), cap,
+                   where_less(zero, pushed, infinity, cap))
+            .store(pairs.next.cap() + at);
+    }
+    /// A pair at the end of the step.
+    static void settle(NearPairs<Scalar, Dim>& pairs, int pair, const Vector& x,
+                       const Vector& normal, Scalar depth) {
+        pairs.next.x().set(pair, x);
+        pairs.next.normal().set(pair, normal);
+        pairs.next.depth()[pair] = depth;
+        const Scalar cap = pairs.now.cap()[pair];
+        pairs.next.cap()[pair] = depth > cap / 16 ? cap : std::numeric_limits<Scalar>::infinity();
+    }
+    /// Pairs whose particle another body has pushed: where they are now.
+    void look_again(Body<Scalar, Dim>& body, const Moving<Scalar, Dim>& moving) {
+        auto& pairs = body.near_pairs;
+        const auto count = static_cast<Index>(pairs.again.size());
+        if (count == 0) return;
+        const Index size = (count + Register::width - 1) / Register::width * Register::width;
+        pairs.again.resize(size, pairs.again[0]);
+        again_.begin(size);
+        for (Index k = 0; k < size; ++k) again_.first[k] = pairs.place[pairs.again[k]];
+        moving.x.gather(again_.first.data(), size, again_.x());
+        body.query(again_.x(), size, body.motion.next, again_.depth(), again_.normal());
+        const Scalar quick = body.quick();
+        const Vector gone = body.motion.next.position - body.motion.now.position;
+        for (Index k = 0; k < count; ++k) {
+            const int pair = pairs.again[k];
+            const Vector x = again_.x().vector(k), from = pairs.now.x().vector(pair);
+            settle(pairs, pair, x, again_.normal().vector(k), again_.depth()[k]);
+            const bool fast = (x - from - gone).squaredNorm() > quick * quick;
+            if (again_.depth()[k] > 0 || (fast && body.meets(from, x)))
+                queue_.push_back(pairs.several[pair]);
+        }
+    }
+    /// One that several bodies touch.
+    void solve(int several, const Moving<Scalar, Dim>& moving) {
+        if (std::exchange(meets_[several], -1) < 0) return;
+        pairs_.clear();
+        nearby.each_link(several,
+                         [&](const Link& link) { pairs_.push_back(nearby.pair(bodies, link)); });
+        const int place = pairs_.front().place;
+        Solved solved{place, moving.x.vector(place), moving.v.vector(place), 0};
+        const Link by = pushed_by_[several];
+        if (by.body >= 0) {
+            auto& touching = body_of(by.body).touching;
+            touching.pushed()[by.pair] = 0;
+            solved.x = touching.x().vector(by.pair);
+            solved.v = touching.v().vector(by.pair);
+        }
+        Vector x = solved.x, v = solved.v;
+        solve_(bodies, pairs_.data(), pairs_.size(), penalty, x, v, solved.work);
+        moving.set(place, x, v);
+        solved.work *= mass[place];
+        solved_.push_back(solved);
+        nearby.each_link(several, [&](const Link& link) {
+            auto& body = body_of(link.body);
+            Vector normal;
+            const Scalar depth = body.depth(x, body.motion.next, normal);
+            settle(body.near_pairs, link.pair, x, normal, depth);
+        });
     }
     void stop(const Access& v, const SharedPair<Scalar, Dim>& pair) {
         const auto& body = *bodies[static_cast<std::size_t>(pair.body)];
@@ -183,8 +277,13 @@ private:
 
     ParticleSolve<Scalar, Dim> solve_;
     Buffer<Scalar> old_;  // planes, m
-    std::vector<Touched> touched_;
-    std::vector<SharedPair<Scalar, Dim>> old_pairs_;  // of these, without contact
+    // Of a step; of particles near several bodies:
+    Buffer<int> meets_;       // how many they meet without contact, or −1: they are solved
+    Buffer<Link> pushed_by_;  // a pair of a body's touching, if one pushed it
+    Buffer<int> queue_;       // to be solved by themselves
+    Touching<Scalar, Dim> again_;
+    std::vector<SharedPair<Scalar, Dim>> pairs_;
+    std::vector<Solved> solved_;
 };
 
 }  // namespace taut::contact_detail

@@ -34,7 +34,6 @@ template <class Scalar>
 struct Penalty {
     Scalar h;        // s
     Scalar by_mass;  // κ/m, 1/s²
-    Scalar ahead;    // s, by which springs see x ahead
 
     /// ½h²κ/m.
     Scalar block() const { return h * h * by_mass / 2; }
@@ -64,8 +63,7 @@ template <class Scalar, int Dim>
 class PlaneAccess {
 public:
     using Register = step_detail::VectorRegister<Scalar>;
-    template <class Real>
-    using Vectors = detail::Few<Real, Dim>;
+    using Vector = Eigen::Matrix<Scalar, Dim, 1>;
 
     PlaneAccess(const step_detail::Layout<Scalar>& layout,
                 const step_detail::Planes<Scalar>& planes)
@@ -76,12 +74,12 @@ public:
     PlaneAccess(Scalar* first, Index axis) : first_(first), axis_(axis), grain_(1) {}
 
     Scalar& operator()(int d, Index place) const { return first_[d * axis_ + place * grain_]; }
-    Eigen::Matrix<Scalar, Dim, 1> vector(Index place) const {
-        Eigen::Matrix<Scalar, Dim, 1> result;
+    Vector vector(Index place) const {
+        Vector result;
         for (int d = 0; d < Dim; ++d) result[d] = (*this)(d, place);
         return result;
     }
-    void set(Index place, const Eigen::Matrix<Scalar, Dim, 1>& to) const {
+    void set(Index place, const Vector& to) const {
         for (int d = 0; d < Dim; ++d) (*this)(d, place) = to[d];
     }
     /// Those from a place on.
@@ -91,11 +89,35 @@ public:
         for (int k = 0; k < Register::width; ++k) lanes[k] = (*this)(d, place + k);
         return Register::load(lanes.data());
     }
-    EIGEN_ALWAYS_INLINE void set_row(int d, Index place, const Register& to) const {
-        if (grain_ == 1) return to.store(first_ + d * axis_ + place);
-        detail::Few<Scalar, Register::width> lanes;
-        to.store(lanes.data());
-        for (int k = 0; k < Register::width; ++k) (*this)(d, place + k) = lanes[k];
+    /// Copies those at `count` places to planes side by side.
+    void gather(const int* places, Index count, const PlaneAccess& to) const {
+        for (int d = 0; d < Dim; ++d) {
+            const Scalar* from = first_ + d * axis_;
+            Scalar* row = to.first_ + d * to.axis_;
+            if (grain_ == 1) {
+                for (Index k = 0; k < count; ++k) row[k] = from[places[k]];
+            } else {
+                for (Index k = 0; k < count; ++k) row[k] = from[places[k] * grain_];
+            }
+        }
+    }
+    /// The other way, from `count` of them.
+    void scatter(const int* places, const int* rows, Index count, const PlaneAccess& from) const {
+        for (int d = 0; d < Dim; ++d) {
+            Scalar* to = first_ + d * axis_;
+            const Scalar* row = from.first_ + d * from.axis_;
+            if (grain_ == 1) {
+                for (Index k = 0; k < count; ++k) to[places[k]] = row[rows[k]];
+            } else {
+                for (Index k = 0; k < count; ++k) to[places[k] * grain_] = row[rows[k]];
+            }
+        }
+    }
+    /// From a place on.
+    PlaneAccess beyond(Index place) const {
+        PlaneAccess result = *this;
+        result.first_ += place * grain_;
+        return result;
     }
 
 private:
@@ -107,11 +129,6 @@ private:
 template <class Scalar, int most>
 EIGEN_ALWAYS_INLINE Scalar largest_lane(const step_detail::VectorRegister<Scalar, most>& a) {
     return Eigen::internal::predux_max(a.packet);
-}
-
-template <class Scalar, int most>
-EIGEN_ALWAYS_INLINE Scalar sum_of_lanes(const step_detail::VectorRegister<Scalar, most>& a) {
-    return Eigen::internal::predux(a.packet);
 }
 
 /// M y of vectors, a lane each.

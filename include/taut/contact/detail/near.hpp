@@ -22,6 +22,11 @@ struct KnownPair {
     }
 };
 
+/// A pair of a body's near_pairs.
+struct Link {
+    int body, pair;
+};
+
 /// Which particles are near which bodies, and for how long that holds: a list is of those within a
 /// margin, and every other one knows how far it was from the nearest body that does not list it.
 template <class Scalar, int Dim>
@@ -34,8 +39,6 @@ public:
 
     using Register = step_detail::VectorRegister<Scalar>;
 
-    std::vector<Pair>& shared() { return shared_; }
-    const std::vector<Pair>& shared() const { return shared_; }
     void clear() { built_ = false; }
     bool built() const { return built_; }
 
@@ -51,22 +54,25 @@ public:
     /// visit(pair) for every listed pair with p > 0, by the end of the last step.
     template <class Visitor>
     void each_touching(const Bodies& bodies, Visitor&& visit) const {
-        for (std::size_t b = 0; b < bodies.size(); ++b) {
-            const auto& solo = bodies[b]->solo;
-            for (Index k = 0; k < solo.blocks * Register::width; ++k) {
-                if (!(solo.depth[k] > 0)) continue;
-                Pair pair{solo.place(k), static_cast<int>(b), {}, {},
-                          solo.depth[k], solo.cap[k],         0,  false};
-                for (int d = 0; d < Dim; ++d) {
-                    pair.x[d] = solo.x[d][k];
-                    pair.normal[d] = solo.normal[d][k];
-                }
-                visit(pair);
+        for (int b = 0; b < static_cast<int>(bodies.size()); ++b) {
+            auto& pairs = bodies[static_cast<std::size_t>(b)]->near_pairs;
+            for (int k = 0; k < static_cast<int>(pairs.count); ++k) {
+                if (pairs.now.depth()[k] > 0) visit(pair(bodies, {b, k}));
             }
         }
-        for (const Pair& pair : shared_) {
-            if (pair.depth > 0) visit(pair);
-        }
+    }
+    Pair pair(const Bodies& bodies, const Link& link) const {
+        auto& pairs = bodies[static_cast<std::size_t>(link.body)]->near_pairs;
+        return {pairs.place[link.pair],          link.body,
+                pairs.now.x().vector(link.pair), pairs.now.normal().vector(link.pair),
+                pairs.now.depth()[link.pair],    pairs.now.cap()[link.pair]};
+    }
+    /// Particles that are near several bodies.
+    Index several() const { return several_; }
+    /// visit(link) for each pair of one of them, by body.
+    template <class Visitor>
+    void each_link(int several, Visitor&& visit) const {
+        for (int l = first_link_[several]; l < first_link_[several + 1]; ++l) visit(links_[l]);
     }
     /// Lists what is near bodies at motion.next.
     /// @param known      of what touches there
@@ -85,9 +91,8 @@ public:
         for (std::size_t b = 0; b < bodies.size(); ++b) {
             found_[b].clear();
             look_at_clusters(*bodies[b], 2 * margin);
-            depth_.resize(static_cast<Index>(close_.size()) * Register::width);
-            bodies[b]->depths(x, close_, bodies[b]->motion.next, depth_.data());
-            const Scalar* depth = depth_.data();
+            look_closely(*bodies[b], x);
+            const Scalar* depth = rows_.depth();
             for (const int i : close_) {
                 const Register away = -Register::load(depth);
                 const Register slack = Register::load(slack_.data() + i);
@@ -111,33 +116,9 @@ public:
             const Register all(cluster_slack_[i / Register::width]);
             where_less(all, slack, all, slack).store(slack_.data() + i);
         }
-        shared_.clear();
-        for (std::size_t b = 0; b < bodies.size(); ++b) {
-            Body<Scalar, Dim>& body = *bodies[b];
-            int end = -1;  // of the last block
-            body.solo.blocks = 0;
-            for (const int place : found_[b]) {
-                Pair pair{place, static_cast<int>(b), x.vector(place), {}, 0, infinity, 0, false};
-                pair.depth = body.depth(pair.x, body.motion.next, pair.normal);
-                pair.room = -pair.depth;
-                if (pair.depth > 0 && !was_outside(known, pair)) {
-                    pair.cap = push_time * static_cast<Scalar>(body.options.push_out);
-                }
-                if (near_[place] > 1) {
-                    shared_.push_back(pair);
-                    continue;
-                }
-                if (place >= end) {
-                    const int first = place / Register::width * Register::width;
-                    end = first + Register::width;
-                    add_block(body.solo, first, x);
-                }
-                set(body.solo, body.solo.blocks * Register::width + place - end, pair, mass[place]);
-            }
-        }
-        std::sort(shared_.begin(), shared_.end(), [](const Pair& a, const Pair& b) {
-            return a.place != b.place ? a.place < b.place : a.body < b.body;
-        });
+        list_several(count);
+        for (std::size_t b = 0; b < bodies.size(); ++b)
+            fill(*bodies[b], static_cast<int>(b), known, mass, x, push_time);
         for (int d = 0; d < Dim; ++d) {
             x_[d].resize(padded);
             for (Index i = 0; i < count; i += Register::width) x.row(d, i).store(x_[d].data() + i);
@@ -153,11 +134,9 @@ public:
     void go_to(const Bodies& bodies, Scalar time) {
         if (!built_) return;
         moved_ = 0;
-        moves_.resize(bodies.size());
         gone_ = (time - time_) * drift_;
         for (std::size_t b = 0; b < bodies.size(); ++b) {
-            moves_[b] = bodies[b]->reach(at_[b], bodies[b]->motion.next, gone_);
-            moved_ = (std::max)(moved_, moves_[b]);
+            moved_ = (std::max)(moved_, bodies[b]->reach(at_[b], bodies[b]->motion.next, gone_));
         }
         moved_ = (std::min)(moved_, (std::numeric_limits<Scalar>::max)());
     }
@@ -180,31 +159,49 @@ public:
         const Register room = larger(Register::load(slack_.data() + i) - Register(moved_), zero);
         return way2 - room * room;
     }
-    /// The same of one particle, by place.
-    bool holds_of(const Access& x, int place) const {
-        const Scalar room = (std::max)(slack_[place] - moved_, Scalar(0));
-        return way2(x, place) < room * room;
-    }
-    /// Whether a particle has met none of the bodies that list it, by what was when they did.
-    /// @param pairs  all of the particle
-    bool away(const Access& x, const Pair* pairs, std::size_t count) const {
-        const Scalar way = way2(x, pairs->place);
-        for (std::size_t k = 0; k < count; ++k) {
-            const Scalar room = pairs[k].room - moves_[static_cast<std::size_t>(pairs[k].body)];
-            if (pairs[k].depth > 0 || !(room > 0) || !(way < room * room)) return false;
-        }
-        return true;
-    }
 
 private:
-    /// The square of how far a particle has gone beside the drift, m².
-    Scalar way2(const Access& x, int place) const {
-        Scalar sum = 0;
-        for (int d = 0; d < Dim; ++d) {
-            const Scalar way = x(d, place) - x_[d][place] - gone_[d];
-            sum += way * way;
+    /// Numbers those that are near several bodies, in the place of how many.
+    void list_several(Index count) {
+        several_ = 0;
+        first_link_.clear();
+        int links = 0;
+        for (Index i = 0; i < count; ++i) {
+            const int bodies = near_[i];
+            near_[i] = -1;
+            if (bodies < 2) continue;
+            first_link_.push_back(links);
+            near_[i] = static_cast<int>(several_++);
+            links += bodies;
         }
-        return sum;
+        first_link_.push_back(links);
+        links_.resize(links);
+        filled_.assign(several_, 0);
+    }
+    void fill(Body<Scalar, Dim>& body, int b, const std::vector<KnownPair>& known,
+              const Buffer<Scalar>& mass, const Access& x, Scalar push_time) {
+        NearPairs<Scalar, Dim>& pairs = body.near_pairs;
+        const Buffer<int>& found = found_[static_cast<std::size_t>(b)];
+        pairs.begin(static_cast<Index>(found.size()));
+        for (int k = 0; k < static_cast<int>(pairs.count); ++k) {
+            const int place = pairs.place[k] = found[k], several = near_[place];
+            pairs.mass[k] = mass[place];
+            pairs.several[k] = several;
+            if (several < 0) continue;
+            pairs.mixed[k / Register::width] = 1;
+            links_[first_link_[several] + filled_[several]++] = {b, k};
+        }
+        x.gather(pairs.place.data(), pairs.size, pairs.now.x());
+        body.query(pairs.now.x(), pairs.size, body.motion.next, pairs.now.depth(),
+                   pairs.now.normal());
+        for (Index k = 0; k < pairs.size; ++k) {
+            Scalar& depth = pairs.now.depth()[k];
+            if (!(pairs.mass[k] > 0)) depth = -1;
+            const bool gently = depth > 0 && !std::binary_search(known.begin(), known.end(),
+                                                                 KnownPair{pairs.place[k], b});
+            pairs.now.cap()[k] = gently ? push_time * static_cast<Scalar>(body.options.push_out)
+                                        : std::numeric_limits<Scalar>::infinity();
+        }
     }
 
     /// A ball around each register's worth of places.
@@ -215,9 +212,6 @@ private:
         radius_.assign(stride_, 0);
         cluster_slack_.assign(stride_, std::numeric_limits<Scalar>::infinity());
         cluster_depth_.resize(stride_);
-        every_.clear();
-        for (Index c = 0; c < clusters_; c += Register::width)
-            every_.push_back(static_cast<int>(c));
         for (Index c = 0; c < clusters_; ++c) {
             const Index first = c * Register::width;
             const Index last = (std::min)(count, first + Register::width) - 1;
@@ -233,8 +227,10 @@ private:
     }
     /// Lists the clusters that may be within `reach` of a body, m, and how far the others are.
     void look_at_clusters(const Body<Scalar, Dim>& body, Scalar reach) {
-        body.depths(Access(centre_.data(), stride_), every_, body.motion.next,
-                    cluster_depth_.data());
+        rows_.resize(stride_);
+        const Index whole = (clusters_ + Register::width - 1) / Register::width * Register::width;
+        body.query(Access(centre_.data(), stride_), whole, body.motion.next, cluster_depth_.data(),
+                   rows_.normal());
         close_.clear();
         for (Index c = 0; c < clusters_; c += Register::width) {
             const Register away =
@@ -252,48 +248,35 @@ private:
         }
     }
 
-    static bool was_outside(const std::vector<KnownPair>& known, const Pair& pair) {
-        return std::binary_search(known.begin(), known.end(), KnownPair{pair.place, pair.body});
-    }
-    static void add_block(SoloPairs<Scalar, Dim>& solo, int first, const Access& x) {
-        const Index at = solo.blocks++ * Register::width, size = at + Register::width;
-        solo.first.resize(solo.blocks, first);
-        solo.first[solo.blocks - 1] = first;
-        for (auto* of : {&solo.depth, &solo.cap, &solo.mass}) of->resize(size, Scalar(0));
-        Register(Scalar(-1)).store(solo.depth.data() + at);
-        Register(std::numeric_limits<Scalar>::infinity()).store(solo.cap.data() + at);
-        Register(Scalar(0)).store(solo.mass.data() + at);
-        for (int d = 0; d < Dim; ++d) {
-            solo.x[d].resize(size, Scalar(0));
-            solo.normal[d].resize(size, Scalar(0));
-            x.row(d, first).store(solo.x[d].data() + at);
-            Register(Scalar(0)).store(solo.normal[d].data() + at);
+    /// How deep the places of close clusters are.
+    void look_closely(const Body<Scalar, Dim>& body, const Access& x) {
+        const Index size = static_cast<Index>(close_.size()) * Register::width;
+        rows_.resize(size);
+        const Access at = rows_.x();
+        for (Index k = 0; k < size; k += Register::width) {
+            for (int d = 0; d < Dim; ++d) x.row(d, close_[k / Register::width]).store(&at(d, k));
         }
-    }
-    static void set(SoloPairs<Scalar, Dim>& solo, Index k, const Pair& pair, Scalar mass) {
-        solo.depth[k] = pair.depth;
-        solo.cap[k] = pair.cap;
-        solo.mass[k] = mass;
-        for (int d = 0; d < Dim; ++d) solo.normal[d][k] = pair.normal[d];
+        body.query(at, size, body.motion.next, rows_.depth(), rows_.normal());
     }
 
-    std::vector<Pair> shared_;        // by place
-    std::vector<Buffer<int>> found_;  // of each body
-    Buffer<Scalar> slack_;            // of each place, m
-    Buffer<Scalar> depth_;            // of close_
+    std::vector<Buffer<int>> found_;   // of each body
+    Buffer<Scalar> slack_;             // of each place, m
+    PairTable<Scalar, Dim> rows_;      // of what is looked at
+    Buffer<int> near_;                 // bodies that list a place, then its index among several_
+    Index several_ = 0;                // particles near several bodies
+    Buffer<int> first_link_, filled_;  // of each of them: its links; how many are there
+    Buffer<Link> links_;
     Index clusters_ = 0, stride_ = 0;
     Buffer<Scalar> centre_;               // planes, m
     Buffer<Scalar> radius_;               // m
     Buffer<Scalar> cluster_slack_;        // m
     Buffer<Scalar> cluster_depth_;        // of one body, m
-    Buffer<int> every_, close_;           // first clusters of registers, first places of clusters
-    Buffer<int> near_;                    // bodies that list it
+    Buffer<int> close_;                   // first places of clusters
     detail::Few<Buffer<Scalar>, Dim> x_;  // where they were, m
     std::vector<Pose<Scalar, Dim>> at_;
     Vector drift_ = Vector::Zero();
     Scalar time_ = 0;
-    Scalar moved_ = 0;      // how far a body's points have gone at most, beside the drift, m
-    Buffer<Scalar> moves_;  // of each body
+    Scalar moved_ = 0;  // how far a body's points have gone at most, beside the drift, m
     Vector gone_ = Vector::Zero();  // and that, m
     bool built_ = false;
 };

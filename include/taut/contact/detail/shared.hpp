@@ -12,7 +12,7 @@
 
 namespace taut::contact_detail {
 
-/// A particle and a body near it, at the start of a step; kept so where it is near several.
+/// A particle and a body near it, at the start of a step.
 template <class Scalar, int Dim>
 struct SharedPair {
     using Vector = Eigen::Matrix<Scalar, Dim, 1>;
@@ -23,8 +23,6 @@ struct SharedPair {
     Vector normal;  // n
     Scalar depth;   // p, m
     Scalar cap;     // p₁, m
-    Scalar room;    // how far the body was when it was listed, m
-    bool old;       // of a particle's first pair: x, normals and depths are of an earlier step
 };
 
 /// Contact of one particle with several bodies in one step: rounds of one block, m I + ½h²κ n′n′ᵀ
