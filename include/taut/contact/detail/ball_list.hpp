@@ -29,8 +29,8 @@ public:
     /// Counts those that may touch before two particles at x, Dim × n, finite, m, have moved a
     /// quarter of the widest pair towards each other. @param seen  whether the last look was there
     void list(const Points<Scalar, Dim>& x, bool seen) {
-        const Scalar near = pairs.widest() / 4;
-        if (!(near > 0)) return;
+        const Scalar within = pairs.widest() / 4;
+        if (!(within > 0)) return;
         Scalar gone = spread_.gone();
         if (listed_ && !(seen && looked_)) {
             Vector least = x.col(0) - x_.col(0), most = least;
@@ -41,14 +41,14 @@ public:
             }
             gone = (most - least).norm() / Scalar(0.98);
         }
-        const bool stale = gone > near && pairs.begin() < pairs.end();
+        const bool stale = gone > within && pairs.begin() < pairs.end();
         if (!listed_ || stale || !(2 * gone < pairs.skin())) {
             x_ = x;
             build(pairs.widest());
             looked_ = false;
             gone = 0;
         }
-        pairs.count_within(gone + near);
+        pairs.count_within(gone + within);
     }
     /// Before the first step of a try, of h, s: where it began its pairs must count, too.
     void start(const Layout& layout, const Memory& memory, Scalar h) {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <limits>
 
 #include "motion.hpp"
 
@@ -80,11 +80,11 @@ public:
         heaviest_ = 0;
         shell_.fill(0);
         if (x.cols() == 0) return;
-        const Scalar near = widest() + skin;
-        sort_into_cells(x, near * Scalar(1.01));
+        const Scalar within = widest() + skin;
+        sort_into_cells(x, within * Scalar(1.01));
         each_row([&](int begin, int end, int others, int others_end) {
             for (int p = begin; p < end; ++p)
-                find(p, others == begin ? p + 1 : others, others_end, near);
+                find(p, others == begin ? p + 1 : others, others_end, within);
         });
         sort_by_room();
     }
@@ -177,19 +177,19 @@ private:
         }
     }
     /// Lists what is near item p among others.
-    void find(int p, int begin, int end, Scalar near) {
+    void find(int p, int begin, int end, Scalar within) {
         for (int q = begin; q < end; q += Register::width) {
             Register d2(Scalar(0));
             for (int d = 0; d < Dim; ++d) {
                 const Register way = Register::load(x_[d].data() + q) - Register(x_[d][p]);
                 d2 += way * way;
             }
-            if (!(largest_lane(-d2) > -near * near)) continue;
+            if (!(largest_lane(-d2) > -within * within)) continue;
             detail::Few<Scalar, Register::width> lanes;
             d2.store(lanes.data());
             const int count = (std::min)(end - q, int(Register::width));
             for (int k = 0; k < count; ++k) {
-                if (lanes[k] < near * near) add(items_[p], items_[q + k], lanes[k]);
+                if (lanes[k] < within * within) add(items_[p], items_[q + k], lanes[k]);
             }
         }
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "ball_pairs.hpp"
 
@@ -44,15 +45,15 @@ public:
         hit_.clear();
     }
     /// Finds the kicks of all pairs that count. @param time  that the forces last, s
-    void push(const BallPairs<Scalar, Dim>& near, const Where& at, Scalar time) {
+    void push(const BallPairs<Scalar, Dim>& list, const Where& at, Scalar time) {
         for (const int i : hit_) is_hit_[i] = 0;
         hit_.clear();
         pin_work_.clear();
         const Register tiny((std::numeric_limits<Scalar>::min)());
         detail::Few<Lanes, Dim> r, y;
         Lanes apart, deep, over;
-        for (const auto* first = near.begin(); first < near.end(); first += Register::width) {
-            const int count = (std::min)(int(near.end() - first), int(Register::width));
+        for (const auto* first = list.begin(); first < list.end(); first += Register::width) {
+            const int count = (std::min)(int(list.end() - first), int(Register::width));
             for (int k = 0; k < count; ++k) {
                 const int a = at.places[first[k].a], b = at.places[first[k].b];
                 apart[k] = first[k].apart;
@@ -86,7 +87,7 @@ public:
                     n = Vector::Unit(0);
                     deep[k] = apart[k] - y[0][k];
                 }
-                push(first[k], near, at, time * first[k].stiffness * deep[k] * n);
+                push(first[k], list, at, time * first[k].stiffness * deep[k] * n);
             }
         }
     }
@@ -112,11 +113,11 @@ public:
     /// The pairs' energy, half of it for either particle; all for one beside a pin.
     /// @param x  x(i), m
     template <class Positions>
-    static void measure(const BallPairs<Scalar, Dim>& near, const Positions& x, Overlap& overlap) {
-        overlap.held.assign(near.radius.size(), 0);
+    static void measure(const BallPairs<Scalar, Dim>& list, const Positions& x, Overlap& overlap) {
+        overlap.held.assign(list.radius.size(), 0);
         overlap.energy = overlap.deepest = 0;
         overlap.touching = 0;
-        for (const auto& pair : near) {
+        for (const auto& pair : list) {
             const auto deep =
                 static_cast<double>(pair.apart - Vector(x(pair.b) - x(pair.a)).norm());
             if (!(deep > 0)) continue;
@@ -124,8 +125,8 @@ public:
             overlap.deepest = (std::max)(overlap.deepest, deep);
             const double held = static_cast<double>(pair.stiffness) * deep * deep / 2;
             overlap.energy += held;
-            overlap.held[near.inverse_mass[pair.a] > 0 ? pair.a : pair.b] += held / 2;
-            overlap.held[near.inverse_mass[pair.b] > 0 ? pair.b : pair.a] += held / 2;
+            overlap.held[list.inverse_mass[pair.a] > 0 ? pair.a : pair.b] += held / 2;
+            overlap.held[list.inverse_mass[pair.b] > 0 ? pair.b : pair.a] += held / 2;
         }
     }
 
@@ -138,10 +139,10 @@ private:
     };
 
     /// @param impulse  on b, N s
-    void push(const BallPair<Scalar>& pair, const BallPairs<Scalar, Dim>& near, const Where& at,
+    void push(const BallPair<Scalar>& pair, const BallPairs<Scalar, Dim>& list, const Where& at,
               const Vector& impulse) {
         for (const auto& [i, other, sign] : {Side{pair.a, pair.b, -1}, Side{pair.b, pair.a, 1}}) {
-            const Scalar w = near.inverse_mass[i];
+            const Scalar w = list.inverse_mass[i];
             if (!(w > 0)) {  // it is pushed, and pushes the other by as much
                 const Scalar done = -sign * impulse.dot(at.v.vector(at.places[i]));
                 if (done != 0) pin_work_.push_back({other, static_cast<double>(done)});
