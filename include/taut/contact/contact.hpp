@@ -12,14 +12,15 @@
 #include "../integrator/detail/watching.hpp"
 #include "../integrator/energy_stable_euler.hpp"
 #include "../proof/energy_limit.hpp"
+#include "detail/rigid_body.hpp"
 #include "detail/tries.hpp"
 #include "obstacle_concept.hpp"
 
 namespace taut {
 
-/// Convex bodies that move, and the particles of a SpringSystem that touch them, inside the step
-/// [T39]: contact takes nothing off the certified step, however stiff it is, and the energy of a
-/// scene rises by no more than the work of the bodies.
+/// Bodies that move, and the particles of a SpringSystem that touch them, inside the step, convex
+/// ones [T39] and others [T40]: contact takes nothing off the certified step, however stiff it is,
+/// and the energy of a scene rises by no more than the work of the bodies.
 ///
 ///     taut::Contacts contacts(cloth);
 ///     const auto ball = contacts.add(taut::Sphere<float, 3>({0, 0, 0}, 0.3f));
@@ -39,7 +40,10 @@ public:
     explicit Contacts(const System&&) = delete;
 
     /// @param shape  in the body's frame: HalfSpace, Sphere, Capsule, Box, or a class of yours with
-    ///               `Surface surface(point) const` of a convex body, which is asked point by point
+    ///               `Surface surface(point) const`, which is asked point by point. If it is not
+    ///               convex it says `static constexpr bool convex = false`, and then point −
+    ///               distance·normal should be a nearest point of the surface: where it is none, as
+    ///               in a corner of what has a thickness, a particle may stick [T40]
     /// @returns the body's index
     /// Fails by name unless options and pose are in range.
     template <class Obstacle>
@@ -54,9 +58,9 @@ public:
     /// line and about one axis. However far: what is in its way is pushed, not passed. Fails by
     /// name unless the pose is finite and its rotation one.
     void move_to(Index body, const Place& pose) {
-        if (body < 0 || body >= static_cast<Index>(step_.bodies.size()))
+        if (body < 0 || body >= static_cast<Index>(rigid_.size()))
             fail("Contacts::move_to: there is no body ", body);
-        step_.bodies[static_cast<std::size_t>(body)]->end = rigid("Contacts::move_to", pose);
+        rigid_[static_cast<std::size_t>(body)]->end = rigid("Contacts::move_to", pose);
     }
 
     /// κ of a particle over its mass, 1/s²: how stiff contact is. It costs no step [T39].
@@ -93,7 +97,18 @@ public:
     /// How often what is near was looked up anew.
     Index lookups() const { return step_.lookups; }
 
-    // What follows is for steppers.
+    /// The system whose particles these are.
+    const System& system() const { return *system_; }
+
+    // What follows is for steppers and for sets that particles are kept in.
+
+    /// Adds what is asked like a body.
+    void keep(std::unique_ptr<contact_detail::Body<Scalar, Dim>> body) {
+        step_.bodies.push_back(std::move(body));
+        edited();
+    }
+    /// What touches holds more energy, or less, from now on.
+    void edited() { settled_x_.resize(Dim, 0); }
 
     /// First in a frame. @returns φ of each particle, J: at `state`, later at the end of the last
     /// try, and then of what was chosen
@@ -101,6 +116,7 @@ public:
         renew();
         tries_ = 0;
         begun_.clear();
+        for (const auto& body : step_.bodies) body->open(state);
         if (settled_x_.cols() == state.x.cols() && settled_x_ == state.x) {
             begun_ = settled_.known;
             held_ = settled_.energy;
@@ -108,7 +124,7 @@ public:
         }
         held_.assign(system_->size(), 0);
         for (Index i = 0; i < (std::min)(system_->size(), Index(state.x.cols())); ++i)
-            held_[i] = energy_at(i, state.x.col(i), &Body::begin);
+            held_[i] = energy_at(i, state.x.col(i), false);
         return held_;
     }
     /// The first, or another, try of a frame of `count` steps of h, s.
@@ -126,15 +142,13 @@ public:
         const Scalar frame = h * static_cast<Scalar>(count);
         drift_ = Vector::Zero();
         for (const auto& body : step_.bodies) {
-            body->motion.go_to(body->begin);
-            body->way = {body->begin, body->end};
-            drift_ += (body->end.position - body->begin.position) /
-                      (frame * static_cast<Scalar>(step_.bodies.size()));
+            const Vector way = body->start(frame);
+            drift_ += way / (frame * static_cast<Scalar>(step_.bodies.size()));
         }
         // Far enough for some part of a frame in which bodies hurry, and a short list where not.
         Scalar most = 0;
         for (const auto& body : step_.bodies)
-            most = (std::max)(most, body->reach(body->begin, body->end, frame * drift_));
+            most = (std::max)(most, body->frame_reach(frame * drift_));
         margin_ = (std::min)((std::max)(most / 8, Scalar(0.004)), Scalar(0.01));
     }
     /// After all its steps. @returns the work on each particle, J
@@ -164,7 +178,7 @@ public:
     /// Particle i stays at x, where the frame began, m.
     void stay(Index i, const Vector& x) {
         work_[i] = 0;
-        held_[i] = energy_at(i, x, &Body::end);
+        held_[i] = energy_at(i, x, true);
         const auto of_it = [&](const auto& pair) { return pair.at == i; };
         known_.erase(std::remove_if(known_.begin(), known_.end(), of_it), known_.end());
     }
@@ -174,7 +188,7 @@ public:
         settled_.energy = held_;
         settled_.known = known_;
         settled_x_ = state.x;
-        for (const auto& body : step_.bodies) body->begin = body->end;
+        for (const auto& body : step_.bodies) body->settle();
     }
 
     /// The state between two steps.
@@ -201,7 +215,7 @@ public:
         ++passed_;
         const Scalar share = static_cast<Scalar>(passed_) / static_cast<Scalar>(count_);
         const Scalar time = static_cast<Scalar>(passed_) * step_.penalty.h;
-        for (const auto& body : step_.bodies) body->motion.go_to(body->way(share));
+        for (const auto& body : step_.bodies) body->go_to(share);
         step_.nearby.go_to(step_.bodies, time);
         // What ends within reach, began so: it has met no body that does not list it.
         bool listed = step_.nearby.built();
@@ -222,18 +236,16 @@ public:
     }
 
 private:
-    using Body = contact_detail::Body<Scalar, Dim>;
-
     template <class Obstacle>
     Index add_body(Obstacle&& shape, const BodyOptions& options, const Place& pose) {
         require_non_negative("Contacts::add", "friction", options.friction);
         require_held<Scalar>("Contacts::add", "thickness", options.thickness);
         require_positive("Contacts::add", "push_out", options.push_out);
         using Own = contact_detail::BodyOf<Scalar, Dim, Obstacle>;
-        step_.bodies.push_back(
-            std::make_unique<Own>(std::move(shape), options, rigid("Contacts::add", pose)));
-        settled_x_.resize(Dim, 0);
-        return static_cast<Index>(step_.bodies.size()) - 1;
+        auto body = std::make_unique<Own>(std::move(shape), options, rigid("Contacts::add", pose));
+        rigid_.push_back(body.get());
+        keep(std::move(body));
+        return static_cast<Index>(rigid_.size()) - 1;
     }
     /// The pose with the nearest rotation: what is rigid but for rounding would do work far from
     /// the body's origin.
@@ -269,18 +281,15 @@ private:
         }
         step_.known = begun_;
         for (auto& pair : step_.known) pair.at = places[pair.at];
+        for (const auto& body : step_.bodies) body->know(places);
         std::sort(step_.known.begin(), step_.known.end());
     }
-    /// φ of a particle that comes new to x, m, where bodies are at a pose, J.
-    double energy_at(Index i, const Vector& x, Place Body::*pose) const {
+    /// φ of a particle that comes new to x, m, at the begin or end of a frame, J.
+    double energy_at(Index i, const Vector& x, bool end) const {
         double sum = 0;
         if (system_->is_pinned(i)) return sum;
-        for (const auto& body : step_.bodies) {
-            Vector normal;
-            const Scalar cap = longest_ * static_cast<Scalar>(body->options.push_out);
-            sum +=
-                step_.penalty.energy(body->depth(x, (*body).*pose, normal), cap, system_->mass(i));
-        }
+        for (const auto& body : step_.bodies)
+            sum += body->energy(step_.penalty, longest_, i, x, system_->mass(i), end);
         return sum;
     }
     static double sum(const Buffer<double>& of) {
@@ -294,6 +303,7 @@ private:
     Scalar longest_ = 0;          // step of energy_limit, but at most 0.01, s
     Scalar set_ = 0;              // κ/m, 1/s², if > 0
     contact_detail::ContactStep<Scalar, Dim> step_;
+    std::vector<contact_detail::RigidBody<Scalar, Dim>*> rigid_;  // of its bodies
     // Of a try.
     int tries_ = 0;
     step_detail::StepWatch<Scalar, Dim>* books_ = nullptr;

@@ -16,6 +16,16 @@ using distance_of = number_of<decltype(std::declval<Surface>().distance), Scalar
 template <class Surface, class Vector>
 using normal_of = number_of<decltype(std::declval<Surface>().normal), Vector>;
 
+/// Whether a shape is convex: unless it says `static constexpr bool convex = false`.
+template <class Obstacle>
+constexpr bool is_convex() {
+    if constexpr (is_detected_v<convex_of, Obstacle>) {
+        return Obstacle::convex;
+    } else {
+        return true;
+    }
+}
+
 /// What an obstacle has of the Obstacle concept.
 template <class Obstacle, class Vector, bool = is_detected_v<surface_of, Obstacle, Vector>>
 struct ObstacleHas {

@@ -2,12 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <limits>
-#include <utility>
-
-#include "../../core/concepts.hpp"
-#include "../obstacle.hpp"
+#include "../../network/state.hpp"
 #include "near_pairs.hpp"
 
 namespace taut {
@@ -21,7 +16,8 @@ struct BodyOptions {
 
 namespace contact_detail {
 
-/// A convex body.
+/// What particles are kept out of, a rigid body, or sets that single ones are kept in. It moves in
+/// a frame by the share of that which has passed; motion is from step to step.
 template <class Scalar, int Dim>
 class Body {
 public:
@@ -29,134 +25,58 @@ public:
     using Place = Pose<Scalar, Dim>;
     using Access = PlaneAccess<Scalar, Dim>;
 
-    Body(const BodyOptions& how, const Place& pose) : options(how), begin(pose), end(pose) {
-        motion.now = motion.next = pose;
-    }
+    Body(const BodyOptions& how, bool is_convex)
+        : options(how), convex(is_convex), alone(is_convex) {}
     virtual ~Body() = default;
 
-    /// In the body's frame.
-    virtual Surface<Scalar, Dim> surface(const Vector& y) const = 0;
-    virtual Scalar extent() const = 0;
-    virtual Scalar inner() const = 0;
-    /// p, m, and n in the world of `count` points, in whole registers, at a pose.
-    /// @param x, normal  planes side by side
-    virtual void query(const Access& x, Index count, const Place& pose, Scalar* depth,
+    /// p of the particle at a place, m, where a step begins, or ends. @param normal  gets n
+    virtual Scalar depth(int place, const Vector& x, bool end, Vector& normal) const = 0;
+    /// p, m, and n of `count` points, in whole registers, where a step ends.
+    /// @param place  of the particle at each of them   @param x, normal  planes side by side
+    virtual void query(const int* place, const Access& x, Index count, Scalar* depth,
                        const Access& normal) const = 0;
-
-    Scalar thickness() const { return static_cast<Scalar>(options.thickness); }
-    /// p, m. @param normal  in the world
-    Scalar depth(const Vector& x, const Place& pose, Vector& normal) const {
-        const Surface<Scalar, Dim> found = surface(pose.inside(x));
-        normal = pose.rotation * found.normal;
-        return thickness() - found.distance;
-    }
-
-    /// A way in a step, in the body's frame, that is not longer cannot go through the body unseen:
-    /// at most a 32nd of its smallest radius is cut off, m.
-    Scalar short_way() const { return (inner() + thickness()) / 2; }
-    /// The same beside the body's position: what is farther away turns with it, m.
-    Scalar quick() const {
-        if (!detail::is_finite(short_way())) return short_way();
-        const Scalar turned = (motion.turn - Place::Rotation::Identity()).norm();
-        const Scalar by_turn = turned > 0 ? 2 * turned * extent() : Scalar(0);
-        return (std::max)(short_way() - by_turn, Scalar(0));
-    }
-    /// Whether the way of a particle in the step meets the body; never of a short way.
+    /// φ of a particle at x that begins there, where a frame begins, or ends, J.
+    virtual double energy(const Penalty<Scalar>& penalty, Scalar push_time, Index particle,
+                          const Vector& x, Scalar mass, bool end) const = 0;
+    /// Where the motion of the step carries what is at x and at rest in the body; or whence.
+    /// @param normal  n, gets n′
+    virtual Vector carry(int place, const Vector& x, Vector& normal, bool back) const = 0;
+    /// Whether a particle meets it on its way in the step; never of a way in it that is not longer
+    /// than quick().
     /// @param from, to  in the world, where the step begins and ends, m
-    bool meets(const Vector& from, const Vector& to) const {
-        Vector a = motion.now.inside(from), b = motion.next.inside(to);
-        Scalar length = (b - a).norm();
-        if (!(length > short_way())) return false;
-        // The distance is convex along the way, and changes no faster than that goes.
-        const auto away = [&](const Vector& y) { return surface(y).distance - thickness(); };
-        Scalar at_a = away(a), at_b = away(b);
-        while (at_a > 0 && at_b > 0 && at_a + at_b < length) {
-            const Vector left = a + (b - a) * Scalar(0.45), right = a + (b - a) * Scalar(0.55);
-            const Scalar at_left = away(left), at_right = away(right);
-            if (!(at_left > 0) || !(at_right > 0)) return true;
-            if (at_left < at_right) {
-                b = right;
-                at_b = at_right;
-            } else {
-                a = left;
-                at_a = at_left;
-            }
-            if (!((b - a).norm() < length)) return false;
-            length = (b - a).norm();
-        }
-        return !(at_a > 0) || !(at_b > 0);
-    }
+    virtual bool meets(int place, const Vector& from, const Vector& to) const = 0;
+    virtual Scalar quick() const = 0;
+    /// How far it goes in the step, without turning, m.
+    virtual Vector gone() const = 0;
+    /// Pushes those that it alone touches. @param ahead  s, as in Moving
+    virtual void push(const Penalty<Scalar>&, Scalar) {}
 
-    /// How far a point of it goes at most between two poses, beside a way of everything, m.
-    Scalar reach(const Place& from, const Place& to, const Vector& beside) const {
-        const Scalar turned = (to.rotation - from.rotation).norm();
-        return (to.position - from.position - beside).norm() +
-               (turned > 0 ? turned * extent() : Scalar(0));
-    }
+    /// A frame is to begin so.
+    virtual void open(const State<Scalar, Dim>&) {}
+    /// At which place each particle is.
+    virtual void know(const Buffer<int>&) {}
+    /// It does, s, perhaps once more; how far it goes, without turning, m.
+    virtual Vector start(Scalar frame) = 0;
+    virtual void go_to(Scalar share) = 0;
+    /// From the end of a step to its beginning, or the other way.
+    virtual void swap() = 0;
+    virtual void settle() = 0;
+    /// The list is of where it now is.
+    virtual void list() = 0;
+    /// How far a point of it has gone at most since then, beside a way of everything, m.
+    virtual Scalar reach(const Vector& beside) const = 0;
+    /// The same of the whole frame.
+    virtual Scalar frame_reach(const Vector& beside) const = 0;
+
+    /// p₁ of what begins inside, m.
+    Scalar cap(Scalar push_time) const { return push_time * static_cast<Scalar>(options.push_out); }
 
     BodyOptions options;
-    Place begin, end;      // of the frame
-    Way<Scalar, Dim> way;  // from one to the other
-    Motion<Scalar, Dim> motion;
+    bool convex;                // whether what is forbidden is: planes support it [T39]; else [T40]
+    bool alone;                 // whether what it alone touches is pushed in registers
+    bool of_particles = false;  // whether it is for single ones
     NearPairs<Scalar, Dim> near_pairs;
     Touching<Scalar, Dim> touching;
-};
-
-template <class Scalar, int Dim, class Obstacle>
-class BodyOf final : public Body<Scalar, Dim> {
-public:
-    using Base = Body<Scalar, Dim>;
-    using Vector = typename Base::Vector;
-    using Place = typename Base::Place;
-    using Access = typename Base::Access;
-
-    BodyOf(Obstacle shape, const BodyOptions& how, const Place& pose)
-        : Base(how, pose), shape_(std::move(shape)) {}
-
-    Surface<Scalar, Dim> surface(const Vector& y) const override {
-        const auto found = shape_.surface(y);
-        return {found.distance, found.normal};
-    }
-    Scalar extent() const override {
-        if constexpr (in_registers) return shape_.extent();
-        return std::numeric_limits<Scalar>::infinity();
-    }
-    Scalar inner() const override {
-        if constexpr (in_registers) return shape_.inner();
-        return 0;
-    }
-    void query(const Access& x, Index count, const Place& pose, Scalar* depth,
-               const Access& normal) const override {
-        if constexpr (in_registers) {
-            const Register thickness(this->thickness());
-            for (Index k = 0; k < count; k += Register::width) {
-                Vectors from, out;
-                for (int d = 0; d < Dim; ++d) from[d] = x.row(d, k) - Register(pose.position[d]);
-                from = times(pose.rotation.transpose(), from);
-                const Register distance = shape_.template query<Register>(from, out);
-                out = times(pose.rotation, out);
-                (thickness - distance).store(depth + k);
-                for (int d = 0; d < Dim; ++d) out[d].store(&normal(d, k));
-            }
-        } else {
-            for (Index k = 0; k < count; ++k) {
-                Vector out;
-                depth[k] = this->depth(x.vector(k), pose, out);
-                normal.set(k, out);
-            }
-        }
-    }
-
-private:
-    using Register = step_detail::VectorRegister<Scalar>;
-    using Vectors = detail::Few<Register, Dim>;
-
-    template <class Shape>
-    using query_of = decltype(std::declval<const Shape&>().template query<Register>(
-        std::declval<const Vectors&>(), std::declval<Vectors&>()));
-    static constexpr bool in_registers = detail::is_detected_v<query_of, Obstacle>;
-
-    Obstacle shape_;
 };
 
 }  // namespace contact_detail

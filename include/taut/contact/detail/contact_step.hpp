@@ -76,11 +76,11 @@ public:
         old_.resize(size);
         for (Index i = 0; i < size; ++i)
             old_[i] = planes.x.first[i] - penalty.h * planes.v.first[i];
-        for (const auto& body : bodies) std::swap(body->motion.now, body->motion.next);
+        for (const auto& body : bodies) body->swap();
         ++lookups;
         nearby.build(bodies, known, mass, Access(layout, {old_.data(), planes.x.stride}),
                      layout.size(), margin, push_time, drift, time - penalty.h);
-        for (const auto& body : bodies) std::swap(body->motion.now, body->motion.next);
+        for (const auto& body : bodies) body->swap();
     }
     /// In the last half kick of velocity Verlet: what touches goes no further in.
     void stop(const Access& v) {
@@ -105,8 +105,8 @@ private:
         pairs.again.clear();
         const Access x = pairs.next.x(), old = pairs.now.x();
         moving.x.gather(pairs.place.data(), pairs.size, x);
-        body.query(x, pairs.size, body.motion.next, pairs.next.depth(), pairs.next.normal());
-        const Vector gone = body.motion.next.position - body.motion.now.position;
+        body.query(pairs.place.data(), x, pairs.size, pairs.next.depth(), pairs.next.normal());
+        const Vector gone = body.gone();
         const Scalar quick = body.quick();
         const Register zero(Scalar(0)), one(Scalar(1)), quick2(quick * quick);
         for (Index at = 0; at < pairs.size; at += Register::width) {
@@ -129,8 +129,10 @@ private:
             if (pairs.mixed[at / Register::width] == 0) continue;
             for (int lane = 0; lane < Register::width; ++lane) {
                 const int several = pairs.several[at + lane];
-                if (several >= 0 && touching.pushed()[k + lane] > 0 && ++meets_[several] == 2)
-                    queue_.push_back(several);
+                if (several < 0 || !(touching.pushed()[k + lane] > 0)) continue;
+                const int others = meets_[several];
+                meets_[several] += body.alone ? 1 : 2;
+                if (others < 2 && meets_[several] > 1) queue_.push_back(several);
             }
         }
     }
@@ -142,7 +144,8 @@ private:
         for (int lane = 0; lane < Register::width; ++lane) {
             const Index k = at + lane;
             if (lanes[lane] > 0 || !(pairs.mass[k] > 0)) continue;
-            if (body.meets(pairs.now.x().vector(k), pairs.next.x().vector(k))) lanes[lane] = 1;
+            if (body.meets(pairs.place[k], pairs.now.x().vector(k), pairs.next.x().vector(k)))
+                lanes[lane] = 1;
         }
         return Register::load(lanes.data());
     }
@@ -151,7 +154,7 @@ private:
         Body<Scalar, Dim>& body = body_of(b);
         auto& pairs = body.near_pairs;
         auto& touching = body.touching;
-        if (touching.count == 0) return;
+        if (touching.count == 0 || !body.alone) return;
         Index several = 0;  // registers with such
         for (Index t = 0; t < touching.count; ++t) {
             const Index k = t * Register::width, at = touching.first[t];
@@ -165,9 +168,9 @@ private:
                 if (particle >= 0 && meets_[particle] > 1) touching.pushed()[k + lane] = 0;
             }
         }
-        push(body, penalty, moving.ahead);
-        body.query(touching.end(), touching.count * Register::width, body.motion.next,
-                   touching.depth(), touching.normal());
+        body.push(penalty, moving.ahead);
+        body.query(nullptr, touching.end(), touching.count * Register::width, touching.depth(),
+                   touching.normal());
         for (Index t = 0; t < touching.count; ++t) {
             settle(pairs, touching, t);
         }
@@ -220,15 +223,15 @@ private:
         again_.begin(size);
         for (Index k = 0; k < size; ++k) again_.first[k] = pairs.place[pairs.again[k]];
         moving.x.gather(again_.first.data(), size, again_.x());
-        body.query(again_.x(), size, body.motion.next, again_.depth(), again_.normal());
+        body.query(again_.first.data(), again_.x(), size, again_.depth(), again_.normal());
         const Scalar quick = body.quick();
-        const Vector gone = body.motion.next.position - body.motion.now.position;
+        const Vector gone = body.gone();
         for (Index k = 0; k < count; ++k) {
             const int pair = pairs.again[k];
             const Vector x = again_.x().vector(k), from = pairs.now.x().vector(pair);
             settle(pairs, pair, x, again_.normal().vector(k), again_.depth()[k]);
             const bool fast = (x - from - gone).squaredNorm() > quick * quick;
-            if (again_.depth()[k] > 0 || (fast && body.meets(from, x)))
+            if (again_.depth()[k] > 0 || (fast && body.meets(pairs.place[pair], from, x)))
                 queue_.push_back(pairs.several[pair]);
         }
     }
@@ -255,14 +258,14 @@ private:
         nearby.each_link(several, [&](const Link& link) {
             auto& body = body_of(link.body);
             Vector normal;
-            const Scalar depth = body.depth(x, body.motion.next, normal);
+            const Scalar depth = body.depth(place, x, true, normal);
             settle(body.near_pairs, link.pair, x, normal, depth);
         });
     }
     void stop(const Access& v, const SharedPair<Scalar, Dim>& pair) {
         const auto& body = *bodies[static_cast<std::size_t>(pair.body)];
-        const auto& motion = body.motion;  // which ends here
-        const Vector u = (pair.x - motion.now(motion.next.inside(pair.x))) / penalty.h;
+        Vector normal = pair.normal;
+        const Vector u = (pair.x - body.carry(pair.place, pair.x, normal, true)) / penalty.h;
         const Vector before = v.vector(pair.place), w = before - u;
         const Scalar into = -pair.normal.dot(w);
         if (!(into > 0)) return;

@@ -39,9 +39,11 @@ struct Penalty {
     Scalar block() const { return h * h * by_mass / 2; }
     /// φ(p), J. @param depth  p   @param cap  p₁, m
     double energy(Scalar depth, Scalar cap, Scalar mass) const {
-        if (!(depth > 0)) return 0;
-        const double k = static_cast<double>(by_mass) * static_cast<double>(mass);
-        const auto p = static_cast<double>(depth), most = static_cast<double>(cap);
+        return static_cast<double>(mass) * energy_by_mass(static_cast<double>(depth), cap);
+    }
+    double energy_by_mass(double p, Scalar cap) const {
+        if (!(p > 0)) return 0;
+        const auto k = static_cast<double>(by_mass), most = static_cast<double>(cap);
         return p <= most ? k * p * p / 2 : k * most * (p - most / 2);
     }
 };

@@ -106,7 +106,7 @@ public:
                 for (Index k = 0; k < end; ++k) {
                     if (!(-depth[k] < margin) || !(mass[i + k] > 0)) continue;
                     found_[b].push_back(i + static_cast<int>(k));
-                    ++near_[i + k];
+                    near_[i + k] += bodies[b]->alone ? 1 : 1 + by_itself;
                 }
                 depth += Register::width;
             }
@@ -126,8 +126,7 @@ public:
         built_ = true;
         drift_ = drift;
         time_ = time;
-        at_.clear();
-        for (const auto& body : bodies) at_.push_back(body->motion.next);
+        for (const auto& body : bodies) body->list();
     }
 
     /// The bodies are at motion.next, at that time, s: what holds() asks about.
@@ -136,7 +135,7 @@ public:
         moved_ = 0;
         gone_ = (time - time_) * drift_;
         for (std::size_t b = 0; b < bodies.size(); ++b) {
-            moved_ = (std::max)(moved_, bodies[b]->reach(at_[b], bodies[b]->motion.next, gone_));
+            moved_ = (std::max)(moved_, bodies[b]->reach(gone_));
         }
         moved_ = (std::min)(moved_, (std::numeric_limits<Scalar>::max)());
     }
@@ -161,15 +160,20 @@ public:
     }
 
 private:
-    /// Numbers those that are near several bodies, in the place of how many.
+    /// Of a body that pushes nothing in registers; more than bodies can be.
+    static constexpr int by_itself = 1 << 16;
+
+    /// Numbers those that are near several bodies, or are to be solved by themselves, in the place
+    /// of how many.
     void list_several(Index count) {
         several_ = 0;
         first_link_.clear();
         int links = 0;
         for (Index i = 0; i < count; ++i) {
-            const int bodies = near_[i];
+            const int bodies = near_[i] % by_itself;
+            const bool solo = near_[i] < 2;
             near_[i] = -1;
-            if (bodies < 2) continue;
+            if (solo) continue;
             first_link_.push_back(links);
             near_[i] = static_cast<int>(several_++);
             links += bodies;
@@ -192,15 +196,15 @@ private:
             links_[first_link_[several] + filled_[several]++] = {b, k};
         }
         x.gather(pairs.place.data(), pairs.size, pairs.now.x());
-        body.query(pairs.now.x(), pairs.size, body.motion.next, pairs.now.depth(),
+        body.query(pairs.place.data(), pairs.now.x(), pairs.size, pairs.now.depth(),
                    pairs.now.normal());
         for (Index k = 0; k < pairs.size; ++k) {
             Scalar& depth = pairs.now.depth()[k];
             if (!(pairs.mass[k] > 0)) depth = -1;
             const bool gently = depth > 0 && !std::binary_search(known.begin(), known.end(),
                                                                  KnownPair{pairs.place[k], b});
-            pairs.now.cap()[k] = gently ? push_time * static_cast<Scalar>(body.options.push_out)
-                                        : std::numeric_limits<Scalar>::infinity();
+            pairs.now.cap()[k] =
+                gently ? body.cap(push_time) : std::numeric_limits<Scalar>::infinity();
         }
     }
 
@@ -227,11 +231,16 @@ private:
     }
     /// Lists the clusters that may be within `reach` of a body, m, and how far the others are.
     void look_at_clusters(const Body<Scalar, Dim>& body, Scalar reach) {
+        close_.clear();
+        if (body.of_particles) {
+            for (Index c = 0; c < clusters_; ++c)
+                close_.push_back(static_cast<int>(c * Register::width));
+            return;
+        }
         rows_.resize(stride_);
         const Index whole = (clusters_ + Register::width - 1) / Register::width * Register::width;
-        body.query(Access(centre_.data(), stride_), whole, body.motion.next, cluster_depth_.data(),
+        body.query(nullptr, Access(centre_.data(), stride_), whole, cluster_depth_.data(),
                    rows_.normal());
-        close_.clear();
         for (Index c = 0; c < clusters_; c += Register::width) {
             const Register away =
                 -(Register::load(cluster_depth_.data() + c) + Register::load(radius_.data() + c));
@@ -252,11 +261,14 @@ private:
     void look_closely(const Body<Scalar, Dim>& body, const Access& x) {
         const Index size = static_cast<Index>(close_.size()) * Register::width;
         rows_.resize(size);
+        places_.resize(size);
         const Access at = rows_.x();
         for (Index k = 0; k < size; k += Register::width) {
-            for (int d = 0; d < Dim; ++d) x.row(d, close_[k / Register::width]).store(&at(d, k));
+            const int first = close_[k / Register::width];
+            for (int d = 0; d < Dim; ++d) x.row(d, first).store(&at(d, k));
+            for (int lane = 0; lane < Register::width; ++lane) places_[k + lane] = first + lane;
         }
-        body.query(at, size, body.motion.next, rows_.depth(), rows_.normal());
+        body.query(places_.data(), at, size, rows_.depth(), rows_.normal());
     }
 
     std::vector<Buffer<int>> found_;   // of each body
@@ -271,9 +283,9 @@ private:
     Buffer<Scalar> radius_;               // m
     Buffer<Scalar> cluster_slack_;        // m
     Buffer<Scalar> cluster_depth_;        // of one body, m
+    Buffer<int> places_;                  // of rows_
     Buffer<int> close_;                   // first places of clusters
     detail::Few<Buffer<Scalar>, Dim> x_;  // where they were, m
-    std::vector<Pose<Scalar, Dim>> at_;
     Vector drift_ = Vector::Zero();
     Scalar time_ = 0;
     Scalar moved_ = 0;  // how far a body's points have gone at most, beside the drift, m

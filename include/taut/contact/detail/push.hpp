@@ -11,12 +11,12 @@ namespace taut::contact_detail {
 /// Contact of a body's touching pairs, a register of them at a time: fills end, speed, pushed and
 /// work from what was at the start and would be without.
 template <class Scalar, int Dim>
-void push(Body<Scalar, Dim>& body, const Penalty<Scalar>& penalty, Scalar ahead) {
+void push(Body<Scalar, Dim>& body, const Motion<Scalar, Dim>& moved, const Penalty<Scalar>& penalty,
+          Scalar ahead) {
     using Register = step_detail::VectorRegister<Scalar>;
     using Vectors = detail::Few<Register, Dim>;
     Touching<Scalar, Dim>& touching = body.touching;
     NearPairs<Scalar, Dim>& pairs = body.near_pairs;
-    const Motion<Scalar, Dim>& moved = body.motion;
     const Register zero(Scalar(0)), one(Scalar(1)), h(penalty.h);
     const Register infinity(std::numeric_limits<Scalar>::infinity());
     const Register by_block(1 / (1 + penalty.block()));

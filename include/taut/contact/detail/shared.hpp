@@ -26,13 +26,15 @@ struct SharedPair {
 };
 
 /// Contact of one particle with several bodies in one step: rounds of one block, m I + ½h²κ n′n′ᵀ
-/// of every pair that pushes, until no other is touched [T39].
+/// of every pair that pushes, until no other is touched [T39]. What is not convex is held across
+/// n′, too, as far as its energy asks [T40].
 template <class Scalar, int Dim>
 class ParticleSolve {
 public:
     using Vector = Eigen::Matrix<Scalar, Dim, 1>;
     using Matrix = Eigen::Matrix<Scalar, Dim, Dim>;
-    using Bodies = std::vector<std::unique_ptr<Body<Scalar, Dim>>>;
+    using Against = Body<Scalar, Dim>;
+    using Bodies = std::vector<std::unique_ptr<Against>>;
     using Pair = SharedPair<Scalar, Dim>;
 
     /// @param pairs  `count` of one particle   @param speed  without contact, then with it, m/s
@@ -40,40 +42,55 @@ public:
     /// @returns whether anything was touched
     bool operator()(const Bodies& bodies, const Pair* pairs, std::size_t count,
                     const Penalty<Scalar>& penalty, Vector& x, Vector& speed, Scalar& work) {
+        const auto of = [&](const Pair& pair) -> const Against& {
+            return *bodies[static_cast<std::size_t>(pair.body)];
+        };
         bool nearby = false;
         for (std::size_t j = 0; j < count && !nearby; ++j)
-            nearby = pairs[j].depth > 0 || meets(bodies, pairs[j], pairs[0].x, x, Scalar(0));
+            nearby = pairs[j].depth > 0 || meets(of(pairs[j]), pairs[j], x, Scalar(0));
         if (!nearby) return false;
-        start(bodies, pairs, count, penalty.h);
+        start(of, pairs, count, penalty.h);
         // As the first body sees it: the velocity of what is held is a difference from that body's,
         // and its force many times as much.
         const Vector frame = active_.front().speed;
         for (Active& a : active_) a.speed -= frame;
         const Vector before = speed - frame;
         Vector w = before;
-        for (int round = 0; round < 64; ++round) {
+        bool more = true;
+        for (int round = 0; more && round < 64; ++round) {
             w = solve(penalty, before);
-            bool added = false;
+            more = false;
+            const Vector to = pairs[0].x + penalty.h * (frame + w);
             for (std::size_t j = 0; j < count; ++j) {
                 Active& a = active_[j];
-                if (a.in) continue;
                 const Scalar may = (std::max)(pairs[j].depth, Scalar(0));
-                const Vector to = pairs[0].x + penalty.h * (frame + w);
-                if (!meets(bodies, pairs[j], pairs[0].x, to, may)) continue;
-                a.in = a.stays = added = true;
+                if (a.in) {
+                    if (holds(of(pairs[j]), penalty, pairs[j], to, w, a)) continue;
+                    if (a.raised == stuck && stuck_ < 0) stuck_ = static_cast<int>(j);
+                } else if (meets(of(pairs[j]), pairs[j], to, may)) {
+                    a.in = a.stays = true;
+                } else {
+                    continue;
+                }
+                more = true;
             }
-            if (!added) break;
         }
         work = frame.dot(w - before);  // of all forces
-        const bool one_pushes = alone();
+        Vector rest = (w - before) / penalty.h;
+        // What holds most has what is left of all forces: its own is the least known.
+        const Active* last = stuck_ >= 0 ? &stuck_pair() : nullptr;
         for (const Active& a : active_) {
-            if (!a.in) continue;
+            if (stuck_ < 0 && a.in && (!last || a.drag > last->drag)) last = &a;
+        }
+        for (const Active& a : active_) {
+            if (!a.in || &a == last) continue;
             const Vector relative = w - a.speed;
             const Vector along = relative - a.normal.dot(relative) * a.normal;
-            const Vector f = one_pushes ? Vector((w - before) / penalty.h)
-                                        : Vector(force(penalty, a, w) * a.normal - a.drag * along);
+            const Vector f = force(penalty, a, w) * a.normal - a.drag * along;
             work += penalty.h * a.speed.dot(f);
+            rest -= f;
         }
+        if (last) work += penalty.h * last->speed.dot(rest);
         speed = frame + w;
         x = pairs[0].x + penalty.h * speed;
         return true;
@@ -90,40 +107,88 @@ private:
         Scalar drag;      // c/m, 1/s
         bool in;          // whether it pushes
         bool stays;       // whether it was added again
+        Scalar stick;     // c/m at least, 1/s [T40]
+        int raised;       // how often that was
     };
+    static constexpr int whole = 5, stuck = 6;  // raised to ½hκ/m; beyond
 
     /// Whether it ends deeper than that, m, or meets the body on the way.
-    static bool meets(const Bodies& bodies, const Pair& pair, const Vector& from, const Vector& to,
-                      Scalar depth) {
+    static bool meets(const Against& body, const Pair& pair, const Vector& to, Scalar depth) {
         Vector normal;
-        const Body<Scalar, Dim>& body = *bodies[static_cast<std::size_t>(pair.body)];
-        if (body.depth(to, body.motion.next, normal) > depth) return true;
-        return !(pair.depth > 0) && body.meets(from, to);
+        if (body.depth(pair.place, to, true, normal) > depth) return true;
+        return !(pair.depth > 0) && body.meets(pair.place, pair.x, to);
     }
-    void start(const Bodies& bodies, const Pair* pairs, std::size_t count, Scalar h) {
+    template <class Of>
+    void start(const Of& of, const Pair* pairs, std::size_t count, Scalar h) {
         active_.clear();
+        stuck_ = -1;
         for (std::size_t j = 0; j < count; ++j) {
             const Pair& pair = pairs[j];
-            const Body<Scalar, Dim>& body = *bodies[static_cast<std::size_t>(pair.body)];
-            const Vector carried = body.motion.turn * pair.x + body.motion.shift;
-            active_.push_back({body.motion.turn * pair.normal, (carried - pair.x) / h,
+            const Against& body = of(pair);
+            Vector normal = pair.normal;
+            const Vector carried = body.carry(pair.place, pair.x, normal, false);
+            active_.push_back({normal, (carried - pair.x) / h,
                                (std::min)((std::max)(pair.depth, Scalar(0)), pair.cap), 1,
-                               static_cast<Scalar>(body.options.friction), 0, pair.depth > 0,
-                               false});
+                               static_cast<Scalar>(body.options.friction), 0, pair.depth > 0, false,
+                               0, 0});
         }
+    }
+    /// Whether φ⁺ − φ + h f·(v⁺ − ū) ≤ 0 for a pair; if not, it sticks more: by ½hκ that is so.
+    /// Where x + pn is no nearest point, as in a corner of what has a thickness, it is stuck:
+    /// carried by the body φ⁺ = φ.
+    /// @param to  where v ends   @param v  velocity, as a.speed
+    bool holds(const Against& body, const Penalty<Scalar>& penalty, const Pair& pair,
+               const Vector& to, const Vector& v, Active& a) const {
+        if (body.convex || a.raised == stuck) return true;
+        using Doubles = Eigen::Matrix<double, Dim, 1>;
+        constexpr double unit = static_cast<double>(std::numeric_limits<Scalar>::epsilon());
+        const auto h = static_cast<double>(penalty.h), k = static_cast<double>(penalty.by_mass);
+        Vector out;
+        auto end = static_cast<double>(body.depth(pair.place, to, true, out));
+        const auto begin = static_cast<double>(pair.depth);
+        const Doubles n = a.normal.template cast<double>();
+        const Doubles way = h * (v - a.speed).template cast<double>();
+        const double z = n.dot(way);
+        const Doubles along = way - z * n;
+        // The normals say more of how it ends than rounding leaves of that.
+        const double by_normals = begin - (z + out.template cast<double>().dot(way)) / 2;
+        const auto size = static_cast<double>(to.cwiseAbs().maxCoeff()) + std::abs(end);
+        if (std::abs(by_normals - end) < 8 * unit * size) end = by_normals;
+        const double rise =
+            penalty.energy_by_mass(end, pair.cap) - penalty.energy_by_mass(begin, pair.cap);
+        const double given = k * (static_cast<double>(a.share * a.push) * z - z * z / 2);
+        const double across = along.squaredNorm();
+        const auto drag = static_cast<double>(a.drag);
+        const double gain = rise + given - drag / h * across;
+        const double rounding =
+            4 * unit * k * way.norm() * (std::max(begin, 0.0) + std::max(end, 0.0) + std::abs(z));
+        // It has come out on another side.
+        const bool through = a.raised < whole &&
+                             (out.dot(a.normal) < 0 ||
+                              (!(begin > 0) && !(end > 0) && body.meets(pair.place, pair.x, to)));
+        if (!(gain > rounding) && !through) return true;
+        const double most = h * k / 2, enough = drag + 1.25 * gain * h / across;
+        if (through || (a.raised < whole && !(enough < most))) a.raised = whole - 1;
+        ++a.raised;
+        a.stick = static_cast<Scalar>(a.raised < whole ? enough : most);
+        return false;
     }
     /// Whether one pair pushes, and no other.
     bool alone() const {
         return std::count_if(active_.begin(), active_.end(),
                              [](const Active& a) { return a.in; }) == 1;
     }
+    const Active& only() const {
+        return *std::find_if(active_.begin(), active_.end(), [](const Active& a) { return a.in; });
+    }
+    const Active& stuck_pair() const { return active_[static_cast<std::size_t>(stuck_)]; }
     static Scalar force(const Penalty<Scalar>& penalty, const Active& a, const Vector& v) {
         return penalty.by_mass * (a.share * a.push - penalty.h / 2 * a.normal.dot(v - a.speed));
     }
     Vector solved(const Penalty<Scalar>& penalty, const Vector& before) const {
+        if (stuck_ >= 0) return stuck_pair().speed;
         if (alone()) {  // along n′ and across it
-            const auto only =
-                std::find_if(active_.begin(), active_.end(), [](const Active& a) { return a.in; });
+            const Active* only = &this->only();
             const Vector w = before - only->speed;
             const Scalar into = only->normal.dot(w);
             const Scalar push = penalty.h * penalty.by_mass * only->share * only->push;
@@ -163,13 +228,14 @@ private:
     /// The velocity for the pairs that push now: normal forces first, then friction by them.
     Vector solve(const Penalty<Scalar>& penalty, const Vector& before) {
         for (Active& a : active_) {
-            a.drag = 0;
+            a.drag = a.stick;
             a.share = Scalar(0.5);
         }
         Vector v = settled(penalty, before);
         bool pulled = false;
         for (Active& a : active_) {
-            if (!a.in || a.stays || !(a.push > 0) || !(force(penalty, a, v) < 0)) continue;
+            if (stuck_ >= 0 || !a.in || a.stays || !(a.push > 0) || !(force(penalty, a, v) < 0))
+                continue;
             a.in = false;
             pulled = true;
         }
@@ -182,13 +248,15 @@ private:
             const Scalar sliding = (w - a.normal.dot(w) * a.normal).norm();
             const Scalar rest = sliding - penalty.h * a.friction * push;
             const Scalar most = 1 / penalty.h / std::sqrt(std::numeric_limits<Scalar>::epsilon());
-            a.drag = rest > 0 ? (std::min)(most, a.friction * push / rest) : most;
+            const Scalar coulomb = rest > 0 ? a.friction * push / rest : most;
+            a.drag = (std::max)(a.stick, (std::min)(most, coulomb));
             slides = true;
         }
         return slides ? settled(penalty, before) : v;
     }
 
     std::vector<Active> active_;
+    int stuck_ = -1;  // the pair that carries the particle
 };
 
 }  // namespace taut::contact_detail
