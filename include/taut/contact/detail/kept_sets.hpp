@@ -42,7 +42,7 @@ public:
     using Set = KeptSet<Scalar, Dim>;
 
     /// @param size  of the system
-    KeptSets(const BodyOptions& options, bool convex, Index size) : Base(options, convex) {
+    KeptSets(const BodyOptions& how, bool is_convex, Index size) : Base(how, is_convex) {
         this->alone = false;
         this->of_particles = true;
         index_.assign(size, -1);

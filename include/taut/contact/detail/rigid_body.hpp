@@ -21,8 +21,8 @@ public:
     using typename Base::Place;
     using typename Base::Vector;
 
-    RigidBody(const BodyOptions& how, bool convex, const Place& pose)
-        : Base(how, convex), begin(pose), end(pose) {
+    RigidBody(const BodyOptions& how, bool is_convex, const Place& pose)
+        : Base(how, is_convex), begin(pose), end(pose) {
         motion.now = motion.next = pose;
     }
 
