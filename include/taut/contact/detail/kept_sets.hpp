@@ -240,26 +240,26 @@ protected:
     Scalar listed_depth(const Set& set, const Vector& x, Vector& normal) const override {
         const Scalar depth = depth_of(set, x, this->next_, normal);
         const Scalar beside = (x - set.place(this->next_)).norm();
-        return (std::max)(depth, beside > far ? Scalar(0) : -clear);
+        return (std::max)(depth, beside > far_off ? Scalar(0) : -clear);
     }
     Scalar moved(Scalar share, const Vector& beside) const override {
         return Base::moved(share, beside) + (std::min)(turn_ * std::abs(share), Scalar(2)) * span_;
     }
     void prepare(Scalar) override {
         turn_ = 0;
-        span_ = far + 2 * clear;
+        span_ = far_off + 2 * clear;
         for (const Set& set : this->sets()) {
             const Scalar cosine = set.begin_normal.dot(set.end_normal);
             const Scalar least = std::sqrt((std::max)((1 + cosine) / 2, Scalar(1e-6)));
             turn_ = (std::max)(turn_, (set.end_normal - set.begin_normal).norm() / least);
-            span_ = (std::max)(span_, far + 2 * clear + set.behind);
+            span_ = (std::max)(span_, far_off + 2 * clear + set.behind);
         }
     }
 
 private:
     /// What is farther from its skin is always listed, m: a turn moves it much. And how far from
     /// what it is kept before a particle is that is not, m.
-    static constexpr Scalar far = Scalar(0.25), clear = Scalar(0.1);
+    static constexpr Scalar far_off = Scalar(0.25), clear = Scalar(0.1);
 
     /// By an isometry that takes a to b.
     static Vector turned(const Vector& a, const Vector& b, const Vector& y) {
