@@ -113,7 +113,7 @@ private:
         const Scalar most = Scalar(1 << 14), over = 1 / width;
         const Vector size = ((x.rowwise().maxCoeff() - least) * over).cwiseMin(most);
         around_.fill(4);
-        for (Index slots = Index(1) << (2 * Dim); slots < table_; slots *= 2) {
+        for (Index cells = Index(1) << (2 * Dim); cells < table_; cells *= 2) {
             int widest = 0;
             for (int d = 1; d < Dim; ++d) {
                 if (size[d] * Scalar(around_[widest]) > size[widest] * Scalar(around_[d]))
@@ -215,7 +215,7 @@ private:
     }
 
     Scalar largest_ = 0;                    // radius, m
-    Index table_ = 64;                      // most slots, a power of two
+    Index table_ = 64;                      // most cells, a power of two
     int slots_ = 0;                         // now
     detail::Few<int, Dim> around_{};        // of the torus, powers of two
     Buffer<int> begin_;                     // of each slot in items_

@@ -138,7 +138,7 @@ protected:
     }
     /// How far the sets go at most in a share of the frame, beside a way of everything, m.
     virtual Scalar moved(Scalar share, const Vector& beside) const {
-        return (share * drift_ - beside).norm() + std::abs(share) * spread_;
+        return (share * drift_ - beside).norm() + spread_ * (std::abs)(share);
     }
     const Set& at(int place) const { return sets_[static_cast<std::size_t>(at_[place])]; }
 
@@ -243,7 +243,8 @@ protected:
         return (std::max)(depth, beside > far_off ? Scalar(0) : -clear);
     }
     Scalar moved(Scalar share, const Vector& beside) const override {
-        return Base::moved(share, beside) + (std::min)(turn_ * std::abs(share), Scalar(2)) * span_;
+        return Base::moved(share, beside) +
+               (std::min)(turn_ * (std::abs)(share), Scalar(2)) * span_;
     }
     void prepare(Scalar) override {
         turn_ = 0;

@@ -193,7 +193,7 @@ private:
         const Vector between = point - std::exchange(last_point_, point);
         const Vector normal = std::exchange(last_normal_, found.normal);
         if (normal.isZero(0)) return true;
-        const Scalar most = Scalar(1e-3) * (between.norm() + std::abs(found.distance));
+        const Scalar most = Scalar(1e-3) * (between.norm() + (std::abs)(found.distance));
         return !(normal.dot(between) > most) && !(-found.normal.dot(between) > most);
     }
 

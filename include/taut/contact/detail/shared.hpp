@@ -152,16 +152,16 @@ private:
         const Doubles along = way - z * n;
         // The normals say more of how it ends than rounding leaves of that.
         const double by_normals = begin - (z + out.template cast<double>().dot(way)) / 2;
-        const auto size = static_cast<double>(to.cwiseAbs().maxCoeff()) + std::abs(end);
-        if (std::abs(by_normals - end) < 8 * unit * size) end = by_normals;
+        const auto size = static_cast<double>(to.cwiseAbs().maxCoeff()) + (std::abs)(end);
+        if ((std::abs)(by_normals - end) < 8 * unit * size) end = by_normals;
         const double rise =
             penalty.energy_by_mass(end, pair.cap) - penalty.energy_by_mass(begin, pair.cap);
         const double given = k * (static_cast<double>(a.share * a.push) * z - z * z / 2);
         const double across = along.squaredNorm();
         const auto drag = static_cast<double>(a.drag);
         const double gain = rise + given - drag / h * across;
-        const double rounding =
-            4 * unit * k * way.norm() * (std::max(begin, 0.0) + std::max(end, 0.0) + std::abs(z));
+        const double rounding = 4 * unit * k * way.norm() *
+                                ((std::max)(begin, 0.0) + (std::max)(end, 0.0) + (std::abs)(z));
         // It has come out on another side.
         const bool through = a.raised < whole &&
                              (out.dot(a.normal) < 0 ||
