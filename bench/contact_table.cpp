@@ -17,8 +17,8 @@
 #include <taut/scene/with_law.hpp>
 #include <taut/taut.hpp>
 
-#include "cape/frames.hpp"
 #include "measure.hpp"
+#include "nearest.hpp"
 
 namespace {
 
@@ -26,6 +26,31 @@ using taut::Index;
 using Cloth = taut::SpringSystem<float, 3, taut::TensionOnly>;
 constexpr int capsules = 14;
 constexpr float frame = 1.0f / 60;  // s
+
+struct Compared {
+    std::string cells;
+    double touching;  // pairs, after a frame
+};
+/// Frames of `count` steps of h, s, without contact and with it.
+/// @param lies  whether it has half a second to come to rest first
+template <class Contact>
+Compared compare(const Cloth& cloth, taut::State<float, 3>& state, float h, Index count,
+                 Contact& contact, bool lies) {
+    taut::EnergyStableEuler<Cloth> stepper(cloth), alone(cloth);
+    bool ok = true;
+    Index touching = 0;
+    const auto with = [&] { ok = bool(step_through(stepper, state, h, count, contact)) && ok; };
+    for (int f = 0; f < 30 && lies; ++f) with();
+    auto free = state;
+    bench::Turns both;
+    both.run(
+        21, [&] { ok = bool(alone.step(free, h, count)) && ok; },
+        [&] {
+            with();
+            touching += contact.touching();
+        });
+    return {both.cells() + (ok ? "" : " A STEP FAILED"), double(touching) / 22};
+}
 
 /// @param below   of the capsules' tops, m   @param spread  between their axes, m
 /// @param upper   capsules in the middle; the others are 1 m below
@@ -48,24 +73,11 @@ void row(const char* label, float below, float spread, int upper) {
     const float limit = taut::energy_limit(cloth).certified;
     const Index count = Index(frame / limit) + 1;
     const float h = frame / float(count);
-    taut::EnergyStableEuler<Cloth> stepper(cloth), alone(cloth);
     auto state = cloth.initial_state();
     if (below > 0.5f) state.v.row(0).setConstant(1);  // falls, and meets nothing meanwhile
-    bool ok = true;
-    Index touching = 0;
-    const auto with = [&] { ok = bool(step_through(stepper, state, h, count, contacts)) && ok; };
-    for (int f = 0; f < 30 && below < 0.5f; ++f) with();  // until it lies
-    auto free = state;
-    bench::Turns both;
-    both.run(
-        21, [&] { ok = bool(alone.step(free, h, count)) && ok; },
-        [&] {
-            with();
-            touching += contacts.touching();
-        });
-    std::printf("| %s | %.1f %% | %s%s |\n", label,
-                100 * double(touching) / 22 / double(cloth.size()), both.cells().c_str(),
-                ok ? "" : " A STEP FAILED");
+    const Compared found = compare(cloth, state, h, count, contacts, below < 0.5f);
+    std::printf("| %s | %.1f %% | %s |\n", label, 100 * found.touching / double(cloth.size()),
+                found.cells.c_str());
     std::fflush(stdout);
 }
 
@@ -90,21 +102,9 @@ void layers(const char* label, bool folded) {
     taut::SelfContact contact(cloth);
     const Index count = Index(frame / (0.9f * taut::energy_limit(cloth).certified)) + 1;
     const float h = frame / float(count);
-    taut::EnergyStableEuler<Cloth> stepper(cloth), alone(cloth);
-    bool ok = true;
-    Index pairs = 0;
-    const auto with = [&] { ok = bool(step_through(stepper, state, h, count, contact)) && ok; };
-    for (int f = 0; f < 30 && folded; ++f) with();  // until it lies
-    auto free = state;
-    bench::Turns both;
-    both.run(
-        21, [&] { ok = bool(alone.step(free, h, count)) && ok; },
-        [&] {
-            with();
-            pairs += contact.touching();
-        });
-    std::printf("| %s | %d | %.0f | %s%s |\n", label, int(count), double(pairs) / 22,
-                both.cells().c_str(), ok ? "" : " A STEP FAILED");
+    const Compared found = compare(cloth, state, h, count, contact, folded);
+    std::printf("| %s | %d | %.0f | %s |\n", label, int(count), found.touching,
+                found.cells.c_str());
     std::fflush(stdout);
 }
 

@@ -10,6 +10,7 @@
 #include <taut/scene/with_law.hpp>
 #include <vector>
 
+#include "../nearest.hpp"
 #include "bullet_on_bodies.hpp"
 #include "frames.hpp"
 #include "taut_wears.hpp"

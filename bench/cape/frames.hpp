@@ -39,13 +39,6 @@ struct PinAt {
     Eigen::Vector3f x;  // m
 };
 
-/// How near the way from a to b comes to the origin, m.
-inline float nearest(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-    const Eigen::Vector3f way = b - a;
-    const float share = -a.dot(way) / std::max(way.squaredNorm(), 1e-12f);
-    return (a + std::clamp(share, 0.0f, 1.0f) * way).norm();
-}
-
 /// The figure of examples/cape.cpp, frame by frame, and what it wears.
 class Frames {
 public:

@@ -224,14 +224,12 @@ public:
             step_.apply(where, {layout, planes.spring_x}, ends ? Scalar(0) : h_);
         }
         if (bodies_ && !bodies_->passed(layout, places, memory, now, ahead)) return false;
-        if (near_.pairs.widest() > 0 && !ends) {
-            if (bodies_) {
-                near_.look(layout, planes.x.first);
-                if (!near_.covers(0)) {
-                    by_step_ *= 2;
-                    restless_ = detail::is_finite(by_step_);
-                    return false;
-                }
+        if (near_.pairs.widest() > 0 && !ends && bodies_) {
+            near_.look(layout, planes.x.first);
+            if (!near_.covers(0)) {
+                by_step_ *= 2;
+                restless_ = detail::is_finite(by_step_);
+                return false;
             }
         }
         if (last)

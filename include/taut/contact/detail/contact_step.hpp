@@ -24,7 +24,7 @@ public:
     Bodies bodies;
     NearList<Scalar, Dim> nearby;
     Penalty<Scalar> penalty{};
-    Buffer<Scalar> mass;           // by place, kg; 0 if pinned; padded
+    Buffer<Scalar> mass;           // by place, kg; 0 if pinned
     Buffer<Scalar> work;           // by place, J
     std::vector<KnownPair> known;  // at the start of the list
     Index lookups = 0;
@@ -45,12 +45,9 @@ public:
     void undo(const Moving<Scalar, Dim>& moving) {
         for (const auto& body : bodies) {
             auto& touching = body->touching;
-            for (Index j = 0; j < touching.pushed_count; ++j) {
-                const Index row = touching.row[j];
-                if (touching.pushed()[row] > 0)
-                    moving.set(touching.place[j], touching.x().vector(row),
-                               touching.v().vector(row));
-            }
+            touching.each_pushed([&](Index j, Index row) {
+                moving.set(touching.place[j], touching.x().vector(row), touching.v().vector(row));
+            });
         }
         for (const auto& one : solved_) moving.set(one.place, one.x, one.v);
     }
@@ -59,11 +56,9 @@ public:
         for (const auto& body : bodies) {
             auto& pairs = body->near_pairs;
             auto& touching = body->touching;
-            for (Index j = 0; j < touching.pushed_count; ++j) {
-                const Index row = touching.row[j];
-                if (touching.pushed()[row] > 0)
-                    work[touching.place[j]] += pairs.mass[touching.at[j]] * touching.work()[row];
-            }
+            touching.each_pushed([&](Index j, Index row) {
+                work[touching.place[j]] += pairs.mass[touching.at[j]] * touching.work()[row];
+            });
             std::swap(pairs.now, pairs.next);
         }
         for (const auto& one : solved_) work[one.place] += one.work;
@@ -218,12 +213,13 @@ private:
         auto& pairs = body.near_pairs;
         const auto count = static_cast<Index>(pairs.again.size());
         if (count == 0) return;
-        const Index size = (count + Register::width - 1) / Register::width * Register::width;
+        const Index size = whole_registers<Scalar>(count);
         pairs.again.resize(size, pairs.again[0]);
-        again_.begin(size);
-        for (Index k = 0; k < size; ++k) again_.first[k] = pairs.place[pairs.again[k]];
-        moving.x.gather(again_.first.data(), size, again_.x());
-        body.query(again_.first.data(), again_.x(), size, again_.depth(), again_.normal());
+        again_.resize(size);
+        places_.resize(size);
+        for (Index k = 0; k < size; ++k) places_[k] = pairs.place[pairs.again[k]];
+        moving.x.gather(places_.data(), size, again_.x());
+        body.query(places_.data(), again_.x(), size, again_.depth(), again_.normal());
         const Scalar quick = body.quick();
         const Vector gone = body.gone();
         for (Index k = 0; k < count; ++k) {
@@ -284,7 +280,8 @@ private:
     Buffer<int> meets_;       // how many they meet without contact, or −1: they are solved
     Buffer<Link> pushed_by_;  // a pair of a body's touching, if one pushed it
     Buffer<int> queue_;       // to be solved by themselves
-    Touching<Scalar, Dim> again_;
+    PairTable<Scalar, Dim> again_;
+    Buffer<int> places_;  // of these
     std::vector<SharedPair<Scalar, Dim>> pairs_;
     std::vector<Solved> solved_;
 };

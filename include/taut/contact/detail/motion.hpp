@@ -127,6 +127,13 @@ private:
     Index axis_, grain_;
 };
 
+/// As many as fill whole registers.
+template <class Scalar>
+constexpr Index whole_registers(Index count) {
+    constexpr Index width = step_detail::VectorRegister<Scalar>::width;
+    return (count + width - 1) / width * width;
+}
+
 /// The largest lane.
 template <class Scalar, int most>
 EIGEN_ALWAYS_INLINE Scalar largest_lane(const step_detail::VectorRegister<Scalar, most>& a) {

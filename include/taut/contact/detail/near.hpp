@@ -238,7 +238,7 @@ private:
             return;
         }
         rows_.resize(stride_);
-        const Index whole = (clusters_ + Register::width - 1) / Register::width * Register::width;
+        const Index whole = whole_registers<Scalar>(clusters_);
         body.query(nullptr, Access(centre_.data(), stride_), whole, cluster_depth_.data(),
                    rows_.normal());
         for (Index c = 0; c < clusters_; c += Register::width) {

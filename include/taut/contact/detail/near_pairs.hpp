@@ -40,7 +40,7 @@ struct NearPairs {
 
     void begin(Index pairs) {
         count = pairs;
-        size = (pairs + Register::width - 1) / Register::width * Register::width;
+        size = whole_registers<Scalar>(pairs);
         place.assign(size, 0);
         several.assign(size, -1);
         mixed.assign(size / Register::width, 0);
@@ -92,6 +92,13 @@ struct Touching {
             }
         }
         pushed_count = n;
+    }
+    /// visit(j, its row) for what is listed and still pushed.
+    template <class Visitor>
+    void each_pushed(Visitor&& visit) {
+        for (Index j = 0; j < pushed_count; ++j) {
+            if (pushed()[row[j]] > 0) visit(j, Index(row[j]));
+        }
     }
 
 private:
