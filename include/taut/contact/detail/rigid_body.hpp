@@ -143,11 +143,11 @@ public:
         return {found.distance, found.normal};
     }
     Scalar extent() const override {
-        if constexpr (in_registers) return shape_.extent();
+        if constexpr (detail::is_detected_v<extent_of, Obstacle>) return shape_.extent();
         return std::numeric_limits<Scalar>::infinity();
     }
     Scalar inner() const override {
-        if constexpr (in_registers) return shape_.inner();
+        if constexpr (detail::is_detected_v<inner_of, Obstacle>) return shape_.inner();
         return 0;
     }
     void query(const int*, const Access& x, Index count, Scalar* depth,
@@ -185,6 +185,10 @@ private:
     using query_of = decltype(std::declval<const Shape&>().template query<Register>(
         std::declval<const Vectors&>(), std::declval<Vectors&>()));
     static constexpr bool in_registers = detail::is_detected_v<query_of, Obstacle>;
+    template <class Shape>
+    using extent_of = detail::number_of<decltype(std::declval<const Shape&>().extent()), Scalar>;
+    template <class Shape>
+    using inner_of = detail::number_of<decltype(std::declval<const Shape&>().inner()), Scalar>;
 
     /// Whether the surface's points at this query and the last one lie behind each other's planes,
     /// as those of a convex body do.
@@ -193,7 +197,9 @@ private:
         const Vector between = point - std::exchange(last_point_, point);
         const Vector normal = std::exchange(last_normal_, found.normal);
         if (normal.isZero(0)) return true;
-        const Scalar most = Scalar(1e-3) * (between.norm() + (std::abs)(found.distance));
+        const Scalar rounding =
+            64 * std::numeric_limits<Scalar>::epsilon() * (y.norm() + point.norm());
+        const Scalar most = Scalar(1e-3) * (between.norm() + (std::abs)(found.distance)) + rounding;
         return !(normal.dot(between) > most) && !(-found.normal.dot(between) > most);
     }
 
