@@ -25,7 +25,14 @@ public:
         : surface_("SolidMesh", points, triangles) {}
 
     /// @param x  m
-    taut::Surface<Scalar, 3> surface(const Vector& x) const { return surface_.surface(x); }
+    taut::Surface<Scalar, 3> surface(const Vector& x) const {
+        int hint = 0;
+        return surface_.surface(x, hint);
+    }
+    /// The same for points one beside the other. @param hint  0 at first; one for all of them
+    taut::Surface<Scalar, 3> surface(const Vector& x, int& hint) const {
+        return surface_.surface(x, hint);
+    }
     /// How far from the origin its points are, m.
     Scalar extent() const { return surface_.extent(); }
 

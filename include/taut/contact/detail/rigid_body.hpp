@@ -139,7 +139,13 @@ public:
         : Base(how, detail::is_convex<Obstacle>(), pose), shape_(std::move(shape)) {}
 
     Surface<Scalar, Dim> surface(const Vector& y) const override {
-        const auto found = shape_.surface(y);
+        const auto found = [&] {
+            if constexpr (detail::is_detected_v<hinted_of, Obstacle>) {
+                return shape_.surface(y, hint_);
+            } else {
+                return shape_.surface(y);
+            }
+        }();
         return {found.distance, found.normal};
     }
     Scalar extent() const override {
@@ -186,6 +192,9 @@ private:
         std::declval<const Vectors&>(), std::declval<Vectors&>()));
     static constexpr bool in_registers = detail::is_detected_v<query_of, Obstacle>;
     template <class Shape>
+    using hinted_of = decltype(std::declval<const Shape&>().surface(std::declval<const Vector&>(),
+                                                                    std::declval<int&>()));
+    template <class Shape>
     using extent_of = detail::number_of<decltype(std::declval<const Shape&>().extent()), Scalar>;
     template <class Shape>
     using inner_of = detail::number_of<decltype(std::declval<const Shape&>().inner()), Scalar>;
@@ -204,6 +213,7 @@ private:
     }
 
     Obstacle shape_;
+    mutable int hint_ = 0;
     mutable Vector last_point_ = Vector::Zero(), last_normal_ = Vector::Zero();
 };
 

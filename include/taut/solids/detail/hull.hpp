@@ -31,23 +31,30 @@ public:
         points_ = (grid_.cast<double>() * cell).colwise() + low;
         if (!begin()) return;
         for (Index i = 0; i < points_.cols(); ++i) add(i);
+        for (const auto& [a, b, c] : triangles_) {
+            const Place area = way(a, b).cross(way(a, c));
+            const Eigen::Vector3d normal = area.cast<double>().normalized();
+            const auto same = [&](const Plane& plane) {
+                return (plane.normal - normal).norm() < 1e-12;
+            };
+            if (std::none_of(planes_.begin(), planes_.end(), same))
+                planes_.push_back({points_.col(a), normal});
+        }
     }
 
-    /// On the grid, m.
-    const Points<double, 3>& points() const { return points_; }
-    /// None where all points lie in a plane.
-    const std::vector<Triangle>& triangles() const { return triangles_; }
+    struct Plane {
+        Eigen::Vector3d point, normal;  // m; unit, out
+    };
+    /// Of its faces; none where all points lie in a plane.
+    const std::vector<Plane>& planes() const { return planes_; }
     /// The longest edge of a box around the points, m.
     double size() const { return size_; }
     /// How deep the middle of the points is, m; 0 where they lie in a plane.
     double inner() const {
         const Eigen::Vector3d middle = points_.rowwise().mean();
-        double least = triangles_.empty() ? 0 : std::numeric_limits<double>::infinity();
-        for (const auto& [a, b, c] : triangles_) {
-            const Eigen::Vector3d ab = points_.col(b) - points_.col(a);
-            const Eigen::Vector3d normal = ab.cross(points_.col(c) - points_.col(a)).normalized();
-            least = (std::min)(least, normal.dot(points_.col(a) - middle));
-        }
+        double least = planes_.empty() ? 0 : std::numeric_limits<double>::infinity();
+        for (const Plane& plane : planes_)
+            least = (std::min)(least, plane.normal.dot(plane.point - middle));
         return least;
     }
 
@@ -119,6 +126,7 @@ private:
     Points<double, 3> points_;  // m
     double size_ = 0;           // m
     std::vector<Triangle> triangles_;
+    std::vector<Plane> planes_;
 };
 
 }  // namespace taut::solids_detail

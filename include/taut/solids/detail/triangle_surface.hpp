@@ -45,11 +45,14 @@ public:
         tree_.init(faces.begin(), faces.end(), boxes.begin(), boxes.end());
     }
 
-    /// @param x  m
-    Surface<Scalar, 3> surface(const Vector& x) const {
+    /// @param x     m
+    /// @param hint  a triangle to begin with, of the last point near this one; gets the nearest
+    Surface<Scalar, 3> surface(const Vector& x, int& hint) const {
         Nearest nearest;
+        look_at(hint, x, nearest);
         descend(tree_.getRootIndex(), x, nearest);
         if (nearest.face < 0) return {x.norm(), x.stableNormalized()};  // beyond all numbers
+        hint = nearest.face;
         const Face& face = faces_[static_cast<std::size_t>(nearest.face)];
         const Vector& outward = face.outward[static_cast<std::size_t>(nearest.feature)];
         if (nearest.feature == 0) return {outward.dot(x - face.a), outward};
