@@ -181,6 +181,11 @@ private:
         if (part >= 0) return taken_[static_cast<std::size_t>(part)];
         return tried ? Taken::tried : Taken::again;
     }
+    /// Whether contacts hold what they held when the last frame ended.
+    bool held_as_before() const {
+        if (!held_) return held_last_.size() == 0;
+        return std::equal(held_->begin(), held_->end(), held_last_.begin(), held_last_.end());
+    }
     void measure(const State& state, std::vector<guard_detail::Energy>& energies) {
         meter_.measure(*system_, state, parts_, shortest_, energies);
         for (Index i = 0; held_ && i < system_->size(); ++i) {
@@ -205,6 +210,7 @@ private:
     std::vector<guard_detail::Energy> begin_, end_;     // of each part, like all that follows
     std::vector<guard_detail::Energy> before_, after_;  // a response
     const Buffer<double>* held_ = nullptr;              // by contacts, of each particle, J
+    Buffer<double> held_last_;                          // what they held at the end of end_
     const char* blamed_ = nullptr;                      // what the user gave that was not finite
     bool too_stiff_ = false;      // whether a code force asked for shorter steps
     Index where_ = -1;            // and of which particle

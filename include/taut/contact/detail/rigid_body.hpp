@@ -199,22 +199,24 @@ private:
     template <class Shape>
     using inner_of = detail::number_of<decltype(std::declval<const Shape&>().inner()), Scalar>;
 
-    /// Whether the surface's points at this query and the last one lie behind each other's planes,
-    /// as those of a convex body do.
+    /// Whether this query and the last one are of a convex function, as the distance from a convex
+    /// body is.
     bool supports(const Vector& y, const Surface<Scalar, Dim>& found) const {
-        const Vector point = y - found.distance * found.normal;
-        const Vector between = point - std::exchange(last_point_, point);
-        const Vector normal = std::exchange(last_normal_, found.normal);
-        if (normal.isZero(0)) return true;
-        const Scalar rounding =
-            64 * std::numeric_limits<Scalar>::epsilon() * (y.norm() + point.norm());
-        const Scalar most = Scalar(1e-3) * (between.norm() + (std::abs)(found.distance)) + rounding;
-        return !(normal.dot(between) > most) && !(-found.normal.dot(between) > most);
+        const Vector way = y - std::exchange(last_y_, y);
+        const Surface<Scalar, Dim> last = std::exchange(last_, found);
+        if (last.normal.isZero(0)) return true;
+        const Scalar rise = found.distance - last.distance;
+        const Scalar allowed =
+            Scalar(1e-3) * way.norm() + 64 * std::numeric_limits<Scalar>::epsilon() *
+                                            (y.norm() + way.norm() + (std::abs)(found.distance));
+        return !(last.normal.dot(way) - rise > allowed) &&
+               !(rise - found.normal.dot(way) > allowed);
     }
 
     Obstacle shape_;
     mutable int hint_ = 0;
-    mutable Vector last_point_ = Vector::Zero(), last_normal_ = Vector::Zero();
+    mutable Vector last_y_ = Vector::Zero();
+    mutable Surface<Scalar, Dim> last_{0, Vector::Zero()};
 };
 
 }  // namespace taut::contact_detail

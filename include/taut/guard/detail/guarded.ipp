@@ -41,7 +41,7 @@ Status Guarded<Stepper, System>::open(const State& state, Scalar frame, Scalar l
     if (!checked) return checked.status;
     if (!(longest > 0) || !(proved_step_ > 0)) return Status::invalid_step;
     shortest_ = (std::min)(frame, proved_step_);
-    edited_ = !last_.is(*system_, state);
+    edited_ = !last_.is(*system_, state) || !held_as_before();
     if (!edited_ && end_.size() == parts_.count()) {
         begin_ = end_;
     } else {
@@ -341,6 +341,8 @@ Index Guarded<Stepper, System>::strongest_spring(std::size_t part) const {
 template <class Stepper, class System>
 void Guarded<Stepper, System>::close(const State& state, GuardedReport<Scalar>& report) {
     last_.keep(*system_, state);
+    held_last_.clear();
+    if (held_) held_last_ = *held_;
     report.parts = static_cast<Index>(parts_.count());
     for (std::size_t p = 0; p < parts_.count(); ++p) {
         report.trimmed += taken_[p] == Taken::trimmed;
