@@ -264,11 +264,13 @@ private:
     void renew() {
         if (revision_ == system_->revision() + 1) return;
         revision_ = system_->revision() + 1;
-        longest_ = (std::min)(energy_limit(*system_).certified, Scalar(0.01));
+        const Scalar limit = energy_limit(*system_).certified;
+        longest_ = (std::min)(limit, Scalar(0.01));
         // More is lost in the rounding of a particle that several bodies press.
         const Scalar most = Scalar(1e-3) / std::numeric_limits<Scalar>::epsilon();
-        const Scalar by_h2 = 1 / (longest_ * longest_);
-        step_.penalty.by_mass = set_ > 0 ? (std::min)(set_, most * by_h2) : 100 * by_h2;
+        const Scalar by_h2 = 1 / (longest_ * longest_), in_longest = 500 * most / limit / limit;
+        const Scalar wanted = set_ > 0 ? (std::min)(set_, most * by_h2) : 100 * by_h2;
+        step_.penalty.by_mass = (std::min)(wanted, in_longest);
         settled_x_.resize(Dim, 0);
     }
     /// Before the first step.

@@ -70,9 +70,9 @@ public:
             }
             return !(away(b) > 0);
         }
-        // And is convex along it.
+        // And is convex along it. What begins on the surface may leave it.
         Scalar at_a = away(a), at_b = away(b);
-        while (at_a > 0 && at_b > 0 && at_a + at_b < length) {
+        while (at_a >= 0 && at_b > 0 && at_a + at_b < length) {
             const Vector left = a + (b - a) * Scalar(0.45), right = a + (b - a) * Scalar(0.55);
             const Scalar at_left = away(left), at_right = away(right);
             if (!(at_left > 0) || !(at_right > 0)) return true;
@@ -86,7 +86,7 @@ public:
             if (!((b - a).norm() < length)) return false;
             length = (b - a).norm();
         }
-        return !(at_a > 0) || !(at_b > 0);
+        return !(at_a >= 0) || !(at_b > 0);
     }
     Scalar quick() const final {
         const Scalar turned = (motion.turn - Place::Rotation::Identity()).norm();

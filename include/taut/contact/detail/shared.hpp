@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -75,6 +76,8 @@ public:
                 more = true;
             }
         }
+        speed = frame + w;
+        x = pairs[0].x + penalty.h * speed;
         work = frame.dot(w - before);  // of all forces
         Vector rest = (w - before) / penalty.h;
         // What holds most has what is left of all forces: its own is the least known.
@@ -82,17 +85,16 @@ public:
         for (const Active& a : active_) {
             if (stuck_ < 0 && a.in && (!last || a.drag > last->drag)) last = &a;
         }
-        for (const Active& a : active_) {
+        for (std::size_t j = 0; j < count; ++j) {
+            const Active& a = active_[j];
             if (!a.in || &a == last) continue;
-            const Vector relative = w - a.speed;
-            const Vector along = relative - a.normal.dot(relative) * a.normal;
-            const Vector f = force(penalty, a, w) * a.normal - a.drag * along;
+            const Vector f = a.raised == stuck
+                                 ? against(of(pairs[j]), penalty, pairs[j], x, w, a)
+                                 : Vector(force(penalty, a, w) * a.normal - a.drag * across(a, w));
             work += penalty.h * a.speed.dot(f);
             rest -= f;
         }
         if (last) work += penalty.h * last->speed.dot(rest);
-        speed = frame + w;
-        x = pairs[0].x + penalty.h * speed;
         return true;
     }
 
@@ -173,6 +175,19 @@ private:
         a.stick = static_cast<Scalar>(a.raised < whole ? enough : most);
         return false;
     }
+    /// What a body pushes back with that another one carries the particle into: against the way,
+    /// by what φ gains on it. That is sound, as p changes by no more than the way.
+    Vector against(const Against& body, const Penalty<Scalar>& penalty, const Pair& pair,
+                   const Vector& to, const Vector& v, const Active& a) const {
+        Vector normal;
+        const Vector w = v - a.speed;
+        const Scalar end = body.depth(pair.place, to, true, normal);
+        const double gain =
+            penalty.energy_by_mass(end, pair.cap) - penalty.energy_by_mass(pair.depth, pair.cap);
+        const Scalar w2 = w.squaredNorm();
+        if (!(gain > 0) || !(w2 > 0)) return Vector::Zero();
+        return -static_cast<Scalar>(gain) / (penalty.h * w2) * w;
+    }
     /// Whether one pair pushes, and no other.
     bool alone() const {
         return std::count_if(active_.begin(), active_.end(),
@@ -184,6 +199,11 @@ private:
     const Active& stuck_pair() const { return active_[static_cast<std::size_t>(stuck_)]; }
     static Scalar force(const Penalty<Scalar>& penalty, const Active& a, const Vector& v) {
         return penalty.by_mass * (a.share * a.push - penalty.h / 2 * a.normal.dot(v - a.speed));
+    }
+    /// v − ū across n′; of that, rounding leaves nothing along n′: a drag would make much of it.
+    static Vector across(const Active& a, const Vector& v) {
+        const Vector w = v - a.speed, along = w - a.normal.dot(w) * a.normal;
+        return along - a.normal.dot(along) * a.normal;
     }
     Vector solved(const Penalty<Scalar>& penalty, const Vector& before) const {
         if (stuck_ >= 0) return stuck_pair().speed;
@@ -206,7 +226,18 @@ private:
             A += block;
             b += penalty.h * penalty.by_mass * a.share * a.push * a.normal + block * a.speed;
         }
-        return A.inverse() * b;
+        const Eigen::LLT<Matrix> factor(A);
+        Vector v = factor.solve(b);
+        // Of pairs, not of A: what is lost in the rounding of a pair is along its normal.
+        for (int i = 0; i < 3; ++i) {
+            Vector rest = before - v;
+            for (const Active& a : active_) {
+                if (!a.in) continue;
+                rest += penalty.h * (force(penalty, a, v) * a.normal - a.drag * across(a, v));
+            }
+            v += factor.solve(rest);
+        }
+        return v;
     }
     /// As rest(): half of φ′ where a pair goes out by it, and more where it goes in.
     Vector settled(const Penalty<Scalar>& penalty, const Vector& before) {
