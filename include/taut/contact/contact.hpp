@@ -268,9 +268,10 @@ private:
         longest_ = (std::min)(limit, Scalar(0.01));
         // More is lost in the rounding of a particle that several bodies press.
         const Scalar most = Scalar(1e-3) / std::numeric_limits<Scalar>::epsilon();
-        const Scalar by_h2 = 1 / (longest_ * longest_), in_longest = 500 * most / limit / limit;
-        const Scalar wanted = set_ > 0 ? (std::min)(set_, most * by_h2) : 100 * by_h2;
-        step_.penalty.by_mass = (std::min)(wanted, in_longest);
+        const Scalar by_h2 = 1 / (longest_ * longest_);
+        Scalar& by_mass = step_.penalty.by_mass;
+        by_mass = set_ > 0 ? (std::min)(set_, most * by_h2) : 100 * by_h2;
+        if (detail::is_finite(limit)) by_mass = (std::min)(by_mass, 50 * most / limit / limit);
         settled_x_.resize(Dim, 0);
     }
     /// Before the first step.

@@ -61,7 +61,9 @@ void push(Body<Scalar, Dim>& body, const Motion<Scalar, Dim>& moved, const Penal
         for (int d = 0; d < Dim; ++d) along[d] = w[d] - into * n[d];
         const Register by_sliding = reciprocal_sqrt(
             larger(dot(along, along), Register((std::numeric_limits<Scalar>::min)())));
-        const Register keep = larger(zero, one - friction * larger(impulse, zero) * by_sliding);
+        // And slips out.
+        const Register rubs = where_less(cap, infinity, zero, friction);
+        const Register keep = larger(zero, one - rubs * larger(impulse, zero) * by_sliding);
         Register work = zero;
         for (int d = 0; d < Dim; ++d) {
             const Register after = u[d] + out * n[d] + keep * along[d];

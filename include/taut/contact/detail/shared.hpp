@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "body.hpp"
@@ -46,14 +47,14 @@ public:
         const auto of = [&](const Pair& pair) -> const Against& {
             return *bodies[static_cast<std::size_t>(pair.body)];
         };
-        bool nearby = false;
-        for (std::size_t j = 0; j < count && !nearby; ++j)
-            nearby = pairs[j].depth > 0 || meets(of(pairs[j]), pairs[j], x, Scalar(0));
-        if (!nearby) return false;
+        const Pair* const first = std::find_if(pairs, pairs + count, [&](const Pair& pair) {
+            return pair.depth > 0 || meets(of(pair), pair, x, Scalar(0));
+        });
+        if (first == pairs + count) return false;
         start(of, pairs, count, penalty.h);
-        // As the first body sees it: the velocity of what is held is a difference from that body's,
-        // and its force many times as much.
-        const Vector frame = active_.front().speed;
+        // As the first body that it touches sees it: the velocity of what is held is a difference
+        // from that body's, and its force many times as much.
+        const Vector frame = active_[static_cast<std::size_t>(first - pairs)].speed;
         for (Active& a : active_) a.speed -= frame;
         const Vector before = speed - frame;
         Vector w = before;
@@ -111,6 +112,9 @@ private:
         bool stays;       // whether it was added again
         Scalar stick;     // c/m at least, 1/s [T40]
         int raised;       // how often that was
+        Scalar asked;     // m/s, at which what begins inside is to leave, else infinity
+
+        bool gently() const { return detail::is_finite(asked); }
     };
     static constexpr int whole = 5, stuck = 6;  // raised to ½hκ/m; beyond
 
@@ -132,7 +136,7 @@ private:
             active_.push_back({normal, (carried - pair.x) / h,
                                (std::min)((std::max)(pair.depth, Scalar(0)), pair.cap), 1,
                                static_cast<Scalar>(body.options.friction), 0, pair.depth > 0, false,
-                               0, 0});
+                               0, 0, asked(body, pair, h)});
         }
     }
     /// Whether φ⁺ − φ + h f·(v⁺ − ū) ≤ 0 for a pair; if not, it sticks more: by ½hκ that is so.
@@ -239,17 +243,30 @@ private:
         }
         return v;
     }
+    /// No faster than is asked, and to rest at the surface.
+    static Scalar asked(const Against& body, const Pair& pair, Scalar h) {
+        if (!detail::is_finite(pair.cap)) return pair.cap;
+        return (std::min)(static_cast<Scalar>(body.options.push_out), pair.depth / (2 * h));
+    }
     /// As rest(): half of φ′ where a pair goes out by it, and more where it goes in.
     Vector settled(const Penalty<Scalar>& penalty, const Vector& before) {
-        for (;;) {
+        const auto count = static_cast<Scalar>(active_.size());
+        for (int round = 0;; ++round) {
             const Vector v = solved(penalty, before);
             bool more = false;
             for (Active& a : active_) {
                 if (!a.in || !(a.push > 0) || !(a.share < 1)) continue;
-                if (!(a.normal.dot(v - a.speed) < 0)) continue;
+                const Scalar still = a.normal.dot(v - a.speed);
+                if (!(still < 0)) continue;
                 const Scalar into = a.normal.dot(before - a.speed);
                 const Scalar all = penalty.h * penalty.by_mass * a.push;
-                const Scalar enough = alone() ? (std::min)(-into / all, Scalar(1)) : Scalar(1);
+                Scalar enough = 1;
+                if (alone()) {
+                    enough = -into / all;
+                } else if (a.gently() && round < 16) {
+                    enough = a.share - still * (1 + count * penalty.block()) / all;
+                }
+                enough = (std::min)(enough, Scalar(1));
                 more = more || enough > a.share;
                 a.share = enough;
             }
@@ -258,9 +275,13 @@ private:
     }
     /// The velocity for the pairs that push now: normal forces first, then friction by them.
     Vector solve(const Penalty<Scalar>& penalty, const Vector& before) {
+        // Several bodies that it began inside hold it across their normals, too: else it would
+        // leave a wedge faster than it leaves a body. Less of φ′ than half will do where it goes
+        // out.
+        const Scalar held = alone() ? Scalar(0) : penalty.h * penalty.by_mass / 2;
         for (Active& a : active_) {
-            a.drag = a.stick;
-            a.share = Scalar(0.5);
+            a.drag = a.gently() ? (std::max)(a.stick, held) : a.stick;
+            a.share = (std::min)(Scalar(0.5), a.asked * penalty.h / (2 * a.push));
         }
         Vector v = settled(penalty, before);
         bool pulled = false;
@@ -274,7 +295,7 @@ private:
         bool slides = false;
         for (Active& a : active_) {
             const Scalar push = a.in ? force(penalty, a, v) : Scalar(0);
-            if (!(push > 0) || !(a.friction > 0)) continue;
+            if (!(push > 0) || !(a.friction > 0) || a.gently()) continue;
             const Vector w = before - a.speed;
             const Scalar sliding = (w - a.normal.dot(w) * a.normal).norm();
             const Scalar rest = sliding - penalty.h * a.friction * push;
