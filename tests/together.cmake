@@ -5,7 +5,8 @@
 # 1.2 GB; the files that no group names are one more.
 set(groups_bdf2 "bdf2_scenes bdf2_limit_test")
 set(groups_constraints held_solvers_test)
-set(groups_contact contacts_test guarded_contacts_test layers_test self_contact_test skin_test)
+set(groups_contact contacts_test flush_contacts_test guarded_contacts_test layers_test particle_scene_double
+    particle_scene_float particle_solve_test self_contact_test skin_test)
 set(groups_extremes "steppers step_test")
 set(groups_guard guard_trials guarded_types_test)
 set(groups_imex "imex_scenes_laws imex_scenes_laws_3d")

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 #include <taut/contact/contact.hpp>
+#include <taut/contact/self_contact.hpp>
 #include <taut/guard/guard.hpp>
 #include <taut/scene/cloth.hpp>
 
 #include "../support/catch.hpp"
+#include "../support/message.hpp"
 #include "../support/random.hpp"
 #include "../support/tolerance.hpp"
 #include "bodies.hpp"
@@ -185,6 +187,26 @@ TEMPLATE_TEST_CASE("bad contacts: a step that is taken anew has no contact of th
         REQUIRE(taut::step_through(stepper, state, h, 1, contacts));
         CHECK(system.energy(state) + contacts.energy() <= before + contacts.work() + 1e-4);
     }
+}
+
+TEST_CASE("bad contacts: those of another system are refused by name", "[contact][bad_input]") {
+    const auto small = taut::hanging_cloth<float>({5, 5}), big = taut::hanging_cloth<float>({9, 9});
+    taut::Contacts contacts(small);
+    contacts.add(taut::Sphere<float, 3>({0, 0, 0}, 1));
+    auto state = big.initial_state();
+    const auto start = state;
+    const auto says = [&](const char* name, auto call) {
+        CHECK(missing(message_of([&] { call(); }), {name, "another system"}) == "");
+        CHECK((state.x == start.x && state.v == start.v));
+    };
+    taut::Guarded guard(big);
+    taut::EnergyStableEuler stepper(big);
+    taut::SelfContact self(small);
+    says("Guarded::advance", [&] { (void)guard.advance(state, 1.0f / 60, contacts); });
+    says("Guarded::advance", [&] { (void)guard.advance(state, 1.0f / 60, self); });
+    says("Contacts", [&] { (void)step_through(stepper, state, 1e-3f, 2, contacts); });
+    says("SelfContact", [&] { (void)step_through(stepper, state, 1e-3f, 2, self); });
+    says("SelfContact", [&] { taut::SelfContact(big, contacts); });
 }
 
 TEST_CASE("bad contacts: a rotation that is one but for rounding does no work", "[contact]") {

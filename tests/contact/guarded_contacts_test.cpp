@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 Taut contributors
 // SPDX-License-Identifier: MIT
 #include <cmath>
+#include <taut/contact/skin.hpp>
 #include <taut/guard/guard.hpp>
+#include <taut/scene/cloth.hpp>
 
 #include "../support/catch.hpp"
 #include "../support/tolerance.hpp"
@@ -69,6 +71,38 @@ TEMPLATE_TEST_CASE("guarded contacts: a guard books what moving bodies do", "[co
     }
     CHECK(touched > 500);
     if constexpr (Dim == 2) CHECK(again > 0);  // seldom in all
+}
+
+TEMPLATE_TEST_CASE("guarded contacts: what is edited between frames is no gain", "[contact]", float,
+                   double) {
+    auto cloth = taut::hanging_cloth<TestType>({8, 8});
+    auto state = cloth.initial_state();
+    taut::Contacts contacts(cloth);
+    taut::Skin<std::decay_t<decltype(cloth)>> skin(contacts, state.x);
+    taut::Guarded guard(cloth);
+    using Vector = Eigen::Matrix<TestType, 3, 1>;
+    for (int frame = 0; frame < 40; ++frame) {
+        const bool with = frame >= 5;  // bodies are seen from then on
+        if (frame == 10) {
+            contacts.add(taut::Sphere<TestType, 3>(Vector::Zero(), TestType(0.2)), {},
+                         {state.x.col(40)});
+        }
+        if (frame == 20) contacts.set_stiffness(4 * contacts.stiffness());
+        if (frame == 30) {
+            for (Index i = 40; i < 64; ++i) skin.limit(i, {TestType(0.001)});
+        }
+        double held = 0;
+        for (const double each : contacts.open(state)) held += with ? each : 0.0;
+        const double before = static_cast<double>(cloth.energy(state)) + held;
+        const auto kinetic = static_cast<double>(cloth.kinetic_energy(state));
+        const auto report = with ? guard.advance(state, TestType(1.0 / 60), contacts)
+                                 : guard.advance(state, TestType(1.0 / 60));
+        REQUIRE(report);
+        CAPTURE(frame, held);
+        CHECK(report.frozen == 0);
+        CHECK(report.balance <= report.slack);
+        CHECK(report.energy <= before + report.work + 0.1 * kinetic + 2 * report.slack + 1e-6);
+    }
 }
 
 }  // namespace taut_test::guarded_contacts_test

@@ -211,7 +211,11 @@ public:
             step_.stop(moving.v);
             return true;
         }
-        if (passed_ == 0) know(places);
+        if (passed_ == 0) {
+            if (Index(places.size()) != system_->size())
+                fail("Contacts: these are of another system than the stepper");
+            know(places);
+        }
         ++passed_;
         const Scalar share = static_cast<Scalar>(passed_) / static_cast<Scalar>(count_);
         const Scalar time = static_cast<Scalar>(passed_) * step_.penalty.h;
@@ -238,9 +242,9 @@ public:
 private:
     template <class Obstacle>
     Index add_body(Obstacle&& shape, const BodyOptions& options, const Place& pose) {
-        require_non_negative("Contacts::add", "friction", options.friction);
+        require_held<Scalar>("Contacts::add", "friction", options.friction);
         require_held<Scalar>("Contacts::add", "thickness", options.thickness);
-        require_positive("Contacts::add", "push_out", options.push_out);
+        require_positive("Contacts::add", "push_out", static_cast<Scalar>(options.push_out));
         using Own = contact_detail::BodyOf<Scalar, Dim, Obstacle>;
         auto body = std::make_unique<Own>(std::move(shape), options, rigid("Contacts::add", pose));
         rigid_.push_back(body.get());
@@ -253,7 +257,8 @@ private:
         using Rotation = typename Place::Rotation;
         Rotation& R = pose.rotation;
         const Rotation one = Rotation::Identity();
-        if (!detail::all_finite(pose.position) ||
+        // Of a distance beyond numbers no body comes back.
+        if (!(pose.position.squaredNorm() < (std::numeric_limits<Scalar>::max)()) ||
             !((R.transpose() * R - one).norm() < Scalar(1e-3)) || !(R.determinant() > 0)) {
             fail(function, ": the pose is not finite, or does more than turn and shift");
         }

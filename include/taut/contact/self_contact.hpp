@@ -69,6 +69,7 @@ public:
     SelfContact(const System& system, Contacts<System>& bodies,
                 const SelfContactOptions& options = {})
         : SelfContact(system, options) {
+        if (&bodies.system() != &system) fail("SelfContact: the bodies are of another system");
         bodies_ = &bodies;
     }
 
@@ -107,6 +108,9 @@ public:
     double work() const { return chosen_.work; }
     /// How often near pairs were looked up anew.
     Index lookups() const { return near_.lookups(); }
+
+    /// The system whose particles these are.
+    const System& system() const { return *system_; }
 
     // What follows is for steppers.
 
@@ -203,6 +207,8 @@ public:
                 Scalar ahead) override {
         waits_ = false;
         if (stopped_) return false;
+        if (Index(places.size()) != system_->size())
+            fail("SelfContact: this is of another system than the stepper");
         stopped_ = true;  // unless this is one more
         const bool ends = passed_ == count_, first = passed_ == 0, last = ++passed_ == count_;
         const auto& planes = memory.planes();

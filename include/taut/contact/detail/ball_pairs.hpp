@@ -34,7 +34,8 @@ public:
     /// Makes room, so that lists as long as one of `pairs` a ball need no memory of their own.
     void reserve(Index pairs) {
         const auto count = static_cast<Index>(radius.size());
-        for (auto* of : {&found_, &pairs_}) of->reserve(static_cast<std::size_t>(count * pairs));
+        for (auto* of : {&found_, &pairs_})
+            of->reserve(static_cast<std::size_t>(count * (std::min)(pairs, count)));
         for (table_ = 64; table_ < 2 * count;) table_ *= 2;
         begin_.resize(table_ + 1);
         for (auto* of : {&items_, &slot_}) of->resize(count);

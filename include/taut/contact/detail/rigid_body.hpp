@@ -63,7 +63,10 @@ public:
                 const Scalar inwards = -found.normal.dot(b - a) / length;
                 const bool steep = inwards > Scalar(0.05);
                 // A thin wall is not stepped over where the way goes into it.
-                if (!(room > 0) || (steep && room < Scalar(0.001) && room < (1 - gone) * inwards)) {
+                // What begins on the surface may leave it.
+                const bool leaves = gone == 0 && room == 0 && !steep;
+                if ((!(room > 0) && !leaves) ||
+                    (steep && room < Scalar(0.001) && room < (1 - gone) * inwards)) {
                     return true;
                 }
                 gone += (std::max)(room, steep ? Scalar(0.001) : Scalar(0.004));

@@ -220,33 +220,58 @@ private:
             return only->speed + out * only->normal +
                    (w - into * only->normal) / (1 + penalty.h * only->drag);
         }
-        Matrix A = Matrix::Identity();
-        Vector b = before;
+        // In double, where A of parallel normals is far from singular.
+        using Exact = Eigen::Matrix<double, Dim, Dim>;
+        using Exacts = Eigen::Matrix<double, Dim, 1>;
+        const auto h = static_cast<double>(penalty.h), k = static_cast<double>(penalty.by_mass);
+        const double block = h * h * k / 2;
+        const Exacts start = before.template cast<double>();
+        const auto force_of = [&](const Active& a, const Exacts& w) -> Exacts {
+            const Exacts n = a.normal.template cast<double>();
+            const Exacts relative = w - a.speed.template cast<double>();
+            // Rounding leaves nothing along n′ of what is across: a drag would make much of it.
+            const double into = n.dot(relative);
+            Exacts along = relative - into * n;
+            along -= n.dot(along) * n;
+            const double push = static_cast<double>(a.share * a.push) - h / 2 * into;
+            return h * (k * push * n - static_cast<double>(a.drag) * along);
+        };
+        Exact A = Exact::Identity();
+        Exacts b = Exacts::Zero();
+        double sum = 1;
         for (const Active& a : active_) {
             if (!a.in) continue;
-            const Matrix nn = a.normal * a.normal.transpose();
-            const Matrix block =
-                penalty.block() * nn + penalty.h * a.drag * (Matrix::Identity() - nn);
-            A += block;
-            b += penalty.h * penalty.by_mass * a.share * a.push * a.normal + block * a.speed;
+            const Exacts n = a.normal.template cast<double>();
+            const double drag = h * static_cast<double>(a.drag);
+            A += (block - drag) * n * n.transpose() + drag * Exact::Identity();
+            b += force_of(a, start);
+            sum += block + drag;
         }
-        const Eigen::LLT<Matrix> factor(A);
-        Vector v = factor.solve(b);
-        // Of pairs, not of A: what is lost in the rounding of a pair is along its normal.
-        for (int i = 0; i < 3; ++i) {
-            Vector rest = before - v;
+        const Eigen::LLT<Exact> factor(A);
+        Exacts w = start + factor.solve(b);
+        constexpr double unit = std::numeric_limits<double>::epsilon();
+        for (int i = 0; i < 3 && sum * unit > 1e-13; ++i) {
+            Exacts rest = start - w;
             for (const Active& a : active_) {
-                if (!a.in) continue;
-                rest += penalty.h * (force(penalty, a, v) * a.normal - a.drag * across(a, v));
+                if (a.in) rest += force_of(a, w);
             }
-            v += factor.solve(rest);
+            w += factor.solve(rest);
         }
-        return v;
+        return w.template cast<Scalar>();
+    }
+    /// Whether what began inside several bodies leaves faster than it is asked to, as from a wedge.
+    /// Then these hold it across n′, too.
+    bool thrown(const Vector& before, const Vector& v) const {
+        return !alone() && std::any_of(active_.begin(), active_.end(), [&](const Active& a) {
+            const Scalar may = (std::max)(a.asked, (before - a.speed).norm());
+            return a.in && a.gently() && (v - a.speed).norm() > Scalar(1.01) * may;
+        });
     }
     /// No faster than is asked, and to rest at the surface.
     static Scalar asked(const Against& body, const Pair& pair, Scalar h) {
         if (!detail::is_finite(pair.cap)) return pair.cap;
-        return (std::min)(static_cast<Scalar>(body.options.push_out), pair.depth / (2 * h));
+        const Scalar depth = (std::max)(pair.depth, Scalar(0));
+        return (std::min)(static_cast<Scalar>(body.options.push_out), depth / (2 * h));
     }
     /// As rest(): half of φ′ where a pair goes out by it, and more where it goes in.
     Vector settled(const Penalty<Scalar>& penalty, const Vector& before) {
@@ -257,14 +282,16 @@ private:
             for (Active& a : active_) {
                 if (!a.in || !(a.push > 0) || !(a.share < 1)) continue;
                 const Scalar still = a.normal.dot(v - a.speed);
-                if (!(still < 0)) continue;
+                const Scalar rounding = 8 * std::numeric_limits<Scalar>::epsilon() *
+                                        (v.norm() + a.speed.norm() + before.norm());
+                if (!(still < (a.gently() && !alone() ? -rounding : Scalar(0)))) continue;
                 const Scalar into = a.normal.dot(before - a.speed);
                 const Scalar all = penalty.h * penalty.by_mass * a.push;
                 Scalar enough = 1;
                 if (alone()) {
                     enough = -into / all;
                 } else if (a.gently() && round < 16) {
-                    enough = a.share - still * (1 + count * penalty.block()) / all;
+                    enough = a.share - Scalar(1.01) * still * (1 + count * penalty.block()) / all;
                 }
                 enough = (std::min)(enough, Scalar(1));
                 more = more || enough > a.share;
@@ -275,15 +302,18 @@ private:
     }
     /// The velocity for the pairs that push now: normal forces first, then friction by them.
     Vector solve(const Penalty<Scalar>& penalty, const Vector& before) {
-        // Several bodies that it began inside hold it across their normals, too: else it would
-        // leave a wedge faster than it leaves a body. Less of φ′ than half will do where it goes
-        // out.
-        const Scalar held = alone() ? Scalar(0) : penalty.h * penalty.by_mass / 2;
         for (Active& a : active_) {
-            a.drag = a.gently() ? (std::max)(a.stick, held) : a.stick;
-            a.share = (std::min)(Scalar(0.5), a.asked * penalty.h / (2 * a.push));
+            a.drag = a.stick;
+            a.share = Scalar(0.5);
+            if (a.push > 0) a.share = (std::min)(a.share, a.asked * penalty.h / (2 * a.push));
         }
         Vector v = settled(penalty, before);
+        if (thrown(before, v)) {
+            for (Active& a : active_) {
+                if (a.gently()) a.drag = (std::max)(a.stick, penalty.h * penalty.by_mass / 2);
+            }
+            v = settled(penalty, before);
+        }
         bool pulled = false;
         for (Active& a : active_) {
             if (stuck_ >= 0 || !a.in || a.stays || !(a.push > 0) || !(force(penalty, a, v) < 0))

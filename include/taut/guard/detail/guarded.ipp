@@ -379,7 +379,11 @@ auto Guarded<Stepper, System>::advance(State& state, Scalar frame, Respond&& res
     GuardedReport<Scalar> report;
     renew(guard_detail::is_self_contact_v<Respond>);
     held_ = nullptr;
-    if constexpr (guard_detail::is_contacts_v<Respond>) held_ = &respond.open(state);
+    if constexpr (guard_detail::is_contacts_v<Respond>) {
+        if (&respond.system() != system_)
+            fail("Guarded::advance: the contacts are of another system");
+        held_ = &respond.open(state);
+    }
     if constexpr (guard_detail::is_self_contact_v<Respond>)
         proved_step_ = respond.longest(proved_limit_->certified);
     const Scalar longest = trial_step();
