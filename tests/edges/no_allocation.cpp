@@ -19,6 +19,7 @@ bool eigen_allocated = false;
 // Eigen asserts on every allocation while none is allowed.
 #define eigen_assert(condition) ((condition) ? void() : void(eigen_allocated = true))
 #include <taut/contact/self_contact.hpp>
+#include <taut/contact/skin.hpp>
 #include <taut/guard/guard.hpp>
 #include <taut/taut.hpp>
 
@@ -102,7 +103,8 @@ bool guarded_frames_allocate() {
     return found;
 }
 
-/// A cloth of 10 000 particles lies on a floor that rises, some of it on a ball.
+/// A cloth of 10 000 particles lies on a floor that rises, some of it on a ball, on a skin that
+/// rises.
 bool contacts_allocate() {
     auto cloth = taut::hanging_cloth<float>({100, 100});
     for (taut::Index i = 0; i < cloth.size(); ++i) cloth.unpin(i);
@@ -117,9 +119,15 @@ bool contacts_allocate() {
     taut::Pose<float, 3> pose;
     contacts.add(taut::HalfSpace<float, 3>({0, 0, 0}, {0, 0, 1}), options);
     contacts.add(taut::Sphere<float, 3>({0.5f, 0.5f, -0.2f}, 0.2f), options);
+    taut::Points<float, 3> places = state.x, normals = 0 * places;
+    normals.row(2).setOnes();
+    taut::Skin skin(contacts, places, normals);
+    for (taut::Index i = 0; i < cloth.size(); i += 3) skin.limit(i, {0.02f, 0.003f});
     const auto frames = [&](int count) {
         for (int frame = 0; frame < count; ++frame) {
             pose.position[2] += 0.001f;
+            places.row(2).array() += 0.001f;
+            skin.move_to(places, normals);
             for (taut::Index body = 0; body < 2; ++body) contacts.move_to(body, pose);
             if (!guard.advance(state, 1.0f / 240, contacts)) return false;
         }
