@@ -5,8 +5,8 @@
 # 1.2 GB; the files that no group names are one more.
 set(groups_bdf2 "bdf2_scenes bdf2_limit_test")
 set(groups_constraints held_solvers_test)
-set(groups_contact contacts_test flush_contacts_test guarded_contacts_test layers_test particle_scene_double
-    particle_scene_float particle_solve_test self_contact_test skin_test)
+set(groups_contact contacts_test fast_contacts_test flush_contacts_test guarded_contacts_test layers_test
+    particle_scene_double particle_scene_float particle_solve_test pressed_contacts_test self_contact_test skin_test)
 set(groups_extremes "steppers step_test")
 set(groups_guard guard_trials guarded_types_test)
 set(groups_imex "imex_scenes_laws imex_scenes_laws_3d")
@@ -24,6 +24,7 @@ set(groups_proof
     "growth_test lanczos_test large_test limit_test"
     "pencil_test small_eigenvalue_test rayleigh_test step_limit_test")
 set(groups_resolution resolution_scenes)
+set(groups_solids solids_energy_test)
 set(groups_solver "conjugate_gradient_test two_level_test")
 set(groups_step "sweep_forces_test" "energy_stable_sweep_test sweep_test")
 set(groups_support

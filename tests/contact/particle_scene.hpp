@@ -277,6 +277,7 @@ std::vector<std::array<Step, 2>> pushed_steps(Random& random, bool stiff) {
         near_pairs.now.depth()[k] = pair.depth;
         near_pairs.now.cap()[k] = pair.cap;
         near_pairs.next.depth()[k] = depth;
+        near_pairs.mass[k] = 1;
         touching.x().set(k, one.end);
         touching.v().set(k, one.v);
         touching.pushed()[k] = meets ? Scalar(1) : Scalar(0);

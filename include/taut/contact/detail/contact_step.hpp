@@ -54,12 +54,10 @@ public:
     /// The step is over: books its work.
     void accept() {
         for (const auto& body : bodies) {
-            auto& pairs = body->near_pairs;
             auto& touching = body->touching;
-            touching.each_pushed([&](Index j, Index row) {
-                work[touching.place[j]] += pairs.mass[touching.at[j]] * touching.work()[row];
-            });
-            std::swap(pairs.now, pairs.next);
+            touching.each_pushed(
+                [&](Index j, Index row) { work[touching.place[j]] += touching.work()[row]; });
+            std::swap(body->near_pairs.now, body->near_pairs.next);
         }
         for (const auto& one : solved_) work[one.place] += one.work;
     }
@@ -153,8 +151,11 @@ private:
         Index several = 0;  // registers with such
         for (Index t = 0; t < touching.count; ++t) {
             const Index k = t * Register::width, at = touching.first[t];
-            const int* place = pairs.place.data() + at;
-            moving.v.gather(place, Register::width, touching.v().beyond(k));
+            const Access v = touching.v();
+            for (int lane = 0; lane < Register::width; ++lane) {
+                const Index place = pairs.place[at + lane];
+                for (int d = 0; d < Dim; ++d) v(d, k + lane) = moving.v(d, place);
+            }
             for (int d = 0; d < Dim; ++d) pairs.next.x().row(d, at).store(&touching.x()(d, k));
             if (pairs.mixed[at / Register::width] == 0) continue;
             ++several;
@@ -172,7 +173,7 @@ private:
         touching.list_pushed(pairs.place);
         moving.scatter(touching);
         for (Index j = 0; several > 0 && j < touching.pushed_count; ++j) {
-            const int particle = pairs.several[touching.at[j]];
+            const int particle = pairs.several[touching.pair(touching.row[j])];
             if (particle < 0) continue;
             pushed_by_[particle] = {b, touching.row[j]};
             nearby.each_link(particle, [&](const Link& link) {

@@ -103,24 +103,6 @@ public:
             }
         }
     }
-    /// The other way, from `count` of them.
-    void scatter(const int* places, const int* rows, Index count, const PlaneAccess& from) const {
-        for (int d = 0; d < Dim; ++d) {
-            Scalar* to = first_ + d * axis_;
-            const Scalar* row = from.first_ + d * from.axis_;
-            if (grain_ == 1) {
-                for (Index k = 0; k < count; ++k) to[places[k]] = row[rows[k]];
-            } else {
-                for (Index k = 0; k < count; ++k) to[places[k] * grain_] = row[rows[k]];
-            }
-        }
-    }
-    /// From a place on.
-    PlaneAccess beyond(Index place) const {
-        PlaneAccess result = *this;
-        result.first_ += place * grain_;
-        return result;
-    }
 
 private:
     Scalar* first_;

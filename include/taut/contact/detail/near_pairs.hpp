@@ -56,16 +56,16 @@ struct Touching {
     using Access = PlaneAccess<Scalar, Dim>;
 
     Index count = 0, stride = 0;
-    Buffer<int> first;           // pair of each
-    Index pushed_count = 0;      // of pairs
-    Buffer<int> row, at, place;  // of a pushed one: in the rows here, among near pairs, particle
+    Buffer<int> first;       // pair of each
+    Index pushed_count = 0;  // of pairs
+    Buffer<int> row, place;  // of a pushed one: in the rows here, particle
     Buffer<Scalar> numbers;
 
     void begin(Index size) {
         count = 0;
         stride = size;
         pushed_count = 0;
-        for (auto* of : {&first, &row, &at, &place}) of->resize(size);
+        for (auto* of : {&first, &row, &place}) of->resize(size);
         numbers.resize((6 * Dim + 3) * size);
     }
     Access x() { return vectors(0); }        // without contact, m
@@ -76,18 +76,24 @@ struct Touching {
     Access normal() { return vectors(5); }   // at the end
     Scalar* depth() { return scalars(0); }   // at the end, m
     Scalar* pushed() { return scalars(1); }  // > 0 where it touches, then where it is pushed
-    Scalar* work() { return scalars(2); }    // h ū·f/m
+    Scalar* work() { return scalars(2); }    // h ū·f, J
+    /// Of a row, among near pairs.
+    Index pair(Index of) const {
+        constexpr int width = step_detail::VectorRegister<Scalar>::width;
+        return first[of / width] + of % width;
+    }
 
     /// Lists what is pushed. @param places  of near pairs
     void list_pushed(const Buffer<int>& places) {
         constexpr int width = step_detail::VectorRegister<Scalar>::width;
         const Scalar* on = pushed();
+        int *to_row = row.data(), *to_place = place.data();
         Index n = 0;
         for (Index t = 0; t < count; ++t) {
+            const int* from = places.data() + first[t];
             for (int lane = 0; lane < width; ++lane) {
-                row[n] = static_cast<int>(t * width) + lane;
-                at[n] = first[t] + lane;
-                place[n] = places[at[n]];
+                to_row[n] = static_cast<int>(t * width) + lane;
+                to_place[n] = from[lane];
                 n += on[t * width + lane] > 0;
             }
         }
@@ -122,9 +128,14 @@ struct Moving {
     /// The same of all that a body has pushed.
     void scatter(Touching<Scalar, Dim>& of) const {
         const int *places = of.place.data(), *rows = of.row.data();
-        x.scatter(places, rows, of.pushed_count, of.end());
-        v.scatter(places, rows, of.pushed_count, of.speed());
-        if (ahead > 0) spring_x.scatter(places, rows, of.pushed_count, of.ahead());
+        const PlaneAccess<Scalar, Dim> end = of.end(), speed = of.speed(), seen = of.ahead();
+        const bool sees = ahead > 0;
+        for (Index j = 0; j < of.pushed_count; ++j) {
+            const Index place = places[j], row = rows[j];
+            for (int d = 0; d < Dim; ++d) x(d, place) = end(d, row);
+            for (int d = 0; d < Dim; ++d) v(d, place) = speed(d, row);
+            for (int d = 0; d < Dim && sees; ++d) spring_x(d, place) = seen(d, row);
+        }
     }
 };
 

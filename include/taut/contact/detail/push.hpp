@@ -74,7 +74,7 @@ void push(Body<Scalar, Dim>& body, const Motion<Scalar, Dim>& moved, const Penal
             v[d].store(&touching.speed()(d, k));
             (x[d] + Register(ahead) * v[d]).store(&touching.ahead()(d, k));
         }
-        work.store(touching.work() + k);
+        (work * Register::load(pairs.mass.data() + at)).store(touching.work() + k);
     }
 }
 
