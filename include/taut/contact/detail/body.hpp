@@ -25,8 +25,7 @@ public:
     using Place = Pose<Scalar, Dim>;
     using Access = PlaneAccess<Scalar, Dim>;
 
-    Body(const BodyOptions& how, bool is_convex)
-        : options(how), convex(is_convex), alone(is_convex) {}
+    Body(const BodyOptions& how, bool is_convex) : options(how), convex(is_convex) {}
     virtual ~Body() = default;
 
     /// p of the particle at a place, m, where a step begins, or ends. @param normal  gets n
@@ -49,7 +48,7 @@ public:
     /// How far it goes in the step, without turning, m.
     virtual Vector gone() const = 0;
     /// Pushes those that it alone touches. @param ahead  s, as in Moving
-    virtual void push(const Penalty<Scalar>&, Scalar) {}
+    virtual void push(const Penalty<Scalar>& penalty, Scalar ahead) = 0;
 
     /// A frame is to begin so.
     virtual void open(const State<Scalar, Dim>&) {}
@@ -73,7 +72,6 @@ public:
 
     BodyOptions options;
     bool convex;                // whether what is forbidden is: planes support it [T39]; else [T40]
-    bool alone;                 // whether what it alone touches is pushed in registers
     bool of_particles = false;  // whether it is for single ones
     NearPairs<Scalar, Dim> near_pairs;
     Touching<Scalar, Dim> touching;

@@ -124,7 +124,7 @@ private:
                 const int several = pairs.several[at + lane];
                 if (several < 0 || !(touching.pushed()[k + lane] > 0)) continue;
                 const int others = meets_[several];
-                meets_[several] += body.alone ? 1 : 2;
+                ++meets_[several];
                 if (others < 2 && meets_[several] > 1) queue_.push_back(several);
             }
         }
@@ -147,7 +147,7 @@ private:
         Body<Scalar, Dim>& body = body_of(b);
         auto& pairs = body.near_pairs;
         auto& touching = body.touching;
-        if (touching.count == 0 || !body.alone) return;
+        if (touching.count == 0) return;
         Index several = 0;  // registers with such
         for (Index t = 0; t < touching.count; ++t) {
             const Index k = t * Register::width, at = touching.first[t];
@@ -165,8 +165,17 @@ private:
             }
         }
         body.push(penalty, moving.ahead);
-        body.query(nullptr, touching.end(), touching.count * Register::width, touching.depth(),
-                   touching.normal());
+        const Index rows = touching.count * Register::width;
+        if (body.of_particles) {
+            places_.resize(rows);
+            for (Index row = 0; row < rows; ++row) places_[row] = pairs.place[touching.pair(row)];
+        }
+        body.query(places_.data(), touching.end(), rows, touching.depth(), touching.normal());
+        for (Index row = 0; row < rows && !body.convex; ++row) {
+            if (!(touching.pushed()[row] > 0) || holds(body, row)) continue;
+            touching.pushed()[row] = 0;
+            queue_.push_back(pairs.several[touching.pair(row)]);
+        }
         for (Index t = 0; t < touching.count; ++t) {
             settle(pairs, touching, t);
         }
@@ -180,6 +189,33 @@ private:
                 if (link.body != b) body_of(link.body).near_pairs.again.push_back(link.pair);
             });
         }
+    }
+    /// Whether φ⁺ − φ + h f·(v⁺ − ū) ≤ 0 of what was pushed, and it is on the side where it was
+    /// [T40].
+    bool holds(const Body<Scalar, Dim>& body, Index row) const {
+        using Doubles = Eigen::Matrix<double, Dim, 1>;
+        constexpr double unit = static_cast<double>(std::numeric_limits<Scalar>::epsilon());
+        auto& pairs = const_cast<Body<Scalar, Dim>&>(body).near_pairs;
+        auto& touching = const_cast<Body<Scalar, Dim>&>(body).touching;
+        const Index pair = touching.pair(row);
+        const Vector from = pairs.now.x().vector(pair), to = touching.end().vector(row);
+        Vector normal = pairs.now.normal().vector(pair);
+        const int place = pairs.place[pair];
+        const Doubles speed =
+            (body.carry(place, from, normal, false) - from).template cast<double>() /
+            static_cast<double>(penalty.h);
+        const Doubles after = touching.speed().vector(row).template cast<double>();
+        const Doubles before = touching.v().vector(row).template cast<double>();
+        const auto begin = static_cast<double>(pairs.now.depth()[pair]);
+        const auto end = static_cast<double>(touching.depth()[row]);
+        const Scalar cap = pairs.now.cap()[pair];
+        const double given = (after - before).dot(after - speed);
+        const double gain =
+            penalty.energy_by_mass(end, cap) - penalty.energy_by_mass(begin, cap) + given;
+        const double rounding = 4 * unit * (after - before).norm() * (after.norm() + speed.norm());
+        if (gain > rounding) return false;
+        if (touching.normal().vector(row).dot(normal) < 0) return false;
+        return begin > 0 || end > 0 || !body.meets(place, from, to);
     }
     /// A register of pairs at the end of the step.
     static void settle(NearPairs<Scalar, Dim>& pairs, Touching<Scalar, Dim>& touching, Index t) {

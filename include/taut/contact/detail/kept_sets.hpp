@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "body.hpp"
+#include "push.hpp"
 
 namespace taut::contact_detail {
 
@@ -43,7 +43,6 @@ public:
 
     /// @param size  of the system
     KeptSets(const BodyOptions& how, bool is_convex, Index size) : Base(how, is_convex) {
-        this->alone = false;
         this->of_particles = true;
         index_.assign(size, -1);
     }
@@ -96,6 +95,30 @@ public:
         Vector normal;
         const Scalar depth = depth_of(*set, x, Scalar(end), normal);
         return penalty.energy(depth, this->cap(push_time), mass);
+    }
+    void push(const Penalty<Scalar>& penalty, Scalar ahead) final {
+        using Register = step_detail::VectorRegister<Scalar>;
+        using Vectors = detail::Few<Register, Dim>;
+        auto& pairs = this->near_pairs;
+        detail::Few<detail::Few<Scalar, Register::width>, Dim> lanes, normals;
+        const auto carry = [&](Index at, Vectors& x, Vectors& n) {
+            for (int lane = 0; lane < Register::width; ++lane) {
+                Vector normal = pairs.now.normal().vector(at + lane);
+                Vector to = pairs.now.x().vector(at + lane);
+                if (pairs.mass[at + lane] > 0) {
+                    to = this->carry(pairs.place[at + lane], to, normal, false);
+                }
+                for (int d = 0; d < Dim; ++d) {
+                    lanes[d][lane] = to[d];
+                    normals[d][lane] = normal[d];
+                }
+            }
+            for (int d = 0; d < Dim; ++d) {
+                x[d] = Register::load(lanes[d].data());
+                n[d] = Register::load(normals[d].data());
+            }
+        };
+        contact_detail::push<Scalar, Dim>(*this, carry, penalty, ahead);
     }
     void know(const Buffer<int>& places) final {
         at_.assign(static_cast<Index>(places.size()), -1);

@@ -106,7 +106,7 @@ public:
                 for (Index k = 0; k < end; ++k) {
                     if (!(-depth[k] < margin) || !(mass[i + k] > 0)) continue;
                     found_[b].push_back(i + static_cast<int>(k));
-                    near_[i + k] += bodies[b]->alone ? 1 : 1 + by_itself;
+                    near_[i + k] += bodies[b]->convex ? 1 : 1 + by_itself;
                 }
                 depth += Register::width;
             }
@@ -160,7 +160,7 @@ public:
     }
 
 private:
-    /// Of a body that pushes nothing in registers; more than bodies can be.
+    /// Of a body whose push may not hold, and then is solved; more than bodies can be.
     static constexpr int by_itself = 1 << 16;
 
     /// Numbers those that are near several bodies, or are to be solved by themselves, in the place

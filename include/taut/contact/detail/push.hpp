@@ -10,8 +10,9 @@ namespace taut::contact_detail {
 
 /// Contact of a body's touching pairs, a register of them at a time: fills end, speed, pushed and
 /// work from what was at the start and would be without.
-template <class Scalar, int Dim>
-void push(Body<Scalar, Dim>& body, const Motion<Scalar, Dim>& moved, const Penalty<Scalar>& penalty,
+/// @param carry  carry(at, x, n) makes of x and n of a register of near pairs g(x) and n′
+template <class Scalar, int Dim, class Carry>
+void push(Body<Scalar, Dim>& body, const Carry& carry, const Penalty<Scalar>& penalty,
           Scalar ahead) {
     using Register = step_detail::VectorRegister<Scalar>;
     using Vectors = detail::Few<Register, Dim>;
@@ -31,10 +32,10 @@ void push(Body<Scalar, Dim>& body, const Motion<Scalar, Dim>& moved, const Penal
             from[d] = pairs.now.x().row(d, at);
             n[d] = pairs.now.normal().row(d, at);
         }
-        n = times(moved.turn, n);
-        const Vectors carried = times(moved.turn, from);
+        Vectors carried = from;
+        carry(at, carried, n);
         for (int d = 0; d < Dim; ++d) {
-            u[d] = (carried[d] + Register(moved.shift[d]) - from[d]) * Register(1 / penalty.h);
+            u[d] = (carried[d] - from[d]) * Register(1 / penalty.h);
             w[d] = v[d] - u[d];
         }
         const Register before = Register::load(pairs.now.depth() + at);

@@ -98,7 +98,16 @@ public:
     }
     Vector gone() const final { return motion.next.position - motion.now.position; }
     void push(const Penalty<Scalar>& penalty, Scalar ahead) final {
-        contact_detail::push(*this, motion, penalty, ahead);
+        using Register = step_detail::VectorRegister<Scalar>;
+        using Vectors = detail::Few<Register, Dim>;
+        contact_detail::push<Scalar, Dim>(
+            *this,
+            [this](Index, Vectors& x, Vectors& n) {
+                n = times(motion.turn, n);
+                x = times(motion.turn, x);
+                for (int d = 0; d < Dim; ++d) x[d] = x[d] + Register(motion.shift[d]);
+            },
+            penalty, ahead);
     }
 
     Vector start(Scalar) final {

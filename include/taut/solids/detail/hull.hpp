@@ -27,7 +27,7 @@ public:
         size_ = (high - low).maxCoeff();
         if (!(size_ > 0) || !detail::is_finite(size_)) return;
         const double cell = std::exp2(std::ceil(std::log2(size_)) - grid_bits);
-        grid_ = ((points.colwise() - low) / cell).array().round().matrix().cast<std::int64_t>();
+        grid_ = (((points.colwise() - low) / cell).array() + 0.5).matrix().cast<std::int64_t>();
         points_ = (grid_.cast<double>() * cell).colwise() + low;
         if (!begin()) return;
         for (Index i = 0; i < points_.cols(); ++i) add(i);
