@@ -192,11 +192,11 @@ private:
     }
     /// Whether φ⁺ − φ + h f·(v⁺ − ū) ≤ 0 of what was pushed, and it is on the side where it was
     /// [T40].
-    bool holds(const Body<Scalar, Dim>& body, Index row) const {
+    bool holds(Body<Scalar, Dim>& body, Index row) const {
         using Doubles = Eigen::Matrix<double, Dim, 1>;
         constexpr double unit = static_cast<double>(std::numeric_limits<Scalar>::epsilon());
-        auto& pairs = const_cast<Body<Scalar, Dim>&>(body).near_pairs;
-        auto& touching = const_cast<Body<Scalar, Dim>&>(body).touching;
+        auto& pairs = body.near_pairs;
+        auto& touching = body.touching;
         const Index pair = touching.pair(row);
         const Vector from = pairs.now.x().vector(pair), to = touching.end().vector(row);
         Vector normal = pairs.now.normal().vector(pair);

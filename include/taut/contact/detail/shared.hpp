@@ -34,7 +34,6 @@ template <class Scalar, int Dim>
 class ParticleSolve {
 public:
     using Vector = Eigen::Matrix<Scalar, Dim, 1>;
-    using Matrix = Eigen::Matrix<Scalar, Dim, Dim>;
     using Against = Body<Scalar, Dim>;
     using Bodies = std::vector<std::unique_ptr<Against>>;
     using Pair = SharedPair<Scalar, Dim>;
