@@ -51,8 +51,9 @@ public:
     double size() const { return size_; }
     /// How deep the middle of the points is, m; 0 where they lie in a plane.
     double inner() const {
+        if (planes_.empty()) return 0;
         const Eigen::Vector3d middle = points_.rowwise().mean();
-        double least = planes_.empty() ? 0 : std::numeric_limits<double>::infinity();
+        double least = std::numeric_limits<double>::infinity();
         for (const Plane& plane : planes_)
             least = (std::min)(least, plane.normal.dot(plane.point - middle));
         return least;
