@@ -285,7 +285,7 @@ std::vector<std::array<Step, 2>> pushed_steps(Random& random, bool stiff) {
         steps.back()[0].touches = meets;
         steps.back()[0].in_registers = true;
     }
-    body.push(one.penalty, 0);
+    body.push(one.penalty);
     for (Index k = 0; k < width; ++k) {
         if (!(touching.pushed()[k] > 0)) continue;
         end(steps[static_cast<std::size_t>(k)][0], touching.end().vector(k),

@@ -43,7 +43,8 @@ public:
     ///               `Surface surface(point) const`, which is asked point by point. If it is not
     ///               convex it says `static constexpr bool convex = false`, and then point −
     ///               distance·normal should be a nearest point of the surface: where it is none, as
-    ///               in a corner of what has a thickness, a particle may stick [T40]
+    ///               in a corner of what has a thickness, a particle may stick [T40]. A class
+    ///               with extent() and inner(), such as Sphere's, is asked less often
     /// @returns the body's index
     /// Fails by name unless options and pose are in range.
     template <class Obstacle>

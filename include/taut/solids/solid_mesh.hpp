@@ -9,7 +9,7 @@
 namespace taut {
 
 /// What a closed mesh of triangles encloses: an obstacle that need not be convex [T40]. The
-/// distance is that to the nearest triangle, so a query takes about a microsecond.
+/// distance is that to the nearest triangle, which a query seeks in a tree of boxes.
 template <class Scalar>
 class SolidMesh {
 public:
@@ -22,7 +22,7 @@ public:
     /// everywhere, is inside out, or has a triangle without area. A mesh that cuts itself is not
     /// seen. weld_vertices closes seams.
     SolidMesh(const Points<Scalar, 3>& points, const std::vector<Triangle>& triangles)
-        : surface_("SolidMesh", points, triangles) {}
+        : surface_(points, triangles) {}
 
     /// @param x  m
     taut::Surface<Scalar, 3> surface(const Vector& x) const {

@@ -47,8 +47,8 @@ public:
     virtual Scalar quick() const = 0;
     /// How far it goes in the step, without turning, m.
     virtual Vector gone() const = 0;
-    /// Pushes those that it alone touches. @param ahead  s, as in Moving
-    virtual void push(const Penalty<Scalar>& penalty, Scalar ahead) = 0;
+    /// Pushes those that it alone touches.
+    virtual void push(const Penalty<Scalar>& penalty) = 0;
 
     /// A frame is to begin so.
     virtual void open(const State<Scalar, Dim>&) {}

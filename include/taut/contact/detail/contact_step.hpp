@@ -151,11 +151,8 @@ private:
         Index several = 0;  // registers with such
         for (Index t = 0; t < touching.count; ++t) {
             const Index k = t * Register::width, at = touching.first[t];
-            const Access v = touching.v();
-            for (int lane = 0; lane < Register::width; ++lane) {
-                const Index place = pairs.place[at + lane];
-                for (int d = 0; d < Dim; ++d) v(d, k + lane) = moving.v(d, place);
-            }
+            for (int lane = 0; lane < Register::width; ++lane)
+                touching.v().set(k + lane, moving.v.vector(pairs.place[at + lane]));
             for (int d = 0; d < Dim; ++d) pairs.next.x().row(d, at).store(&touching.x()(d, k));
             if (pairs.mixed[at / Register::width] == 0) continue;
             ++several;
@@ -164,7 +161,7 @@ private:
                 if (particle >= 0 && meets_[particle] > 1) touching.pushed()[k + lane] = 0;
             }
         }
-        body.push(penalty, moving.ahead);
+        body.push(penalty);
         const Index rows = touching.count * Register::width;
         if (body.of_particles) {
             places_.resize(rows);

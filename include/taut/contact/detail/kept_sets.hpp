@@ -96,7 +96,7 @@ public:
         const Scalar depth = depth_of(*set, x, Scalar(end), normal);
         return penalty.energy(depth, this->cap(push_time), mass);
     }
-    void push(const Penalty<Scalar>& penalty, Scalar ahead) final {
+    void push(const Penalty<Scalar>& penalty) final {
         using Register = step_detail::VectorRegister<Scalar>;
         using Vectors = detail::Few<Register, Dim>;
         auto& pairs = this->near_pairs;
@@ -118,7 +118,7 @@ public:
                 n[d] = Register::load(normals[d].data());
             }
         };
-        contact_detail::push<Scalar, Dim>(*this, carry, penalty, ahead);
+        contact_detail::push<Scalar, Dim>(*this, carry, penalty);
     }
     void know(const Buffer<int>& places) final {
         at_.assign(static_cast<Index>(places.size()), -1);

@@ -66,14 +66,13 @@ struct Touching {
         stride = size;
         pushed_count = 0;
         for (auto* of : {&first, &row, &place}) of->resize(size);
-        numbers.resize((6 * Dim + 3) * size);
+        numbers.resize((5 * Dim + 3) * size);
     }
     Access x() { return vectors(0); }        // without contact, m
     Access v() { return vectors(1); }        // without contact, m/s
     Access end() { return vectors(2); }      // x with contact
     Access speed() { return vectors(3); }    // v with contact
-    Access ahead() { return vectors(4); }    // what springs see of it
-    Access normal() { return vectors(5); }   // at the end
+    Access normal() { return vectors(4); }   // at the end
     Scalar* depth() { return scalars(0); }   // at the end, m
     Scalar* pushed() { return scalars(1); }  // > 0 where it touches, then where it is pushed
     Scalar* work() { return scalars(2); }    // h ū·f, J
@@ -109,7 +108,7 @@ struct Touching {
 
 private:
     Access vectors(Index i) { return Access(numbers.data() + i * Dim * stride, stride); }
-    Scalar* scalars(Index i) { return numbers.data() + (6 * Dim + i) * stride; }
+    Scalar* scalars(Index i) { return numbers.data() + (5 * Dim + i) * stride; }
 };
 
 /// The planes that contact reads and writes.
@@ -128,14 +127,8 @@ struct Moving {
     /// The same of all that a body has pushed.
     void scatter(Touching<Scalar, Dim>& of) const {
         const int *places = of.place.data(), *rows = of.row.data();
-        const PlaneAccess<Scalar, Dim> end = of.end(), speed = of.speed(), seen = of.ahead();
-        const bool sees = ahead > 0;
-        for (Index j = 0; j < of.pushed_count; ++j) {
-            const Index place = places[j], row = rows[j];
-            for (int d = 0; d < Dim; ++d) x(d, place) = end(d, row);
-            for (int d = 0; d < Dim; ++d) v(d, place) = speed(d, row);
-            for (int d = 0; d < Dim && sees; ++d) spring_x(d, place) = seen(d, row);
-        }
+        for (Index j = 0; j < of.pushed_count; ++j)
+            set(places[j], of.end().vector(rows[j]), of.speed().vector(rows[j]));
     }
 };
 

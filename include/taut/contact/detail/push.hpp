@@ -12,8 +12,7 @@ namespace taut::contact_detail {
 /// work from what was at the start and would be without.
 /// @param carry  carry(at, x, n) makes of x and n of a register of near pairs g(x) and n′
 template <class Scalar, int Dim, class Carry>
-void push(Body<Scalar, Dim>& body, const Carry& carry, const Penalty<Scalar>& penalty,
-          Scalar ahead) {
+void push(Body<Scalar, Dim>& body, const Carry& carry, const Penalty<Scalar>& penalty) {
     using Register = step_detail::VectorRegister<Scalar>;
     using Vectors = detail::Few<Register, Dim>;
     Touching<Scalar, Dim>& touching = body.touching;
@@ -73,7 +72,6 @@ void push(Body<Scalar, Dim>& body, const Carry& carry, const Penalty<Scalar>& pe
             v[d] = where_less(zero, pushed, after, v[d]);
             x[d].store(&touching.end()(d, k));
             v[d].store(&touching.speed()(d, k));
-            (x[d] + Register(ahead) * v[d]).store(&touching.ahead()(d, k));
         }
         (work * Register::load(pairs.mass.data() + at)).store(touching.work() + k);
     }

@@ -97,7 +97,7 @@ public:
         return (std::max)(short_way() - by_turn, Scalar(0));
     }
     Vector gone() const final { return motion.next.position - motion.now.position; }
-    void push(const Penalty<Scalar>& penalty, Scalar ahead) final {
+    void push(const Penalty<Scalar>& penalty) final {
         using Register = step_detail::VectorRegister<Scalar>;
         using Vectors = detail::Few<Register, Dim>;
         contact_detail::push<Scalar, Dim>(
@@ -107,7 +107,7 @@ public:
                 x = times(motion.turn, x);
                 for (int d = 0; d < Dim; ++d) x[d] = x[d] + Register(motion.shift[d]);
             },
-            penalty, ahead);
+            penalty);
     }
 
     Vector start(Scalar) final {

@@ -88,9 +88,8 @@ public:
         for (std::size_t j = 0; j < count; ++j) {
             const Active& a = active_[j];
             if (!a.in || &a == last) continue;
-            const Vector f = a.raised == stuck
-                                 ? against(of(pairs[j]), penalty, pairs[j], x, w, a)
-                                 : Vector(force(penalty, a, w) * a.normal - a.drag * across(a, w));
+            const Vector f = a.raised == stuck ? against(of(pairs[j]), penalty, pairs[j], x, w, a)
+                                               : force_of(penalty, a, w);
             work += penalty.h * a.speed.dot(f);
             rest -= f;
         }
@@ -203,10 +202,20 @@ private:
     static Scalar force(const Penalty<Scalar>& penalty, const Active& a, const Vector& v) {
         return penalty.by_mass * (a.share * a.push - penalty.h / 2 * a.normal.dot(v - a.speed));
     }
-    /// v − ū across n′; of that, rounding leaves nothing along n′: a drag would make much of it.
-    static Vector across(const Active& a, const Vector& v) {
-        const Vector w = v - a.speed, along = w - a.normal.dot(w) * a.normal;
-        return along - a.normal.dot(along) * a.normal;
+    /// f of a pair that pushes.
+    template <class Number>
+    static Eigen::Matrix<Number, Dim, 1> force_of(const Penalty<Scalar>& penalty, const Active& a,
+                                                  const Eigen::Matrix<Number, Dim, 1>& v) {
+        const Eigen::Matrix<Number, Dim, 1> n = a.normal.template cast<Number>();
+        const Eigen::Matrix<Number, Dim, 1> w = v - a.speed.template cast<Number>();
+        const Number into = n.dot(w);
+        // Rounding leaves nothing along n′ of what is across: a drag would make much of it.
+        Eigen::Matrix<Number, Dim, 1> along = w - into * n;
+        along -= n.dot(along) * n;
+        const Number push =
+            static_cast<Number>(a.share * a.push) - static_cast<Number>(penalty.h) / 2 * into;
+        return static_cast<Number>(penalty.by_mass) * push * n -
+               static_cast<Number>(a.drag) * along;
     }
     Vector solved(const Penalty<Scalar>& penalty, const Vector& before) const {
         if (stuck_ >= 0) return stuck_pair().speed;
@@ -222,19 +231,9 @@ private:
         // In double, where A of parallel normals is far from singular.
         using Exact = Eigen::Matrix<double, Dim, Dim>;
         using Exacts = Eigen::Matrix<double, Dim, 1>;
-        const auto h = static_cast<double>(penalty.h), k = static_cast<double>(penalty.by_mass);
-        const double block = h * h * k / 2;
+        const auto h = static_cast<double>(penalty.h);
+        const double block = h * h * static_cast<double>(penalty.by_mass) / 2;
         const Exacts start = before.template cast<double>();
-        const auto force_of = [&](const Active& a, const Exacts& w) -> Exacts {
-            const Exacts n = a.normal.template cast<double>();
-            const Exacts relative = w - a.speed.template cast<double>();
-            // Rounding leaves nothing along n′ of what is across: a drag would make much of it.
-            const double into = n.dot(relative);
-            Exacts along = relative - into * n;
-            along -= n.dot(along) * n;
-            const double push = static_cast<double>(a.share * a.push) - h / 2 * into;
-            return h * (k * push * n - static_cast<double>(a.drag) * along);
-        };
         Exact A = Exact::Identity();
         Exacts b = Exacts::Zero();
         double sum = 1;
@@ -243,7 +242,7 @@ private:
             const Exacts n = a.normal.template cast<double>();
             const double drag = h * static_cast<double>(a.drag);
             A += (block - drag) * n * n.transpose() + drag * Exact::Identity();
-            b += force_of(a, start);
+            b += h * force_of(penalty, a, start);
             sum += block + drag;
         }
         const Eigen::LLT<Exact> factor(A);
@@ -252,7 +251,7 @@ private:
         for (int i = 0; i < 3 && sum * unit > 1e-13; ++i) {
             Exacts rest = start - w;
             for (const Active& a : active_) {
-                if (a.in) rest += force_of(a, w);
+                if (a.in) rest += h * force_of(penalty, a, w);
             }
             w += factor.solve(rest);
         }

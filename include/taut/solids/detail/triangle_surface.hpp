@@ -24,15 +24,13 @@ class TriangleSurface {
 public:
     using Vector = Eigen::Matrix<Scalar, 3, 1>;
 
-    /// @param name       of what is built, for errors
     /// @param points     m, finite
     /// @param triangles  anticlockwise from outside
-    TriangleSurface(const char* name, const Points<Scalar, 3>& points,
-                    const std::vector<Triangle>& triangles) {
-        if (!detail::all_finite(points)) fail(name, ": a point is not finite");
-        if (triangles.empty()) fail(name, ": there is no triangle");
-        const std::vector<Edge> edges = closed_edges(name, points.cols(), triangles);
-        add_faces(name, points, triangles, edges);
+    TriangleSurface(const Points<Scalar, 3>& points, const std::vector<Triangle>& triangles) {
+        if (!detail::all_finite(points)) fail("SolidMesh: a point is not finite");
+        if (triangles.empty()) fail("SolidMesh: there is no triangle");
+        const std::vector<Edge> edges = closed_edges(points.cols(), triangles);
+        add_faces(points, triangles, edges);
         std::vector<int> faces(triangles.size());
         std::vector<Eigen::AlignedBox<Scalar, 3>> boxes(triangles.size());
         for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -90,32 +88,32 @@ private:
     };
 
     /// All sides, in order. Fails unless each has one that goes back.
-    static std::vector<Edge> closed_edges(const char* name, Index points,
-                                          const std::vector<Triangle>& triangles) {
+    static std::vector<Edge> closed_edges(Index points, const std::vector<Triangle>& triangles) {
         std::vector<Edge> edges;
         for (std::size_t t = 0; t < triangles.size(); ++t) {
             for (std::size_t side = 0; side < 3; ++side) {
                 const Index from = triangles[t][side], to = triangles[t][(side + 1) % 3];
                 if (from < 0 || from >= points)
-                    fail(name, ": triangle ", t, " has no point ", from);
+                    fail("SolidMesh: triangle ", t, " has no point ", from);
                 edges.push_back({from, to, static_cast<int>(t), static_cast<int>(side)});
             }
         }
         std::sort(edges.begin(), edges.end());
         for (std::size_t e = 0; e < edges.size(); ++e) {
             if (e > 0 && !(edges[e - 1] < edges[e]))
-                fail(name, ": two triangles have the side from ", edges[e].from, " to ",
+                fail("SolidMesh: two triangles have the side from ", edges[e].from, " to ",
                      edges[e].to, ": they are not the same way round, or three meet there");
         }
         for (const Edge& edge : edges) {
             const Edge back{edge.to, edge.from, 0, 0};
             if (!std::binary_search(edges.begin(), edges.end(), back))
-                fail(name, ": the surface is open at the side from ", edge.from, " to ", edge.to);
+                fail("SolidMesh: the surface is open at the side from ", edge.from, " to ",
+                     edge.to);
         }
         return edges;
     }
-    void add_faces(const char* name, const Points<Scalar, 3>& points,
-                   const std::vector<Triangle>& triangles, const std::vector<Edge>& edges) {
+    void add_faces(const Points<Scalar, 3>& points, const std::vector<Triangle>& triangles,
+                   const std::vector<Edge>& edges) {
         using Exact = Eigen::Vector3d;
         const auto point = [&](Index i) -> Exact { return points.col(i).template cast<double>(); };
         std::vector<Exact> normals;
@@ -124,7 +122,7 @@ private:
         for (std::size_t t = 0; t < triangles.size(); ++t) {
             const auto& [a, b, c] = triangles[t];
             const Exact area = (point(b) - point(a)).cross(point(c) - point(a));
-            if (!(area.stableNorm() > 0)) fail(name, ": triangle ", t, " has no area");
+            if (!(area.stableNorm() > 0)) fail("SolidMesh: triangle ", t, " has no area");
             normals.push_back(area.stableNormalized());
             volume += area.dot(point(a) - point(triangles[0][0]));
             for (std::size_t k = 0; k < 3; ++k) {
@@ -136,9 +134,9 @@ private:
             }
         }
         if (!(volume > 0))
-            fail(name,
-                 ": the surface is inside out, or encloses nothing: triangles go "
-                 "anticlockwise as seen from outside");
+            fail(
+                "SolidMesh: the surface is inside out, or encloses nothing: triangles go "
+                "anticlockwise as seen from outside");
         for (std::size_t t = 0; t < triangles.size(); ++t) {
             const auto& [a, b, c] = triangles[t];
             Face face{
